@@ -17,16 +17,16 @@ static class EngineDefaults
     public static SpringSettings JointSpring => new(30, 1);
 
     /// <summary>
-    /// Seconds of the last step. The engine counts the prediction of bounds and the last integration together, here as "predict"; its
-    /// narrow phase runs while the broad phase looks for overlaps.
+    /// Seconds of the last step, as far as the engine was built with its profiler. It counts the prediction of bounds and the last
+    /// integration together, here as "predict"; its narrow phase runs while the broad phase looks for overlaps.
     /// </summary>
-    public static StageTimes ReadStages(Simulation simulation)
-    {
-        SimulationProfiler profiler = simulation.Profiler;
-        return new StageTimes(profiler[simulation.Sleeper], profiler[simulation.PoseIntegrator], profiler[simulation.BroadPhase],
-            profiler[simulation.BroadPhaseOverlapFinder], profiler[simulation.NarrowPhase], profiler[simulation.Solver],
-            profiler[simulation.SolverBatchCompressor]);
-    }
+    public static StageTimes ReadStages(Simulation simulation) => new(
+        Seconds(simulation, simulation.Sleeper), Seconds(simulation, simulation.PoseIntegrator), Seconds(simulation, simulation.BroadPhase),
+        Seconds(simulation, simulation.BroadPhaseOverlapFinder), Seconds(simulation, simulation.NarrowPhase),
+        Seconds(simulation, simulation.Solver), Seconds(simulation, simulation.SolverBatchCompressor));
+
+    /// <summary>A build without profiler answers -1.</summary>
+    static double? Seconds(Simulation simulation, object stage) => simulation.Profiler[stage] is >= 0 and double seconds ? seconds : null;
 
     public static int? CountBatches(Simulation simulation) => simulation.Solver.ActiveSet.Batches.Count;
 

@@ -42,11 +42,25 @@ sealed class SceneBuilder
     {
         var builder = new SceneBuilder(scene, simulation, jointSpring);
         builder.RefuseUnsupported();
-        for (int i = 0; i < scene.Bodies.Count; ++i)
-            builder.AddBody(i);
         var joints = new List<BuiltJoint>(scene.Joints.Count);
-        foreach (SceneJoint joint in scene.Joints)
-            joints.Add(builder.AddJoint(joint));
+        int line = 0;
+        try
+        {
+            for (int i = 0; i < scene.Bodies.Count; ++i)
+            {
+                line = scene.Bodies[i].Line;
+                builder.AddBody(i);
+            }
+            foreach (SceneJoint joint in scene.Joints)
+            {
+                line = joint.Line;
+                joints.Add(builder.AddJoint(joint));
+            }
+        }
+        catch (ArgumentException refusal)
+        {
+            throw new SceneException(line, "", $"the engine refuses this: {refusal.Message}");
+        }
         recorder.SetGroups([.. builder.bodyGroups], [.. builder.staticGroups]);
         return new BuiltScene(simulation, joints);
     }

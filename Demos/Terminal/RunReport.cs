@@ -1,20 +1,21 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.IO;
 using Demos.Running;
 using Spectre.Console;
 
 namespace Demos.Terminal;
 
 /// <summary>Shows a run: a progress bar and a table on a terminal, plain lines everywhere else.</summary>
-static class RunReport
+sealed class RunReport(TextWriter output)
 {
-    static bool IsTerminal => !Console.IsOutputRedirected && AnsiConsole.Profile.Capabilities.Interactive;
+    readonly bool isTerminal = output == Console.Out && !Console.IsOutputRedirected && AnsiConsole.Profile.Capabilities.Interactive;
 
     /// <summary>Runs all steps, with a progress bar where somebody can see it.</summary>
-    public static RunResult RunWithProgress(SceneRun run, string sceneName, int steps)
+    public RunResult RunWithProgress(SceneRun run, string sceneName, int steps)
     {
-        if (!IsTerminal)
+        if (!isTerminal)
             return run.Run();
         // Drawn from between the steps, never by a timer thread: that would cost the steps time and count as their garbage.
         return AnsiConsole.Progress().AutoRefresh(false).AutoClear(true).Start(context =>
@@ -32,12 +33,12 @@ static class RunReport
     }
 
     /// <summary>Writes the figures.</summary>
-    public static void Write(RunResult result)
+    public void Write(RunResult result)
     {
-        if (!IsTerminal)
+        if (!isTerminal)
         {
             foreach ((string name, string value) in Rows(result))
-                Console.Out.WriteLine($"{name,-18}{value}");
+                output.WriteLine($"{name,-18}{value}");
             return;
         }
         var table = new Table().Border(TableBorder.Rounded).Title(Markup.Escape(result.Scene));
