@@ -21,9 +21,14 @@ static class EngineDefaults
     /// <summary>Seconds of the stages of the last step. The library does not measure them yet.</summary>
     public static StageTimes ReadStages(Simulation simulation) => default;
 
-    /// <summary>Colours of the active constraints. The library does not tell yet.</summary>
-    public static int? CountBatches(Simulation simulation) => null;
+    /// <summary>Colours of the active constraints.</summary>
+    public static int? CountBatches(Simulation simulation) => simulation.Solver.ActiveSet.Batches.Count;
 
-    /// <summary>Constraints that found no colour. The library does not tell yet.</summary>
-    public static int? CountFallback(Simulation simulation) => null;
+    /// <summary>Constraints of bodies that have more of them than there are colours.</summary>
+    public static int? CountFallback(Simulation simulation)
+    {
+        ref ConstraintSet active = ref simulation.Solver.ActiveSet;
+        int threshold = simulation.Solver.FallbackBatchThreshold;
+        return active.Batches.Count > threshold ? active.Batches[threshold].CountConstraints() : 0;
+    }
 }

@@ -42,6 +42,9 @@ sealed class BuiltScene
     /// <summary>Bodies, dynamic and kinematic.</summary>
     public int BodyCount => handles.Length;
 
+    /// <summary>A body by its place in the order of the handles.</summary>
+    public BodyReference this[int index] => simulation.Bodies[handles[index]];
+
     /// <summary>Hash of the bits of all poses and velocities, in the order of the handles.</summary>
     public ulong Hash()
     {

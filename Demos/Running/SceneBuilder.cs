@@ -4,6 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using Demos.Engine;
 using Demos.Scenes;
 
@@ -99,8 +100,21 @@ sealed class SceneBuilder
         var activity = new BodyActivityDescription(scene.Sleep ? SleepThreshold : -1);
         bodies[index] = simulation.Bodies.Add(body.Kind == SceneBodyKind.Kinematic
             ? BodyDescription.CreateKinematic(pose, velocity, shapeIndex, activity)
-            : BodyDescription.CreateDynamic(pose, velocity, shape!.Inertia(body.Mass), shapeIndex, activity));
+            : BodyDescription.CreateDynamic(pose, velocity, InertiaOf(body, shape!), shapeIndex, activity));
         SetGroup(bodyGroups, bodies[index].Value, body.Group);
+    }
+
+    /// <summary>Masses and sizes may be so small, or so large, that single precision cannot hold what follows from them.</summary>
+    static BodyInertia InertiaOf(SceneBody body, BuiltShape shape)
+    {
+        BodyInertia inertia = shape.Inertia(body.Mass);
+        Symmetric3x3 inverse = inertia.InverseInertiaTensor;
+        bool isUsable = float.IsFinite(inertia.InverseMass) && inertia.InverseMass > 0
+            && float.IsFinite(inverse.XX) && float.IsFinite(inverse.YX) && float.IsFinite(inverse.YY)
+            && float.IsFinite(inverse.ZX) && float.IsFinite(inverse.ZY) && float.IsFinite(inverse.ZZ);
+        return isUsable
+            ? inertia
+            : throw new SceneException(body.Line, "", FormattableString.Invariant($"a mass of {body.Mass} with this shape has no inertia"));
     }
 
     BuiltShape? ShapeOf(SceneBody body)

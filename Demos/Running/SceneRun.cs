@@ -134,6 +134,9 @@ public sealed class SceneRun : IDisposable
         };
     }
 
+    /// <summary>Where a body is turned to now. Bodies count in the scene's order, statics left out.</summary>
+    public Quaternion Orientation(int bodyIndex) => built[bodyIndex].Pose.Orientation;
+
     /// <inheritdoc/>
     public void Dispose()
     {
