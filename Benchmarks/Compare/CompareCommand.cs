@@ -69,15 +69,20 @@ static class CompareCommand
         {
             List<string> arguments = subject.Arguments(frames, warmup);
             var pairs = new List<(RunFigures, RunFigures)>();
-            for (int run = 0; run < runs; ++run)
-                pairs.Add((ours.Run(arguments, subject.Lanes), peer.Run(arguments, subject.Lanes)));
-            var outcome = new CompareOutcome(subject, pairs);
-            // The runtime takes fewer lanes when the machine has no more; such a row would pass for a measurement of what was asked.
-            if (subject.Lanes is int asked && outcome.Lanes != asked)
+            while (pairs.Count < runs)
             {
-                Console.Out.WriteLine($"{outcome.SceneName,-16}{subject.Settings,9}{subject.Threads,8}{asked,6}  this machine has {outcome.Lanes} lanes");
-                continue;
+                RunFigures figures = ours.Run(arguments, subject.Lanes);
+                // The runtime takes fewer lanes when the machine has no more; such a row would pass for a measurement of what was asked.
+                if (subject.Lanes is int asked && figures.Lanes != asked)
+                {
+                    CompareReport.WriteSkipped(Console.Out, subject, figures);
+                    break;
+                }
+                pairs.Add((figures, peer.Run(arguments, subject.Lanes)));
             }
+            if (pairs.Count < runs)
+                continue;
+            var outcome = new CompareOutcome(subject, pairs);
             outcomes.Add(outcome);
             CompareReport.Write(Console.Out, outcome);
         }

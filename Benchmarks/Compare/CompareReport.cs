@@ -33,6 +33,10 @@ static class CompareReport
             writer.WriteLine("  ours ended in different states from the same start");
     }
 
+    /// <summary>Writes that a case was left out because the machine does not have the lanes that it asks for.</summary>
+    public static void WriteSkipped(TextWriter writer, CompareCase subject, RunFigures figures) => writer.WriteLine(
+        $"{figures.Scene,-16}{subject.Settings,9}{subject.Threads,8}{subject.Lanes,6}  left out: this machine has {figures.Lanes} lanes");
+
     /// <summary>Writes all outcomes as a CSV file.</summary>
     public static void WriteCsv(string path, IReadOnlyList<CompareOutcome> outcomes)
     {

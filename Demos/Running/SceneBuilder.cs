@@ -166,7 +166,7 @@ sealed class SceneBuilder
         {
             AxisLocalA = Vector3.UnitY,
             AxisLocalB = SceneMath.Rotate(axisA, Quaternion.Conjugate(orientationB)),
-            MinimumDot = (float)Math.Cos(Math.Min(joint.MaximumSwing, Math.PI)),
+            MinimumDot = (float)SceneMath.Cosine(Math.Min(joint.MaximumSwing, Math.PI)),
             SpringSettings = jointSpring,
         });
         // The twist axis is the z axis of each basis. B's x axis is where A's comes to lie when the shortest rotation takes one twist
