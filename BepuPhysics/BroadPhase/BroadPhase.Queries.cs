@@ -2,7 +2,6 @@ using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;

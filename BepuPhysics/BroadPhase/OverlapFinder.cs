@@ -24,18 +24,27 @@ static unsafe class OverlapFinder
     {
         if (activeTree.LeafCount == 0)
             return;
+        // Handlers are the caller's and may throw.
         var runs = new LeafRuns(activeTree, pool);
-        if (dispatcher is null || dispatcher.ThreadCount <= 1 || activeTree.LeafCount < MinimumLeafCountForThreads)
+        try
         {
-            if (activeTree.LeafCount > 1)
-                RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(activeTree, runs, 0, activeTree.NodeCount, int.MaxValue, ref handler, 0);
-            RunTraversal<THandler, StaticConsumer<THandler>>.FindPairs(activeTree, runs, staticTree, ref handler, 0);
+            if (dispatcher is null || dispatcher.ThreadCount <= 1 || activeTree.LeafCount < MinimumLeafCountForThreads)
+                FindOnCaller(activeTree, staticTree, runs, ref handler);
+            else
+                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher);
         }
-        else
+        finally
         {
-            FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher);
+            runs.Dispose(pool);
         }
-        runs.Dispose(pool);
+    }
+
+    static void FindOnCaller<THandler>(in Tree activeTree, in Tree staticTree, in LeafRuns runs, ref THandler handler)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        if (activeTree.LeafCount > 1)
+            RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(activeTree, runs, 0, activeTree.NodeCount, int.MaxValue, ref handler, 0);
+        RunTraversal<THandler, StaticConsumer<THandler>>.FindPairs(activeTree, runs, staticTree, ref handler, 0);
     }
 
     static void FindOnWorkers<THandler>(
@@ -44,9 +53,15 @@ static unsafe class OverlapFinder
     {
         var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
         var work = new FindWork<THandler> { Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces };
-        StagedWork.Run(ref work, dispatcher);
-        handler = work.Handler;
-        pieces.Dispose(pool);
+        try
+        {
+            StagedWork.Run(ref work, dispatcher);
+        }
+        finally
+        {
+            handler = work.Handler;
+            pieces.Dispose(pool);
+        }
     }
 
     struct FindWork<THandler> : IStagedWork where THandler : struct, IBroadPhaseOverlapHandler

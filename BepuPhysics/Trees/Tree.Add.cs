@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.Intrinsics;
 using BepuUtilities;
 using BepuUtilities.Memory;
 

@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Trees;
@@ -70,8 +69,14 @@ public unsafe partial struct Tree
         if (!IsDepthFirst)
             SortNodes(pool);
         var runs = new LeafRuns(this, pool);
-        RunTraversal<TOverlapHandler, SelfConsumer<TOverlapHandler>>.FindSelfPairs(this, runs, 0, NodeCount, int.MaxValue, ref results, 0);
-        runs.Dispose(pool);
+        try
+        {
+            RunTraversal<TOverlapHandler, SelfConsumer<TOverlapHandler>>.FindSelfPairs(this, runs, 0, NodeCount, int.MaxValue, ref results, 0);
+        }
+        finally
+        {
+            runs.Dispose(pool);
+        }
     }
 
     /// <summary>Tells which leaves of this tree (first) overlap or touch which leaves of another (second), each pair once.</summary>
