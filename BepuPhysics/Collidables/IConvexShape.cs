@@ -17,7 +17,8 @@ public interface IConvexShape : IShape
     /// <param name="origin">Start of the ray in the world, m.</param>
     /// <param name="direction">Direction of the ray, of any length; zero hits nothing.</param>
     /// <param name="t">
-    /// At a hit, the point is origin + direction * t, and t is at least zero: exactly zero for a ray that starts inside. Zero without a hit.
+    /// At a hit, the point is origin + direction * t, and t is at least zero: exactly zero for a ray that starts inside.
+    /// Zero without a hit.
     /// </param>
     /// <param name="normal">
     /// At a hit, the unit normal that points out of the shape; for a ray that starts inside, that of the nearest part of the surface.
@@ -33,7 +34,7 @@ public interface IConvexShape : IShape
     void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max);
 
     /// <summary>How far a rotation can carry the surface beyond the bounds of another orientation.</summary>
-    /// <param name="maximumRadius">Distance from the centre to the farthest point, m: angular speed times this bounds surface speed.</param>
-    /// <param name="maximumAngularExpansion">Maximum radius less the smallest distance from centre to surface, m; zero for a sphere.</param>
+    /// <param name="maximumRadius">Distance from the centre to the farthest point, m; no point moves faster than this times the spin.</param>
+    /// <param name="maximumAngularExpansion">Maximum radius less the least distance from centre to surface, m.</param>
     void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion);
 }

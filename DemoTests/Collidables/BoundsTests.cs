@@ -64,7 +64,11 @@ public class BoundsTests
         }).Check(ShapeGenerators.Reproducible(100));
 
     static void ExpansionCoversEveryRotation<TShape>(Gen<TShape> shapes) where TShape : unmanaged, IConvexShape =>
-        Prop.ForAll((from shape in shapes from a in ShapeGenerators.Orientations from b in ShapeGenerators.Orientations select (shape, a, b)).ToArbitrary(), c =>
+        Prop.ForAll((
+            from shape in shapes
+            from a in ShapeGenerators.Orientations
+            from b in ShapeGenerators.Orientations
+            select (shape, a, b)).ToArbitrary(), c =>
         {
             c.shape.ComputeAngularExpansionData(out var radius, out var expansion);
             var (largest, smallest) = ShapeOracle.Size(c.shape);
@@ -79,7 +83,10 @@ public class BoundsTests
     /// <summary>A bundle of unlike shapes gives each lane the bits that the scalar query gives, wherever the lane is.</summary>
     static void LanesAreIndependent<TShape, TShapeWide>(Gen<TShape> shapes)
         where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape> =>
-        Prop.ForAll(Gen.ArrayOf(from shape in shapes from orientation in ShapeGenerators.Orientations select (shape, orientation), Vector<float>.Count).ToArbitrary(), lanes =>
+        Prop.ForAll(Gen.ArrayOf(
+            from shape in shapes
+            from orientation in ShapeGenerators.Orientations
+            select (shape, orientation), Vector<float>.Count).ToArbitrary(), lanes =>
         {
             var equal = true;
             for (int shift = 0; shift < lanes.Length; ++shift)
@@ -98,7 +105,8 @@ public class BoundsTests
                     lanes[i].shape.ComputeBounds(lanes[i].orientation, out var expectedMin, out var expectedMax);
                     lanes[i].shape.ComputeAngularExpansionData(out var expectedRadius, out var expectedExpansion);
                     equal &= radius[lane] == expectedRadius && expansion[lane] == expectedExpansion &&
-                        Lanes.Read<Vector3, Vector3Wide>(ref min, lane) == expectedMin && Lanes.Read<Vector3, Vector3Wide>(ref max, lane) == expectedMax;
+                        Lanes.Read<Vector3, Vector3Wide>(ref min, lane) == expectedMin &&
+                        Lanes.Read<Vector3, Vector3Wide>(ref max, lane) == expectedMax;
                 }
             }
             return equal;

@@ -158,7 +158,8 @@ public class RayTests
         }
     }
 
-    static void AssertHit<TShape>(TShape shape, Vector3 position, Vector3 origin, Vector3 direction, float t, Vector3 normal) where TShape : unmanaged, IConvexShape
+    static void AssertHit<TShape>(TShape shape, Vector3 position, Vector3 origin, Vector3 direction, float t, Vector3 normal)
+        where TShape : unmanaged, IConvexShape
     {
         Assert.True(shape.RayTest(position, origin, direction, out var actualT, out var actualNormal));
         Assert.Equal(t, actualT, 1e-5f);

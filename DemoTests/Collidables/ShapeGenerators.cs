@@ -12,7 +12,8 @@ static class ShapeGenerators
     public static Config Reproducible(int count) => Config.QuickThrowOnFailure.WithMaxTest(count).WithReplay(8675309, 42424243);
 
     /// <summary>Evenly spread over the interval.</summary>
-    public static Gen<float> Uniform(float low, float high) => Gen.Choose(0, 1 << 22).Select(i => low + (high - low) * (i / (float)(1 << 22)));
+    public static Gen<float> Uniform(float low, float high) =>
+        Gen.Choose(0, 1 << 22).Select(i => low + (high - low) * (i / (float)(1 << 22)));
 
     /// <summary>Millimetres to hundreds of metres, every decade equally often.</summary>
     public static Gen<float> Sizes => Uniform(-3, 2.5f).Select(exponent => (float)Math.Pow(10, exponent));
@@ -32,7 +33,10 @@ static class ShapeGenerators
     public static Gen<Sphere> Spheres => Sizes.Select(radius => new Sphere(radius));
 
     /// <summary>Capsules from balls to needles fifty times as long as wide.</summary>
-    public static Gen<Capsule> Capsules => from radius in Sizes from ratio in Uniform(0, 100) select new Capsule(radius, radius * Math.Max(0, ratio - 5));
+    public static Gen<Capsule> Capsules =>
+        from radius in Sizes
+        from ratio in Uniform(-5, 95)
+        select new Capsule(radius, radius * Math.Max(0, ratio));
 
     /// <summary>Boxes with sides up to a hundred times as long as others.</summary>
     public static Gen<Box> Boxes =>

@@ -22,7 +22,9 @@ static class ShapeOracle
     {
         Sphere sphere => (sphere.Radius, sphere.Radius),
         Capsule capsule => ((double)capsule.Radius + capsule.HalfLength, capsule.Radius),
-        Box box => (new Double3(box.HalfWidth, box.HalfHeight, box.HalfLength).Length, Math.Min(box.HalfWidth, Math.Min(box.HalfHeight, box.HalfLength))),
+        Box box => (
+            new Double3(box.HalfWidth, box.HalfHeight, box.HalfLength).Length,
+            Math.Min(box.HalfWidth, Math.Min(box.HalfHeight, box.HalfLength))),
         _ => throw new NotSupportedException(),
     };
 
@@ -36,7 +38,10 @@ static class ShapeOracle
         var box = (Box)(object)shape;
         var corners = new List<Double3>();
         for (int i = 0; i < 8; ++i)
-            corners.Add(new((i & 1) != 0 ? box.HalfWidth : -box.HalfWidth, (i & 2) != 0 ? box.HalfHeight : -box.HalfHeight, (i & 4) != 0 ? box.HalfLength : -box.HalfLength));
+        {
+            var signs = new Double3(1 - (i & 1) * 2, 1 - (i & 2), 1 - (i & 4) / 2);
+            corners.Add(Double3.Scale(signs, new(box.HalfWidth, box.HalfHeight, box.HalfLength)));
+        }
         return (corners, 0);
     }
 
@@ -55,7 +60,7 @@ static class ShapeOracle
         }
     }
 
-    /// <summary>Moments of inertia per mass around the axes of the shape's frame, by summing columns whose ends are found on the surface.</summary>
+    /// <summary>Moments of inertia per mass around the axes of the frame, by summing columns whose ends are found on the surface.</summary>
     public static Double3 MomentsPerMass<TShape>(TShape shape, int resolution) where TShape : unmanaged, IConvexShape
     {
         // All shapes here are symmetric to the three coordinate planes, so one octant is enough.
@@ -90,7 +95,8 @@ static class ShapeOracle
     /// <returns>
     /// Least distance of the ray to the surface (negative: how deep it passes), and where it enters, in metres from its start.
     /// </returns>
-    public static (double Clearance, double Entry) CastRay<TShape>(TShape shape, Double3 origin, Double3 direction) where TShape : unmanaged, IConvexShape
+    public static (double Clearance, double Entry) CastRay<TShape>(TShape shape, Double3 origin, Double3 direction)
+        where TShape : unmanaged, IConvexShape
     {
         // Along a line the distance to a convex shape is a convex function: its minimum is found by golden sections, and the way there
         // crosses the surface at most once.

@@ -62,7 +62,8 @@ public sealed class ShapesTests : IDisposable
     public void NamesOfNothingAreRefused()
     {
         shapes.Add(new Sphere(1));
-        foreach (var name in (ReadOnlySpan<TypedIndex>)[default, new(Sphere.Id, 1), new(Sphere.Id, TypedIndex.MaximumIndexCount - 1), new(Box.Id, 0), new(127, 0)])
+        var last = TypedIndex.MaximumIndexCount - 1;
+        foreach (var name in (ReadOnlySpan<TypedIndex>)[default, new(Sphere.Id, 1), new(Sphere.Id, last), new(Box.Id, 0), new(127, 0)])
         {
             Assert.False(shapes.Exists(name));
             Assert.Throws<ArgumentException>(() => shapes.Remove(name));
@@ -133,7 +134,10 @@ public sealed class ShapesTests : IDisposable
                 shapes.EnsureBatchCapacities(300);
         }
         foreach (var (name, size) in expected)
-            Assert.Equal(size, name.Type == Sphere.Id ? shapes.GetShape<Sphere>(name.Index).Radius : shapes.GetShape<Capsule>(name.Index).Radius);
+        {
+            var isSphere = name.Type == Sphere.Id;
+            Assert.Equal(size, isSphere ? shapes.GetShape<Sphere>(name.Index).Radius : shapes.GetShape<Capsule>(name.Index).Radius);
+        }
         Assert.Equal(expected.Count, shapes[Sphere.Id]!.Count + shapes[Capsule.Id]!.Count);
         for (int type = 0; type < 2; ++type)
             for (int i = 0; i < shapes[type]!.Capacity; ++i)
