@@ -34,7 +34,7 @@ public interface IConvexShape : IShape
     void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max);
 
     /// <summary>How far a rotation can carry the surface beyond the bounds of another orientation.</summary>
-    /// <param name="maximumRadius">Distance from the centre to the farthest point, m; no point moves faster than this times the spin.</param>
-    /// <param name="maximumAngularExpansion">Maximum radius less the least distance from centre to surface, m.</param>
+    /// <param name="maximumRadius">Distance from the centre to the farthest point, m: spin times it bounds surface speed.</param>
+    /// <param name="maximumAngularExpansion">Maximum radius less the least distance from the centre to the surface, m.</param>
     void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion);
 }
