@@ -29,17 +29,26 @@ public class OverlapTests(ITestOutputHelper output)
         Judge(world, "pair, 90 % overlapped", 5, null, effort);
     }
 
+    /// <summary>
+    /// Exactly at one place all pairs part along the same axis, and the ends of the row move at 13 times the recovery velocity: physics of the
+    /// request, not of the solver. So 1 m/s is asked for. A millimetre of disorder breaks the row up, and the usual 2 m/s stay calm.
+    /// </summary>
     [Theory]
-    [InlineData(Effort.Accurate)]
-    [InlineData(Effort.Default)]
-    public void X7_TwentySevenBoxesAtOnePlace(Effort effort)
+    [InlineData(0, 1, Effort.Accurate)]
+    [InlineData(.001f, 2, Effort.Accurate)]
+    [InlineData(0, 1, Effort.Default)]
+    [InlineData(.001f, 2, Effort.Default)]
+    public void X7_TwentySevenBoxesAtOnePlace(float disorder, float recoveryVelocity, Effort effort)
     {
-        var settings = AccuracySettings.For(effort);
+        var settings = AccuracySettings.For(effort) with { MaximumRecoveryVelocity = recoveryVelocity };
         using var world = new AccuracyWorld(settings);
         world.AddGround();
+        var random = new Random(27);
         for (int i = 0; i < 27; ++i)
-            world.AddDynamic(new Box(1, 1, 1), 1, new RigidPose(new Vector3(0, 2, 0)));
-        Judge(world, "27 coincident boxes", 15, 0, effort);
+            world.AddDynamic(new Box(1, 1, 1), 1, new RigidPose(new Vector3(0, 2, 0) + disorder * new Vector3(Unit(), Unit(), Unit())));
+        Judge(world, FormattableString.Invariant($"27 boxes within {disorder} m"), 15, 0, effort);
+
+        float Unit() => random.NextSingle() - .5f;
     }
 
     [Theory]
