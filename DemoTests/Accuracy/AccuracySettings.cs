@@ -40,5 +40,6 @@ sealed record AccuracySettings
         ? new()
         : new() { SubstepCount = 16, AngularMode = EngineTraits.AccurateAngularMode, SubstepsForFreeBodies = true, Stiff = true };
 
-    public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(Stiff ? " stiff" : "")}");
+    public override string ToString() =>
+        string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(Stiff ? " stiff" : "")}");
 }

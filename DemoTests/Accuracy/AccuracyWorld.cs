@@ -8,20 +8,21 @@ using DemoTests.Support;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>A simulation with one material and constant gravity, on one thread and without sleeping, and what the cases read from it.</summary>
+/// <summary>
+/// A simulation with one material and constant gravity, on one thread and without sleeping, and what the cases read from it.
+/// </summary>
 sealed class AccuracyWorld : IDisposable
 {
+    static readonly BodyActivityDescription neverSleep = new(-1);
     readonly BufferPool pool = new();
     readonly List<BodyHandle> dynamics = [];
 
     public AccuracyWorld(AccuracySettings settings)
     {
         Settings = settings;
+        var material = EngineTraits.Material(settings.Friction, settings.Restitution, settings.MaximumRecoveryVelocity, settings.Spring);
         Simulation = Simulation.Create(
-            pool,
-            new WorldContacts(
-                EngineTraits.Material(settings.Friction, settings.Restitution, settings.MaximumRecoveryVelocity, settings.Spring), settings.Contacts),
-            new WorldGravity(settings),
+            pool, new WorldContacts(material, settings.Contacts), new WorldGravity(settings),
             new SolveDescription(settings.VelocityIterationCount, settings.SubstepCount));
     }
 
@@ -36,17 +37,21 @@ sealed class AccuracyWorld : IDisposable
 
     public double Time { get; private set; }
 
-    public BodyHandle AddDynamic<TShape>(in TShape shape, float mass, RigidPose pose, BodyVelocity velocity = default) where TShape : unmanaged, IConvexShape
+    public BodyHandle AddDynamic<TShape>(in TShape shape, float mass, RigidPose pose, BodyVelocity velocity = default)
+        where TShape : unmanaged, IConvexShape
     {
-        var handle = Bodies.Add(BodyDescription.CreateDynamic(
-            pose, velocity, shape.ComputeInertia(mass), new CollidableDescription(Simulation.Shapes.Add(shape)), new BodyActivityDescription(-1)));
+        var collidable = new CollidableDescription(Simulation.Shapes.Add(shape));
+        var handle = Bodies.Add(BodyDescription.CreateDynamic(pose, velocity, shape.ComputeInertia(mass), collidable, neverSleep));
         dynamics.Add(handle);
         return handle;
     }
 
+    public BodyHandle AddKinematic<TShape>(in TShape shape, RigidPose pose) where TShape : unmanaged, IConvexShape =>
+        Bodies.Add(BodyDescription.CreateKinematic(pose, new CollidableDescription(Simulation.Shapes.Add(shape)), neverSleep));
+
     /// <summary>A body of infinite mass that nothing touches, for joints.</summary>
     public BodyHandle AddAnchor(Vector3 position) =>
-        Bodies.Add(BodyDescription.CreateKinematic(new RigidPose(position), default(CollidableDescription), new BodyActivityDescription(-1)));
+        Bodies.Add(BodyDescription.CreateKinematic(new RigidPose(position), default(CollidableDescription), neverSleep));
 
     public StaticHandle AddStatic<TShape>(in TShape shape, RigidPose pose) where TShape : unmanaged, IConvexShape =>
         Simulation.Statics.Add(new StaticDescription(pose.Position, pose.Orientation, Simulation.Shapes.Add(shape)));
@@ -63,7 +68,9 @@ sealed class AccuracyWorld : IDisposable
 
     public Double3 AngularVelocity(BodyHandle body) => Bodies[body].Velocity.Angular;
 
-    /// <summary>Kinetic and potential energy of a body with the given principal moments; potential is zero at the origin's height.</summary>
+    /// <summary>
+    /// Kinetic and potential energy of a body with the given principal moments; potential is zero at the origin's height.
+    /// </summary>
     public double Energy(BodyHandle body, double mass, Double3 principalInertia)
     {
         var spin = Orientation(body).RotateBack(AngularVelocity(body));
@@ -87,17 +94,6 @@ sealed class AccuracyWorld : IDisposable
     {
         Simulation.Timestep(dt);
         Time += dt;
-    }
-
-    public bool IsFinite()
-    {
-        foreach (var body in dynamics)
-        {
-            var orientation = Orientation(body);
-            if (!Position(body).IsFinite || !LinearVelocity(body).IsFinite || !AngularVelocity(body).IsFinite || !double.IsFinite(orientation.Length))
-                return false;
-        }
-        return true;
     }
 
     public void Dispose()

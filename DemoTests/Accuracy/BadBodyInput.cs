@@ -42,7 +42,8 @@ static class BadBodyInput
         Described(list, "linear velocity.X", velocity, BadInputList.NotReasonable, static (ref d, v) => d.Velocity.Linear.X = v);
         Described(list, "linear velocity.Z", velocity, BadInputList.NotFinite, static (ref d, v) => d.Velocity.Linear.Z = v);
         Described(list, "angular velocity.Y", velocity, BadInputList.NotReasonable, static (ref d, v) => d.Velocity.Angular.Y = v);
-        Described(list, "sleep threshold", ["sleep", "activity", "threshold"], [float.NaN], static (ref d, v) => d.Activity.SleepThreshold = v);
+        Described(list, "sleep threshold", ["sleep", "activity", "threshold"], [float.NaN], static (ref d, v) =>
+            d.Activity.SleepThreshold = v);
     }
 
     static void Inertias(BadInputList list)
@@ -51,9 +52,11 @@ static class BadBodyInput
         Described(list, "inverse mass", mass, badInverses, static (ref d, v) => d.LocalInertia.InverseMass = v);
         Described(list, "inverse inertia XX", inertia, badInverses, static (ref d, v) => d.LocalInertia.InverseInertiaTensor.XX = v);
         Described(list, "inverse inertia ZZ", inertia, badInverses, static (ref d, v) => d.LocalInertia.InverseInertiaTensor.ZZ = v);
-        Described(list, "inverse inertia YX", inertia, BadInputList.NotReasonable, static (ref d, v) => d.LocalInertia.InverseInertiaTensor.YX = v);
+        Described(list, "inverse inertia YX", inertia, BadInputList.NotReasonable, static (ref d, v) =>
+            d.LocalInertia.InverseInertiaTensor.YX = v);
         // Off the diagonal more than on it: some rotation would have negative energy.
-        Described(list, "indefinite inverse inertia, ZY", inertia, [100, -100], static (ref d, v) => d.LocalInertia.InverseInertiaTensor.ZY = v);
+        Described(list, "indefinite inverse inertia, ZY", inertia, [100, -100], static (ref d, v) =>
+            d.LocalInertia.InverseInertiaTensor.ZY = v);
         list.Add("Bodies.SetLocalInertia, inverse mass", mass, badInverses, static (w, v) =>
             w.Bodies.SetLocalInertia(w.FreeBody, new Sphere(1).ComputeInertia(1) with { InverseMass = v }));
         list.Add("BodyReference.SetLocalInertia, inverse mass", mass, badInverses, static (w, v) =>
@@ -65,13 +68,14 @@ static class BadBodyInput
         list.Add("Box.ComputeInertia and Bodies.Add, mass", mass, BadInputList.NotPositive, static (w, v) =>
             w.Bodies.Add(w.HealthyBody() with { LocalInertia = new Box(1, 2, 3).ComputeInertia(v) }));
         list.Add("CreateConvexDynamic and Bodies.Add, mass", mass, BadInputList.NotPositive, static (w, v) =>
-            w.Bodies.Add(BodyDescription.CreateConvexDynamic(new RigidPose(new Vector3(0, 9, 0)), v, w.Simulation.Shapes, new Sphere(.5f))));
+            w.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(0, 9, 0), v, w.Simulation.Shapes, new Sphere(.5f))));
     }
 
     static void Margins(BadInputList list)
     {
         float[] bad = [float.NaN, float.NegativeInfinity, -1];
-        Described(list, "minimum speculative margin", margin, [.. bad, float.PositiveInfinity], static (ref d, v) => d.Collidable.MinimumSpeculativeMargin = v);
+        Described(list, "minimum speculative margin", margin, [.. bad, float.PositiveInfinity], static (ref d, v) =>
+            d.Collidable.MinimumSpeculativeMargin = v);
         Described(list, "maximum speculative margin", margin, bad, static (ref d, v) => d.Collidable.MaximumSpeculativeMargin = v);
         Described(list, "maximum below minimum speculative margin", margin, [.5f], static (ref d, v) =>
             (d.Collidable.MinimumSpeculativeMargin, d.Collidable.MaximumSpeculativeMargin) = (2 * v, v));
@@ -124,7 +128,8 @@ static class BadBodyInput
         StaticUse("SetShape", static (w, h) => w.Simulation.Statics.SetShape(h, w.Bodies[w.OtherBody].Collidable.Shape));
         StaticUse("UpdateBounds", static (w, h) => w.Simulation.Statics.UpdateBounds(h));
         Shaped(list, "Statics.Add", static (w, s) => w.Simulation.Statics.Add(w.HealthyStatic() with { Shape = s }));
-        Shaped(list, "Statics.ApplyDescription", static (w, s) => w.Simulation.Statics.ApplyDescription(w.Ground, w.HealthyStatic() with { Shape = s }));
+        Shaped(list, "Statics.ApplyDescription", static (w, s) =>
+            w.Simulation.Statics.ApplyDescription(w.Ground, w.HealthyStatic() with { Shape = s }));
         Shaped(list, "Statics.SetShape", static (w, s) => w.Simulation.Statics.SetShape(w.Ground, s));
 
         void StaticUse(string entry, Action<BadInputWorld, StaticHandle> use)

@@ -5,7 +5,8 @@ using Xunit;
 namespace DemoTests.Accuracy;
 
 /// <summary>
-/// Bad input (X13): each attempt is refused with an exception that names the argument, changes nothing that a game can see, and the next ten steps
+/// Bad input (X13): each attempt is refused with an exception that names the argument, changes nothing that a game can see, and the next
+/// ten steps
 /// are those of a world in which nobody tried.
 /// </summary>
 public class BadInputTests

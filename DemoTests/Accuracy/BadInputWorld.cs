@@ -9,7 +9,8 @@ using BepuPhysics.Constraints;
 namespace DemoTests.Accuracy;
 
 /// <summary>
-/// A small world of healthy bodies in contact and in joints, with handles that are no longer valid, and a hash of all that a game can see of it.
+/// A small world of healthy bodies in contact and in joints, with handles that are no longer valid, and a hash of all that a game can see
+/// of it.
 /// </summary>
 sealed class BadInputWorld : IDisposable
 {
@@ -29,7 +30,8 @@ sealed class BadInputWorld : IDisposable
         statics.Add(world.AddStatic(new Box(50, 2, 50), new RigidPose(new Vector3(0, -1, 0))));
         Stack.OfEqual(world, 3);
         FreeBody = world.AddDynamic(new Sphere(.5f), 1, new RigidPose(new Vector3(5, 3, 0)), new BodyVelocity(new Vector3(1, 0, 0)));
-        OtherBody = world.AddDynamic(new Capsule(.25f, 1), 1, new RigidPose(new Vector3(8, .6f, 0)), new BodyVelocity(default, new Vector3(0, 0, 1)));
+        OtherBody = world.AddDynamic(
+            new Capsule(.25f, 1), 1, new RigidPose(new Vector3(8, .6f, 0)), new BodyVelocity(default, new Vector3(0, 0, 1)));
         JoinPairs();
 
         RemovedBody = Bodies.Add(HealthyBody());
@@ -92,7 +94,8 @@ sealed class BadInputWorld : IDisposable
         var body = Bodies.Add(HealthyBody());
         var joint = Solver.Add(body, FreeBody, new DistanceLimit { MaximumDistance = 100 });
         var hash = new Fnv();
-        foreach (int value in new[] { (int)shape.Packed, (int)other.Packed, body.Value, joint.Value, Simulation.Statics.Add(HealthyStatic()).Value })
+        var still = Simulation.Statics.Add(HealthyStatic());
+        foreach (int value in new[] { (int)shape.Packed, (int)other.Packed, body.Value, joint.Value, still.Value })
             hash.Add(value);
         hashes[^1] = hash.Value;
         return hashes;
@@ -143,17 +146,26 @@ sealed class BadInputWorld : IDisposable
         var half = new Vector3(.5f, 0, 0);
         Join(0, new BallSocket { LocalOffsetA = half, LocalOffsetB = -half, SpringSettings = spring });
         Join(1, new Weld { LocalOffset = 2 * half, LocalOrientation = Quaternion.Identity, SpringSettings = spring });
-        Join(2, new Hinge { LocalOffsetA = half, LocalHingeAxisA = Vector3.UnitZ, LocalOffsetB = -half, LocalHingeAxisB = Vector3.UnitZ, SpringSettings = spring });
+        var axis = Vector3.UnitZ;
+        Join(2, new Hinge
+        {
+            LocalOffsetA = half, LocalHingeAxisA = axis, LocalOffsetB = -half, LocalHingeAxisB = axis, SpringSettings = spring,
+        });
         Join(3, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f, SpringSettings = spring });
-        Join(4, new TwistLimit { LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = spring });
+        var basis = Quaternion.Identity;
+        Join(4, new TwistLimit { LocalBasisA = basis, LocalBasisB = basis, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = spring });
         Join(5, new DistanceLimit { MinimumDistance = .5f, MaximumDistance = 1.5f, SpringSettings = spring });
-        var servo = new OneBodyLinearServo { Target = new Vector3(-5, 5, 5), ServoSettings = ServoSettings.Default, SpringSettings = new SpringSettings(5, 1) };
-        joints.Add(typeof(OneBodyLinearServo), Solver.Add(world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, 5))), servo));
+        var pulled = world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, 5)));
+        joints.Add(typeof(OneBodyLinearServo), Solver.Add(pulled, new OneBodyLinearServo
+        {
+            Target = new Vector3(-5, 5, 5), ServoSettings = ServoSettings.Default, SpringSettings = new SpringSettings(5, 1),
+        }));
     }
 
     void Join<T>(int row, in T joint) where T : unmanaged, ITwoBodyConstraintDescription<T>
     {
-        var a = world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, -3 * row)), new BodyVelocity(default, new Vector3(1, 2, 3)));
+        var spin = new BodyVelocity(default, new Vector3(1, 2, 3));
+        var a = world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, -3 * row)), spin);
         var b = world.AddDynamic(new Sphere(.25f), 2, new RigidPose(new Vector3(-5, 5, -3 * row)));
         joints.Add(typeof(T), Solver.Add(a, b, joint));
     }

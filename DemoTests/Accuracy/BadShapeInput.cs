@@ -15,13 +15,16 @@ static class BadShapeInput
     {
         float[] notLength = [.. BadInputList.NotFinite, BadInputList.Huge, -1];
         list.Add("Shapes.Add(Sphere), radius", radius, BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Sphere(v)));
-        list.Add("Shapes.Add(Sphere), radius field", radius, BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Sphere { Radius = v }));
-        list.Add("Shapes.Add(Capsule), radius", radius, BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Capsule(v, 1)));
+        list.Add("Shapes.Add(Sphere), radius field", radius, BadInputList.NotPositive, static (w, v) =>
+            w.Simulation.Shapes.Add(new Sphere { Radius = v }));
+        list.Add("Shapes.Add(Capsule), radius", radius, BadInputList.NotPositive, static (w, v) =>
+            w.Simulation.Shapes.Add(new Capsule(v, 1)));
         list.Add("Shapes.Add(Capsule), length", length, notLength, static (w, v) => w.Simulation.Shapes.Add(new Capsule(.5f, v)));
         list.Add("Shapes.Add(Capsule), half length field", length, notLength, static (w, v) =>
             w.Simulation.Shapes.Add(new Capsule { Radius = .5f, HalfLength = v }));
         list.Add("Shapes.Add(Box), width", ["width"], BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Box(v, 1, 1)));
-        list.Add("Shapes.Add(Box), height", ["height"], BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Box(1, v, 1)));
+        list.Add("Shapes.Add(Box), height", ["height"], BadInputList.NotPositive, static (w, v) =>
+            w.Simulation.Shapes.Add(new Box(1, v, 1)));
         list.Add("Shapes.Add(Box), length", length, BadInputList.NotPositive, static (w, v) => w.Simulation.Shapes.Add(new Box(1, 1, v)));
         list.Add("Shapes.Add(Box), half height field", ["height"], BadInputList.NotPositive, static (w, v) =>
             w.Simulation.Shapes.Add(new Box { HalfWidth = 1, HalfHeight = v, HalfLength = 1 }));

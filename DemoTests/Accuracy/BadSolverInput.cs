@@ -30,10 +30,13 @@ static class BadSolverInput
     {
         list.Add("Timestep, dt", ["dt"], BadInputList.NotPositive, static (w, v) => w.Simulation.Timestep(v));
         list.Add("Solver.SubstepCount", ["substep"], [0, -1, int.MinValue], static (w, v) => w.Solver.SubstepCount = (int)v);
-        list.Add("Solver.VelocityIterationCount", ["iteration"], [0, -1, int.MinValue], static (w, v) => w.Solver.VelocityIterationCount = (int)v);
+        list.Add("Solver.VelocityIterationCount", ["iteration"], [0, -1, int.MinValue], static (w, v) =>
+            w.Solver.VelocityIterationCount = (int)v);
         list.Add("Simulation.Create, substep count", ["substep"], [0, -1], static (w, v) => Create(static v => new(1, (int)v), v));
-        list.Add("Simulation.Create, velocity iteration count", ["iteration"], [0, -1], static (w, v) => Create(static v => new((int)v, 4), v));
-        list.Add("Simulation.Create, fallback batch threshold", ["fallback"], [0, -1], static (w, v) => Create(static v => new(1, 4, (int)v), v));
+        list.Add("Simulation.Create, velocity iteration count", ["iteration"], [0, -1], static (w, v) =>
+            Create(static v => new((int)v, 4), v));
+        list.Add("Simulation.Create, fallback batch threshold", ["fallback"], [0, -1], static (w, v) =>
+            Create(static v => new(1, 4, (int)v), v));
 
         static void Create(Func<float, SolveDescription> solve, float value)
         {
@@ -41,8 +44,8 @@ static class BadSolverInput
             var pool = new BufferPool();
             try
             {
-                Simulation.Create(
-                    pool, new WorldContacts(EngineTraits.Material(.5f, 0, 2, settings.Spring), ContactScope.All), new WorldGravity(settings), solve(value)).Dispose();
+                var contacts = new WorldContacts(EngineTraits.Material(.5f, 0, 2, settings.Spring), ContactScope.All);
+                Simulation.Create(pool, contacts, new WorldGravity(settings), solve(value)).Dispose();
             }
             finally
             {
@@ -62,13 +65,16 @@ static class BadSolverInput
 
         var weld = new Weld { LocalOffset = Vector3.UnitX, LocalOrientation = Quaternion.Identity, SpringSettings = new(30, 1) };
         Constraint(list, "LocalOffset.Y", offset, BadInputList.NotReasonable, weld, static (ref d, v) => d.LocalOffset.Y = v);
-        Constraint(list, "LocalOrientation.X", ["orientation"], BadInputList.NotFinite, weld, static (ref d, v) => d.LocalOrientation.X = v);
-        Constraint(list, "length of LocalOrientation", ["orientation"], [0, 2], weld, static (ref d, v) => d.LocalOrientation = new(0, 0, 0, v));
+        Constraint(list, "LocalOrientation.X", ["orientation"], BadInputList.NotFinite, weld, static (ref d, v) =>
+            d.LocalOrientation.X = v);
+        Constraint(list, "length of LocalOrientation", ["orientation"], [0, 2], weld, static (ref d, v) =>
+            d.LocalOrientation = new(0, 0, 0, v));
         Springs(list, weld, static (ref d, v) => d.SpringSettings = v);
 
         var hinge = new Hinge
         {
-            LocalOffsetA = Vector3.UnitX, LocalHingeAxisA = Vector3.UnitY, LocalOffsetB = -Vector3.UnitX, LocalHingeAxisB = Vector3.UnitY, SpringSettings = new(30, 1),
+            LocalOffsetA = Vector3.UnitX, LocalHingeAxisA = Vector3.UnitY,
+            LocalOffsetB = -Vector3.UnitX, LocalHingeAxisB = Vector3.UnitY, SpringSettings = new(30, 1),
         };
         Constraint(list, "LocalOffsetA.Y", offset, BadInputList.NotReasonable, hinge, static (ref d, v) => d.LocalOffsetA.Y = v);
         Constraint(list, "LocalHingeAxisA.X", axis, BadInputList.NotFinite, hinge, static (ref d, v) => d.LocalHingeAxisA.X = v);
@@ -79,7 +85,8 @@ static class BadSolverInput
 
     static void Limits(BadInputList list)
     {
-        var swing = new SwingLimit { AxisLocalA = Vector3.UnitY, AxisLocalB = Vector3.UnitY, MinimumDot = .5f, SpringSettings = new(30, 1) };
+        var up = Vector3.UnitY;
+        var swing = new SwingLimit { AxisLocalA = up, AxisLocalB = up, MinimumDot = .5f, SpringSettings = new(30, 1) };
         Constraint(list, "AxisLocalA.Z", axis, BadInputList.NotFinite, swing, static (ref d, v) => d.AxisLocalA.Z = v);
         Constraint(list, "length of AxisLocalB", axis, [0], swing, static (ref d, v) => d.AxisLocalB = new(0, v, 0));
         Constraint(list, "MinimumDot", ["dot", "angle"], BadInputList.NotFinite, swing, static (ref d, v) => d.MinimumDot = v);
@@ -87,7 +94,8 @@ static class BadSolverInput
 
         var twist = new TwistLimit
         {
-            LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = new(30, 1),
+            LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity,
+            MinimumAngle = -1, MaximumAngle = 1, SpringSettings = new(30, 1),
         };
         Constraint(list, "LocalBasisA.X", ["basis"], BadInputList.NotFinite, twist, static (ref d, v) => d.LocalBasisA.X = v);
         Constraint(list, "length of LocalBasisB", ["basis"], [0, 2], twist, static (ref d, v) => d.LocalBasisB = new(0, 0, 0, v));
@@ -98,9 +106,12 @@ static class BadSolverInput
 
         var distance = new DistanceLimit { MinimumDistance = 1, MaximumDistance = 2, SpringSettings = new(30, 1) };
         Constraint(list, "LocalOffsetA.Z", offset, BadInputList.NotReasonable, distance, static (ref d, v) => d.LocalOffsetA.Z = v);
-        Constraint(list, "MinimumDistance", ["distance"], [.. BadInputList.NotFinite, -1], distance, static (ref d, v) => d.MinimumDistance = v);
-        Constraint(list, "MaximumDistance", ["distance"], [float.NaN, float.NegativeInfinity, -1], distance, static (ref d, v) => d.MaximumDistance = v);
-        Constraint(list, "MaximumDistance below MinimumDistance", ["distance"], [.5f], distance, static (ref d, v) => d.MaximumDistance = v);
+        Constraint(list, "MinimumDistance", ["distance"], [.. BadInputList.NotFinite, -1], distance, static (ref d, v) =>
+            d.MinimumDistance = v);
+        Constraint(list, "MaximumDistance", ["distance"], [float.NaN, float.NegativeInfinity, -1], distance, static (ref d, v) =>
+            d.MaximumDistance = v);
+        Constraint(list, "MaximumDistance below MinimumDistance", ["distance"], [.5f], distance, static (ref d, v) =>
+            d.MaximumDistance = v);
         Springs(list, distance, static (ref d, v) => d.SpringSettings = v);
     }
 
@@ -137,8 +148,10 @@ static class BadSolverInput
         Use("Remove", static (w, h) => w.Solver.Remove(h));
         Use("GetDescription", static (w, h) => w.Solver.GetDescription<BallSocket>(h, out _));
         Use("ApplyDescription", (w, h) => w.Solver.ApplyDescription(h, ballSocket));
-        list.Add("Solver.GetDescription, of another type", [.. constraint, "type"], static w => w.Solver.GetDescription<Weld>(w.Joint<BallSocket>(), out _));
-        list.Add("Solver.ApplyDescription, of another type", [.. constraint, "type"], w => w.Solver.ApplyDescription(w.Joint<BallSocket>(), weld));
+        list.Add("Solver.GetDescription, of another type", [.. constraint, "type"], static w =>
+            w.Solver.GetDescription<Weld>(w.Joint<BallSocket>(), out _));
+        list.Add("Solver.ApplyDescription, of another type", [.. constraint, "type"], w =>
+            w.Solver.ApplyDescription(w.Joint<BallSocket>(), weld));
 
         string[] body = ["body", "bodies", "handle"];
         list.Add("Solver.Add, one body twice", body, w => w.Solver.Add(w.FreeBody, w.FreeBody, ballSocket));
@@ -174,7 +187,8 @@ static class BadSolverInput
         where T : unmanaged, ITwoBodyConstraintDescription<T>
     {
         list.Add($"Solver.Add({typeof(T).Name}), {subject}", words, values, (w, v) => w.Solver.Add(w.FreeBody, w.OtherBody, Edited(v)));
-        list.Add($"Solver.ApplyDescription({typeof(T).Name}), {subject}", words, values, (w, v) => w.Solver.ApplyDescription(w.Joint<T>(), Edited(v)));
+        list.Add($"Solver.ApplyDescription({typeof(T).Name}), {subject}", words, values, (w, v) =>
+            w.Solver.ApplyDescription(w.Joint<T>(), Edited(v)));
 
         T Edited(float value)
         {

@@ -7,7 +7,9 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>What one run of one case measured: written as a row first, judged afterwards, so that a failing case is still in the report.</summary>
+/// <summary>
+/// What one run of one case measured: written as a row first, judged afterwards, so that a failing case is still in the report.
+/// </summary>
 sealed class CaseResult(string id, string scene, object settings)
 {
     readonly List<(string Quantity, double Value, double Limit, string Unit)> measured = [];
@@ -26,9 +28,11 @@ sealed class CaseResult(string id, string scene, object settings)
     public void Finish(ITestOutputHelper output, bool enforce)
     {
         var missed = measured.Where(m => !(Math.Abs(m.Value) <= m.Limit)).ToList();
-        string row = $"| {id} | {scene} | {settings} | {string.Join(", ", measured.Select(m => $"{m.Quantity} {Format(m.Value, m.Unit)}"))} "
-            + $"| {string.Join(", ", measured.Where(m => !double.IsInfinity(m.Limit)).Select(m => $"{m.Quantity} {Format(m.Limit, m.Unit)}"))} "
-            + $"| {(missed.Count == 0 ? "met" : "missed")}{(enforce ? "" : " (reported)")} |";
+        string found = string.Join(", ", measured.Select(m => $"{m.Quantity} {Format(m.Value, m.Unit)}"));
+        var limited = measured.Where(m => !double.IsInfinity(m.Limit));
+        string must = string.Join(", ", limited.Select(m => $"{m.Quantity} {Format(m.Limit, m.Unit)}"));
+        string verdict = (missed.Count == 0 ? "met" : "missed") + (enforce ? "" : " (reported)");
+        string row = $"| {id} | {scene} | {settings} | {found} | {must} | {verdict} |";
         output.WriteLine(row);
         AccuracyReport.Add(row);
         Assert.All(measured, m => Assert.True(double.IsFinite(m.Value), $"{id} {scene} {settings}: {m.Quantity} is {m.Value}"));
@@ -37,6 +41,7 @@ sealed class CaseResult(string id, string scene, object settings)
                 $"{m.Quantity} is {Format(m.Value, m.Unit)}, must be within {Format(m.Limit, m.Unit)}")));
     }
 
-    static string Format(double value, string unit) =>
-        unit == "%" ? (100 * value).ToString("G3", CultureInfo.InvariantCulture) + " %" : $"{value.ToString("G4", CultureInfo.InvariantCulture)} {unit}".TrimEnd();
+    static string Format(double value, string unit) => unit == "%"
+        ? string.Create(CultureInfo.InvariantCulture, $"{100 * value:G3} %")
+        : string.Create(CultureInfo.InvariantCulture, $"{value:G4} {unit}").TrimEnd();
 }

@@ -9,7 +9,9 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>A chain of 100 links with a load at its end (J3). Reported: the error depends on how much stiffness the substep allows.</summary>
+/// <summary>
+/// A chain of 100 links with a load at its end (J3). Reported: the error depends on how much stiffness the substep allows.
+/// </summary>
 public class ChainTests(ITestOutputHelper output)
 {
     const int LinkCount = 100;
@@ -76,8 +78,8 @@ public class ChainTests(ITestOutputHelper output)
             float half = LinkLength / 2;
             var pose = new RigidPose(end + direction * half, orientation);
             chain[i] = i < LinkCount ? world.AddDynamic(link, 1, pose) : world.AddDynamic(new Sphere(half), load, pose);
-            world.Simulation.Solver.Add(
-                joint, chain[i], new BallSocket { LocalOffsetA = jointOffset, LocalOffsetB = new Vector3(0, half, 0), SpringSettings = spring });
+            var socket = new BallSocket { LocalOffsetA = jointOffset, LocalOffsetB = new Vector3(0, half, 0), SpringSettings = spring };
+            world.Simulation.Solver.Add(joint, chain[i], socket);
             (joint, jointOffset) = (chain[i], new Vector3(0, -half, 0));
             end += direction * LinkLength;
         }

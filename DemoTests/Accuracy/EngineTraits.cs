@@ -4,7 +4,9 @@ using BepuPhysics.Constraints;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>All that the suite knows about this engine beyond the shared surface. With another file of this name it measures another engine.</summary>
+/// <summary>
+/// All that the suite knows about this engine beyond the shared surface. With another file of this name it measures another engine.
+/// </summary>
 static class EngineTraits
 {
     public const int DefaultSubstepCount = 4;
@@ -18,6 +20,7 @@ static class EngineTraits
     /// <summary>As stiff as the substep allows: the engine chooses.</summary>
     public static SpringSettings RigidSpring(float substepDuration) => default;
 
-    public static PairMaterialProperties Material(float friction, float restitution, float maximumRecoveryVelocity, SpringSettings spring) =>
+    public static PairMaterialProperties Material(
+        float friction, float restitution, float maximumRecoveryVelocity, SpringSettings spring) =>
         new(friction, maximumRecoveryVelocity, spring) { Restitution = restitution };
 }

@@ -7,7 +7,9 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>The same scenes, moved away from the origin on all three axes (X4). Reported: single-precision positions set the limit.</summary>
+/// <summary>
+/// The same scenes, moved away from the origin on all three axes (X4). Reported: single-precision positions set the limit.
+/// </summary>
 public class FarFromOriginTests(ITestOutputHelper output)
 {
     [Theory]

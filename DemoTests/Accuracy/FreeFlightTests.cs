@@ -12,7 +12,8 @@ namespace DemoTests.Accuracy;
 public class FreeFlightTests(ITestOutputHelper output)
 {
     /// <summary>
-    /// Falls for 10 s, at rest and thrown at 1,000 m/s along an axis and askew. Truncation is judged against the parabola, round-off against
+    /// Falls for 10 s, at rest and thrown at 1,000 m/s along an axis and askew. Truncation is judged against the parabola, round-off
+    /// against
     /// the nearer of the parabola and the discrete scheme's own closed form.
     /// </summary>
     [Theory]
@@ -103,7 +104,8 @@ public class FreeFlightTests(ITestOutputHelper output)
         var shape = new Capsule(.01f, 2);
         float component = 100 * MathF.Sqrt(.5f);
         var body = world.AddDynamic(shape, 1, new RigidPose(Vector3.Zero), new BodyVelocity(default, new Vector3(component, component, 0)));
-        // Energy and momentum are judged with the moments that the engine was given; that those are right is the business of the shape's tests.
+        // Energy and momentum are judged with the moments that the engine was given; that those are right is the business of the shape's
+        // tests.
         var inverse = world.Bodies[body].LocalInertia.InverseInertiaTensor;
         var (energyError, momentumError, _) = Spin(world, body, new(1d / inverse.XX, 1d / inverse.YY, 1d / inverse.ZZ), 60);
         new CaseResult("I3", "rod at 100 rad/s, 45 degrees", $"{settings} {settings.AngularMode}")
@@ -112,7 +114,9 @@ public class FreeFlightTests(ITestOutputHelper output)
             .Finish(output, enforce: effort == Effort.Accurate);
     }
 
-    /// <summary>Largest relative error of energy and of angular momentum as a vector, over all steps, and the reversals about body Y.</summary>
+    /// <summary>
+    /// Largest relative error of energy and of angular momentum as a vector, over all steps, and the reversals about body Y.
+    /// </summary>
     static (double Energy, double Momentum, int Flips) Spin(AccuracyWorld world, BodyHandle body, Double3 inertia, double duration)
     {
         double startEnergy = world.Energy(body, 1, inertia), energyError = 0, momentumError = 0;

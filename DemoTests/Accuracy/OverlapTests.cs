@@ -30,7 +30,8 @@ public class OverlapTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Exactly at one place all pairs part along the same axis, and the ends of the row move at 13 times the recovery velocity: physics of the
+    /// Exactly at one place all pairs part along the same axis, and the ends of the row move at 13 times the recovery velocity: physics of
+    /// the
     /// request, not of the solver. So 1 m/s is asked for. A millimetre of disorder breaks the row up, and the usual 2 m/s stay calm.
     /// </summary>
     [Theory]
@@ -67,7 +68,9 @@ public class OverlapTests(ITestOutputHelper output)
         Judge(world, FormattableString.Invariant($"box sunk {depth} m"), 5, 0, effort);
     }
 
-    /// <summary>Runs for three seconds; top speed over that time, overlap at its end with each other and with ground below a height.</summary>
+    /// <summary>
+    /// Runs for three seconds; top speed over that time, overlap at its end with each other and with ground below a height.
+    /// </summary>
     void Judge(AccuracyWorld world, string scene, double speedLimit, double? groundHeight, Effort effort)
     {
         double speed = 0;

@@ -3,7 +3,9 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>A pendulum of 1 m, let go at the horizontal (J1): period by the arithmetic-geometric mean, energy and joint gap over a minute.</summary>
+/// <summary>
+/// A pendulum of 1 m, let go at the horizontal (J1): period by the arithmetic-geometric mean, energy and joint gap over a minute.
+/// </summary>
 public class PendulumTests(ITestOutputHelper output)
 {
     [Theory]

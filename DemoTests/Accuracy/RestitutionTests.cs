@@ -33,11 +33,12 @@ public class RestitutionTests(ITestOutputHelper output)
         world.AddGround();
         const float lowest = .25f;
         var start = new Vector3(0, (float)DropHeight + lowest, 0);
+        var lying = Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2);
         var body = shape switch
         {
             "sphere" => world.AddDynamic(new Sphere(lowest), 1, new RigidPose(start)),
             // Lying: two contacts share the blow.
-            "capsule" => world.AddDynamic(new Capsule(lowest, 1), 1, new RigidPose(start, Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2))),
+            "capsule" => world.AddDynamic(new Capsule(lowest, 1), 1, new RigidPose(start, lying)),
             "box" => world.AddDynamic(new Box(1, 2 * lowest, .8f), 1, new RigidPose(start)),
             _ => throw new ArgumentOutOfRangeException(nameof(shape), shape, null),
         };

@@ -26,7 +26,8 @@ public class ScaleTests(ITestOutputHelper output)
         {
             x += 2 * size;
             float mass = 1000 * size * size * size;
-            columns.Add((size, Stack.OfEqual(world, 1, new Vector3(x, 0, -size), size, mass), Stack.OfEqual(world, 5, new Vector3(x, 0, size), size, mass)));
+            var single = Stack.OfEqual(world, 1, new Vector3(x, 0, -size), size, mass);
+            columns.Add((size, single, Stack.OfEqual(world, 5, new Vector3(x, 0, size), size, mass)));
         }
         world.Run(5);
         foreach (var (size, single, five) in columns)

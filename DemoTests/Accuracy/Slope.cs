@@ -6,18 +6,22 @@ using DemoTests.Support;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>A long static plank, tilted about Z so that it falls towards +X; its surface passes through an origin.</summary>
+/// <summary>A long plank, static or kinematic, tilted about Z so that it falls towards +X; its surface passes through an origin.</summary>
 sealed class Slope
 {
     readonly double angle;
     readonly Vector3 origin;
 
     /// <summary>Adds the plank: 10 m of it lie uphill of the origin, 130 m downhill.</summary>
-    public Slope(AccuracyWorld world, double angle, Vector3 origin = default)
+    public Slope(AccuracyWorld world, double angle, Vector3 origin = default, bool kinematic = false)
     {
         this.angle = angle;
         this.origin = origin;
-        world.AddStatic(new Box(140, 2, 20), Pose(60, -1));
+        var plank = new Box(140, 2, 20);
+        if (kinematic)
+            world.AddKinematic(plank, Pose(60, -1));
+        else
+            world.AddStatic(plank, Pose(60, -1));
     }
 
     public Double3 Downhill => new(Math.Cos(angle), -Math.Sin(angle), 0);

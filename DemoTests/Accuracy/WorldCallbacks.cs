@@ -13,7 +13,8 @@ struct WorldContacts(PairMaterialProperties material, ContactScope scope) : INar
     {
     }
 
-    public readonly bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) =>
+    public readonly bool AllowContactGeneration(
+        int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) =>
         scope == ContactScope.All && (a.Mobility == CollidableMobility.Dynamic || b.Mobility == CollidableMobility.Dynamic);
 
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
@@ -53,6 +54,7 @@ struct WorldGravity(AccuracySettings settings) : IPoseIntegratorCallbacks
     public void PrepareForIntegration(float dt) => Vector3Wide.Broadcast(gravity * dt, out gravityDt);
 
     public readonly void IntegrateVelocity(
-        Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia, Vector<int> integrationMask,
-        int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity) => velocity.Linear = velocity.Linear + gravityDt;
+        Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia,
+        Vector<int> integrationMask, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity) =>
+        velocity.Linear = velocity.Linear + gravityDt;
 }

@@ -7,7 +7,8 @@ public static class BoxOverlapOracle
 {
     /// <summary>Least translation that parts the boxes; zero or below when they are apart.</summary>
     public static double Depth(
-        Double3 halfExtentsA, Double3 positionA, DoubleQuaternion orientationA, Double3 halfExtentsB, Double3 positionB, DoubleQuaternion orientationB)
+        Double3 halfExtentsA, Double3 positionA, DoubleQuaternion orientationA,
+        Double3 halfExtentsB, Double3 positionB, DoubleQuaternion orientationB)
     {
         var offset = positionB - positionA;
         Double3[] axesA = Axes(orientationA), axesB = Axes(orientationB);
@@ -29,7 +30,8 @@ public static class BoxOverlapOracle
         }
         return least;
 
-        double DepthAlong(Double3 axis) => Reach(axesA, halfExtentsA, axis) + Reach(axesB, halfExtentsB, axis) - Math.Abs(Double3.Dot(offset, axis));
+        double DepthAlong(Double3 axis) =>
+            Reach(axesA, halfExtentsA, axis) + Reach(axesB, halfExtentsB, axis) - Math.Abs(Double3.Dot(offset, axis));
     }
 
     static Double3[] Axes(DoubleQuaternion q) => [q.Rotate(new(1, 0, 0)), q.Rotate(new(0, 1, 0)), q.Rotate(new(0, 0, 1))];

@@ -2,7 +2,9 @@ using System;
 
 namespace DemoTests.Support;
 
-/// <summary>Counts reversals of a signal. A reversal counts once the signal is past half of its first magnitude, so noise around zero does not.</summary>
+/// <summary>
+/// Counts reversals of a signal. A reversal counts once the signal is past half of its first magnitude, so noise around zero does not.
+/// </summary>
 public struct FlipCounter(double start)
 {
     readonly double threshold = Math.Abs(start) / 2;

@@ -2,7 +2,9 @@ using System;
 
 namespace DemoTests.Support;
 
-/// <summary>Closed forms of dry friction after Coulomb: blocks on slopes, spheres that slide and roll. SI units, angles in radians.</summary>
+/// <summary>
+/// Closed forms of dry friction after Coulomb: blocks on slopes, spheres that slide and roll. SI units, angles in radians.
+/// </summary>
 public static class SlidingOracle
 {
     /// <summary>Distance that a block slides down a slope from rest. Zero where friction holds it.</summary>
