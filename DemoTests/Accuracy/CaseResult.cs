@@ -27,19 +27,29 @@ sealed class CaseResult(string id, string scene, object settings)
     /// <summary>Writes the row; all figures must be finite, and within their limits when they are enforced.</summary>
     public void Finish(ITestOutputHelper output, bool enforce)
     {
-        var missed = measured.Where(m => !(Math.Abs(m.Value) <= m.Limit)).ToList();
+        output.WriteLine(Row(enforce));
+        AccuracyReport.Add(Row(enforce));
+        Assert.Null(Failure(enforce));
+    }
+
+    public string Row(bool enforce)
+    {
         string found = string.Join(", ", measured.Select(m => $"{m.Quantity} {Format(m.Value, m.Unit)}"));
         var limited = measured.Where(m => !double.IsInfinity(m.Limit));
         string must = string.Join(", ", limited.Select(m => $"{m.Quantity} {Format(m.Limit, m.Unit)}"));
-        string verdict = (missed.Count == 0 ? "met" : "missed") + (enforce ? "" : " (reported)");
-        string row = $"| {id} | {scene} | {settings} | {found} | {must} | {verdict} |";
-        output.WriteLine(row);
-        AccuracyReport.Add(row);
-        Assert.All(measured, m => Assert.True(double.IsFinite(m.Value), $"{id} {scene} {settings}: {m.Quantity} is {m.Value}"));
-        if (enforce)
-            Assert.True(missed.Count == 0, $"{id} {scene} {settings}: " + string.Join("; ", missed.Select(m =>
-                $"{m.Quantity} is {Format(m.Value, m.Unit)}, must be within {Format(m.Limit, m.Unit)}")));
+        string verdict = (measured.All(IsMet) ? "met" : "missed") + (enforce ? "" : " (reported)");
+        return $"| {id} | {scene} | {settings} | {found} | {must} | {verdict} |";
     }
+
+    /// <summary>What is wrong, or null.</summary>
+    public string? Failure(bool enforce)
+    {
+        var wrong = measured.Where(m => !double.IsFinite(m.Value) || (enforce && !IsMet(m))).ToList();
+        return wrong.Count == 0 ? null : $"{id}, {scene}, {settings}: " + string.Join("; ", wrong.Select(m =>
+            $"{m.Quantity} is {Format(m.Value, m.Unit)}, must be within {Format(m.Limit, m.Unit)}"));
+    }
+
+    static bool IsMet((string Quantity, double Value, double Limit, string Unit) m) => Math.Abs(m.Value) <= m.Limit;
 
     static string Format(double value, string unit) => unit == "%"
         ? string.Create(CultureInfo.InvariantCulture, $"{100 * value:G3} %")
