@@ -82,7 +82,13 @@ public class RotationPropertyTests
             // Up to an angle of pi - 1.4e-3 exact; closer to opposite by half a turn.
             AssertClose(Components(target), Components(Exact.Rotate(from, q)), 2e-3);
         }
-        AssertClose(Components(to), Components(Exact.Rotate(from, QuaternionEx.GetQuaternionBetweenNormalizedVectors(from, to))), 2e-5);
+
+        // 0.02 radians short of opposite.
+        QuaternionWide.GetAxisAngleFromQuaternion(QuaternionWide.Broadcast(s.Rotation()), out var wideAxis, out _);
+        Vector3Wide.ReadFirst(wideAxis, out var other);
+        var across = Exact.Normalize(Exact.Cross(from, other));
+        var near = Exact.Normalize(across * 0.02f - from);
+        AssertClose(Components(near), Components(Exact.Rotate(from, QuaternionEx.GetQuaternionBetweenNormalizedVectors(from, near))), 2e-5);
     });
 
     [Fact]

@@ -12,7 +12,7 @@ sealed class WideSamples(int seed)
 
     public float Number(float scale = 1) => (float)(random.NextDouble() * 2 - 1) * scale;
 
-    public float Positive(float minimum, float maximum) => (float)(minimum * Math.Pow(maximum / minimum, random.NextDouble()));
+    public float Positive(float minimum, float maximum) => (float)(minimum * Math.Pow((double)maximum / minimum, random.NextDouble()));
 
     public int Integer(int end) => random.Next(end);
 
