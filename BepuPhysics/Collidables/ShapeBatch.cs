@@ -1,0 +1,224 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>The shapes of one type, by index; the type itself is known only to the derived classes.</summary>
+/// <remarks>
+/// Shapes do not move: collidables hold their indices. A removed shape leaves a free slot, which the next one added takes. Whether a
+/// slot is taken is recorded, so that an index that outlived its shape is refused and not read.
+/// Any number of threads may read at once; adding, removing and resizing needs the batch alone.
+/// </remarks>
+public abstract unsafe class ShapeBatch
+{
+    private protected readonly BufferPool pool;
+    IdPool ids;
+    // One byte per slot: 1 when a shape is in it.
+    private protected Buffer<byte> taken;
+
+    private protected ShapeBatch(BufferPool pool, int typeId, int shapeDataSize, int initialCapacity)
+    {
+        this.pool = pool;
+        TypeId = typeId;
+        ShapeDataSize = shapeDataSize;
+        ids = new IdPool(initialCapacity, pool);
+    }
+
+    /// <summary>Type id of the shapes.</summary>
+    public int TypeId { get; }
+
+    /// <summary>Size of one shape in memory, bytes.</summary>
+    public int ShapeDataSize { get; }
+
+    /// <summary>Whether the shapes are made of children.</summary>
+    public virtual bool Compound => false;
+
+    /// <summary>Number of shapes that fit without taking more memory.</summary>
+    public abstract int Capacity { get; }
+
+    /// <summary>Number of shapes in the batch.</summary>
+    public int Count { get; private set; }
+
+    /// <summary>Whether a shape was added at an index and not removed since. Any index may be asked.</summary>
+    public bool Exists(int shapeIndex) => (uint)shapeIndex < (uint)taken.Length && taken[shapeIndex] != 0;
+
+    /// <summary>Memory of a shape; valid until a shape is added or the batch is resized.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="shapePointer">First byte of the shape.</param>
+    /// <param name="shapeSize">Size of the shape, bytes.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public void GetShapeData(int shapeIndex, out void* shapePointer, out int shapeSize)
+    {
+        CheckExists(shapeIndex);
+        shapePointer = GetPointer(shapeIndex);
+        shapeSize = ShapeDataSize;
+    }
+
+    /// <summary>Box around a shape, relative to its centre, m.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="orientation">Rotation from the shape's frame to the world; unit length.</param>
+    /// <param name="min">Corner with the least coordinates.</param>
+    /// <param name="max">Corner with the greatest coordinates.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public abstract void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max);
+
+    /// <summary>Box around a shape in the world, m.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="pose">Pose of the shape.</param>
+    /// <param name="min">Corner with the least coordinates.</param>
+    /// <param name="max">Corner with the greatest coordinates.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public void ComputeBounds(int shapeIndex, in RigidPose pose, out Vector3 min, out Vector3 max)
+    {
+        ComputeBounds(shapeIndex, pose.Orientation, out min, out max);
+        min += pose.Position;
+        max += pose.Position;
+    }
+
+    /// <summary>Tests a ray against a shape and reports hits to a handler.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="pose">Pose of the shape.</param>
+    /// <param name="ray">Ray in the world.</param>
+    /// <param name="maximumT">Farthest t of interest; the handler may lower it.</param>
+    /// <param name="pool">Source of temporary memory; used by the calling thread only.</param>
+    /// <param name="hitHandler">Receives the hits.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public abstract void RayTest<TRayHitHandler>(int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool,
+        ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler;
+
+    /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public void Remove(int shapeIndex)
+    {
+        CheckExists(shapeIndex);
+        ids.Return(shapeIndex, pool);
+        taken[shapeIndex] = 0;
+        --Count;
+    }
+
+    /// <summary>Removes a shape and returns the memory that it owns.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="pool">Pool that the shape's own memory was taken from.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public void RemoveAndDispose(int shapeIndex, BufferPool pool)
+    {
+        CheckExists(shapeIndex);
+        ArgumentNullException.ThrowIfNull(pool);
+        DisposeShape(shapeIndex, pool);
+        Remove(shapeIndex);
+    }
+
+    /// <summary>Removes a shape and its children, and returns the memory that they own.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="shapes">Collection that holds the children.</param>
+    /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    public void RecursivelyRemoveAndDispose(int shapeIndex, Shapes shapes, BufferPool pool)
+    {
+        CheckExists(shapeIndex);
+        ArgumentNullException.ThrowIfNull(shapes);
+        ArgumentNullException.ThrowIfNull(pool);
+        RemoveAndDisposeChildren(shapeIndex, shapes, pool);
+        RemoveAndDispose(shapeIndex, pool);
+    }
+
+    /// <summary>Removes all shapes; what they own themselves stays their owners'.</summary>
+    public void Clear()
+    {
+        ids.Clear();
+        taken.Clear(0, taken.Length);
+        Count = 0;
+    }
+
+    /// <summary>Makes room for a number of shapes.</summary>
+    /// <param name="shapeCapacity">Number of shapes that must fit.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The capacity is negative or more than can be indexed.</exception>
+    public void EnsureCapacity(int shapeCapacity)
+    {
+        CheckCapacity(shapeCapacity);
+        if (shapeCapacity > Capacity)
+            ResizeShapes(shapeCapacity);
+    }
+
+    /// <summary>Makes room for a number of shapes, or gives room back; no shape is lost.</summary>
+    /// <param name="shapeCapacity">Number of shapes that should fit.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The capacity is negative or more than can be indexed.</exception>
+    public void Resize(int shapeCapacity)
+    {
+        CheckCapacity(shapeCapacity);
+        ResizeShapes(Math.Max(shapeCapacity, UsedSlotCount));
+    }
+
+    /// <summary>Changes how many free indices can be remembered without taking memory; none is lost.</summary>
+    /// <param name="targetIdCapacity">Number of indices.</param>
+    public void ResizeIdPool(int targetIdCapacity) => ids.Resize(targetIdCapacity, pool);
+
+    /// <summary>Returns all memory of the batch, which must not be used any more.</summary>
+    public virtual void Dispose()
+    {
+        pool.Return(ref taken);
+        ids.Dispose(pool);
+        Count = 0;
+    }
+
+    /// <summary>Returns the memory that a shape owns.</summary>
+    private protected virtual void DisposeShape(int shapeIndex, BufferPool pool) { }
+
+    /// <summary>Removes the children of a shape and returns the memory that they own.</summary>
+    private protected virtual void RemoveAndDisposeChildren(int shapeIndex, Shapes shapes, BufferPool pool) { }
+
+    /// <summary>Changes the number of slots; at least those in use remain.</summary>
+    private protected abstract void ResizeShapes(int shapeCapacity);
+
+    private protected abstract void* GetPointer(int shapeIndex);
+
+    /// <summary>Bounds of a bundle of shapes, as <see cref="IShapeWide{TShape}.GetBounds"/>.</summary>
+    /// <param name="shapeIndices">Index per lane, at most as many as there are lanes; results of the lanes beyond mean nothing.</param>
+    /// <param name="orientations">Rotation per lane.</param>
+    /// <param name="maximumRadius">Distance from the centre to the farthest point.</param>
+    /// <param name="maximumAngularExpansion">How far rotation carries the surface beyond the box.</param>
+    /// <param name="min">Corners relative to the centre.</param>
+    /// <param name="max">Corners relative to the centre.</param>
+    internal abstract void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations,
+        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max);
+
+    /// <summary>Distance from the centre of a shape to its farthest point.</summary>
+    internal abstract float MaximumRadius(int shapeIndex);
+
+    /// <summary>Number of slots from the first to the last that may hold a shape.</summary>
+    private protected int UsedSlotCount => ids.HighestPossiblyClaimedId + 1;
+
+    private protected int TakeSlot()
+    {
+        if (ids.AvailableIdCount == 0)
+        {
+            if (UsedSlotCount == TypedIndex.MaximumIndexCount)
+                throw new InvalidOperationException($"There is no index left for another shape of type {TypeId}.");
+            // Before the index is taken, so that nothing has changed if there is no memory.
+            if (UsedSlotCount == Capacity)
+                ResizeShapes((int)Math.Min(Capacity * 2L, TypedIndex.MaximumIndexCount));
+        }
+        var index = ids.Take();
+        Check.That(!Exists(index));
+        taken[index] = 1;
+        ++Count;
+        return index;
+    }
+
+    private protected void CheckExists(int shapeIndex)
+    {
+        if (!Exists(shapeIndex))
+            throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
+    }
+
+    private protected static void CheckCapacity(int shapeCapacity)
+    {
+        if ((uint)shapeCapacity > TypedIndex.MaximumIndexCount)
+            throw new ArgumentOutOfRangeException(nameof(shapeCapacity), shapeCapacity, "A capacity is from 0 to 2^24 shapes.");
+    }
+}

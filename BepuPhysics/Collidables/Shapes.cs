@@ -1,0 +1,169 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>All shapes that collidables refer to, in one batch per type; may be shared by several simulations.</summary>
+/// <remarks>Any number of threads may read at once; adding, removing and resizing needs the collection alone, outside of a step.</remarks>
+public sealed class Shapes
+{
+    readonly BufferPool pool;
+    // Managed, because batches are objects; it grows only when a new type of shape is added.
+    ShapeBatch?[] batches = [];
+
+    /// <summary>Creates an empty collection.</summary>
+    /// <param name="pool">Source of the memory of all batches.</param>
+    /// <param name="initialCapacityPerTypeBatch">Number of shapes that a new batch makes room for.</param>
+    public Shapes(BufferPool pool, int initialCapacityPerTypeBatch)
+    {
+        ArgumentNullException.ThrowIfNull(pool);
+        ArgumentOutOfRangeException.ThrowIfNegative(initialCapacityPerTypeBatch);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(initialCapacityPerTypeBatch, TypedIndex.MaximumIndexCount);
+        this.pool = pool;
+        InitialCapacityPerTypeBatch = initialCapacityPerTypeBatch;
+    }
+
+    /// <summary>Number of shapes that a new batch makes room for.</summary>
+    public int InitialCapacityPerTypeBatch { get; }
+
+    /// <summary>One more than the greatest type id that has a batch.</summary>
+    public int RegisteredTypeSpan => batches.Length;
+
+    /// <summary>The shapes of a type; null when none was ever added.</summary>
+    /// <param name="typeIndex">Type id, less than <see cref="RegisteredTypeSpan"/>.</param>
+    public ShapeBatch? this[int typeIndex]
+    {
+        get
+        {
+            if ((uint)typeIndex >= (uint)batches.Length)
+                throw new ArgumentOutOfRangeException(nameof(typeIndex), typeIndex, $"Type ids that have a batch are less than {batches.Length}.");
+            return batches[typeIndex];
+        }
+    }
+
+    /// <summary>Adds a shape.</summary>
+    /// <returns>Name of the shape, by which collidables refer to it.</returns>
+    /// <exception cref="ArgumentException">The shape is not valid.</exception>
+    /// <exception cref="InvalidOperationException">Another type of shape has the same id, or there is no index left.</exception>
+    public TypedIndex Add<TShape>(in TShape shape) where TShape : unmanaged, IShape
+    {
+        // Before a batch is made for the type, so that a refused shape leaves no trace.
+        shape.Validate();
+        return new(TShape.TypeId, GetOrCreateBatch<TShape>().Add(shape));
+    }
+
+    /// <summary>A shape by its index among those of its type; valid until a shape of the type is added or batches are resized.</summary>
+    /// <remarks><inheritdoc cref="ShapeBatch{TShape}.this" path="/remarks"/></remarks>
+    /// <param name="shapeIndex">Index of the shape in its type's batch.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public ref TShape GetShape<TShape>(int shapeIndex) where TShape : unmanaged, IShape
+    {
+        if ((uint)TShape.TypeId >= (uint)batches.Length || batches[TShape.TypeId] is not ShapeBatch<TShape> batch)
+            throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There are no shapes of type {typeof(TShape).Name}.");
+        return ref batch[shapeIndex];
+    }
+
+    /// <summary>Whether a shape was added under this name and not removed since.</summary>
+    public bool Exists(TypedIndex shape) =>
+        shape.Exists && shape.Type < batches.Length && batches[shape.Type] is { } batch && batch.Exists(shape.Index);
+
+    /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
+    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public void Remove(TypedIndex shapeIndex) => GetCheckedBatch(shapeIndex).Remove(shapeIndex.Index);
+
+    /// <summary>Removes a shape and returns the memory that it owns.</summary>
+    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="pool">Pool that the shape's own memory was taken from.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool) =>
+        GetCheckedBatch(shapeIndex).RemoveAndDispose(shapeIndex.Index, pool);
+
+    /// <summary>Removes a shape and all its children, and returns the memory that they own.</summary>
+    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public void RecursivelyRemoveAndDispose(TypedIndex shapeIndex, BufferPool pool) =>
+        GetCheckedBatch(shapeIndex).RecursivelyRemoveAndDispose(shapeIndex.Index, this, pool);
+
+    /// <summary>Box around a shape in the world, m.</summary>
+    /// <param name="pose">Pose of the shape.</param>
+    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="bounds">Box around the shape.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public void UpdateBounds(in RigidPose pose, TypedIndex shapeIndex, out BoundingBox bounds) =>
+        GetCheckedBatch(shapeIndex).ComputeBounds(shapeIndex.Index, pose, out bounds.Min, out bounds.Max);
+
+    /// <summary>Box around a shape in the world, m.</summary>
+    /// <param name="position">Position of the shape, m.</param>
+    /// <param name="orientation">Rotation from the shape's frame to the world; unit length.</param>
+    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="bounds">Box around the shape.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    public void UpdateBounds(Vector3 position, Quaternion orientation, TypedIndex shapeIndex, out BoundingBox bounds) =>
+        UpdateBounds(new RigidPose(position, orientation), shapeIndex, out bounds);
+
+    /// <summary>Removes all shapes; what they own themselves stays their owners'. Batches keep their room.</summary>
+    public void Clear()
+    {
+        foreach (var batch in batches)
+            batch?.Clear();
+    }
+
+    /// <summary>Makes room for a number of shapes in every batch that there is.</summary>
+    /// <param name="shapeCapacity">Number of shapes of each type that must fit.</param>
+    public void EnsureBatchCapacities(int shapeCapacity)
+    {
+        foreach (var batch in batches)
+            batch?.EnsureCapacity(shapeCapacity);
+    }
+
+    /// <summary>Makes room for a number of shapes in every batch that there is, or gives room back; no shape is lost.</summary>
+    /// <param name="shapeCapacity">Number of shapes of each type that should fit.</param>
+    public void ResizeBatches(int shapeCapacity)
+    {
+        foreach (var batch in batches)
+            batch?.Resize(shapeCapacity);
+    }
+
+    /// <summary>Returns all memory to the pool. The collection is then empty and may be used again.</summary>
+    public void Dispose()
+    {
+        foreach (var batch in batches)
+            batch?.Dispose();
+        batches = [];
+    }
+
+    /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
+    internal ShapeBatch GetBatch(int typeIndex) => batches[typeIndex]!;
+
+    /// <summary>Refuses a name that no shape has.</summary>
+    /// <param name="shape">Name of a shape.</param>
+    /// <param name="name">Name of the argument that it was given as.</param>
+    /// <exception cref="ArgumentException">There is no such shape.</exception>
+    internal void CheckExists(TypedIndex shape, string name)
+    {
+        if (!Exists(shape))
+            throw new ArgumentException(shape.Exists ? $"There is no {shape}; it was removed or never added." : "No shape is named; add one to Shapes first.", name);
+    }
+
+    ShapeBatch GetCheckedBatch(TypedIndex shapeIndex)
+    {
+        CheckExists(shapeIndex, nameof(shapeIndex));
+        return GetBatch(shapeIndex.Type);
+    }
+
+    ShapeBatch<TShape> GetOrCreateBatch<TShape>() where TShape : unmanaged, IShape
+    {
+        var typeId = TShape.TypeId;
+        if ((uint)typeId >= TypedIndex.MaximumTypeCount)
+            throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}; ids are from 0 to {TypedIndex.MaximumTypeCount - 1}.");
+        if (typeId >= batches.Length)
+            Array.Resize(ref batches, typeId + 1);
+        var batch = batches[typeId] ??= TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
+        return batch as ShapeBatch<TShape> ??
+            throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}, which another type of shape already has.");
+    }
+}

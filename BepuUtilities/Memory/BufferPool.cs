@@ -1,0 +1,244 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Text;
+
+namespace BepuUtilities.Memory;
+
+/// <summary>
+/// Lends blocks of unmanaged memory whose sizes are powers of two, aligned to 64 bytes at least. Memory comes from the system
+/// in large pieces, is reused as soon as it is returned, and goes back to the system only by <see cref="Clear"/>.
+/// Not thread safe: use a pool per worker, see <see cref="WorkerBufferPools"/>.
+/// </summary>
+/// <remarks>
+/// There is a <see cref="PowerPool"/> for each power of two, created when first needed. An id holds the power in its five high
+/// bits below the sign and the slot within that power's pool in the others, so that an id alone suffices to return a block.
+/// A bit per slot tells whether it is lent. That makes giving back twice, or to the wrong pool, an exception in release builds
+/// too, instead of two owners of one block, which would only show as wrong physics much later.
+/// </remarks>
+public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
+{
+    /// <summary>Least alignment in bytes of every block: a cache line, and the widest vector.</summary>
+    public const int Alignment = 64;
+
+    // No block is smaller than a cache line: two owners on one line would slow each other down when they run on two threads.
+    internal const int MinimumPower = 6;
+    const int PowerBits = 5;
+    internal const int SlotBits = 31 - PowerBits;
+    internal const int MaximumPower = MinimumPower + (1 << PowerBits) - 1;
+    // A buffer of bytes is as long as an int allows.
+    const int MaximumBytePower = 30;
+
+    readonly PowerPool?[] pools = new PowerPool?[MaximumPower - MinimumPower + 1];
+    readonly int blockPower;
+    readonly int expectedPooledResourceCount;
+
+    /// <summary>Creates a pool that holds no memory yet.</summary>
+    /// <param name="minimumBlockAllocationSize">Least number of bytes to ask the system for at a time, rounded up to a power of two; in [1, 2^30].</param>
+    /// <param name="expectedPooledResourceCount">Number of blocks of one size for which bookkeeping is made in advance.</param>
+    public BufferPool(int minimumBlockAllocationSize = 131072, int expectedPooledResourceCount = 16)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegativeOrZero(minimumBlockAllocationSize);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(minimumBlockAllocationSize, 1 << MaximumBytePower);
+        ArgumentOutOfRangeException.ThrowIfNegative(expectedPooledResourceCount);
+        blockPower = GetPower((ulong)minimumBlockAllocationSize);
+        this.expectedPooledResourceCount = expectedPooledResourceCount;
+    }
+
+    /// <summary>Length in elements of the buffer that <see cref="TakeAtLeast{T}"/> yields for a least length.</summary>
+    public static int GetCapacityForCount<T>(int count) where T : unmanaged =>
+        GetCapacity<T>(GetPower<T>(count));
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Take<T>(int count, out Buffer<T> buffer) where T : unmanaged
+    {
+        TakeBlock(GetPower<T>(count), out var memory, out var id);
+        buffer = new Buffer<T>(memory, count, id);
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void TakeAtLeast<T>(int count, out Buffer<T> buffer) where T : unmanaged
+    {
+        var power = GetPower<T>(count);
+        TakeBlock(power, out var memory, out var id);
+        buffer = new Buffer<T>(memory, GetCapacity<T>(power), id);
+    }
+
+    /// <summary>Takes a block of a given power of two; the buffer spans 2^power bytes. Its contents are undefined.</summary>
+    /// <param name="power">Exponent of the size in bytes, in [0, 30].</param>
+    /// <param name="buffer">Buffer that was taken.</param>
+    public void TakeForPower(int power, out Buffer<byte> buffer)
+    {
+        CheckPower(power);
+        TakeBlock(Math.Max(power, MinimumPower), out var memory, out var id);
+        buffer = new Buffer<byte>(memory, 1 << power, id);
+    }
+
+    /// <inheritdoc/>
+    public void Return<T>(ref Buffer<T> buffer) where T : unmanaged
+    {
+        var pool = FindOwner(buffer.Id, buffer.Memory, out var slot);
+        pool.Return(slot);
+        buffer = default;
+    }
+
+    /// <inheritdoc/>
+    public void ReturnUnsafely(int id) => FindOwner(id, out var slot).Return(slot);
+
+    /// <inheritdoc/>
+    public void Resize<T>(ref Buffer<T> buffer, int targetSize, int copyCount) where T : unmanaged =>
+        Resize(ref buffer, targetSize, copyCount, exact: true);
+
+    /// <inheritdoc/>
+    public void ResizeToAtLeast<T>(ref Buffer<T> buffer, int targetSize, int copyCount) where T : unmanaged =>
+        Resize(ref buffer, targetSize, copyCount, exact: false);
+
+    int IUnmanagedMemoryPool.GetCapacityForCount<T>(int count) => GetCapacityForCount<T>(count);
+
+    /// <summary>Asks the system, if need be, for so much memory that blocks of one power of two fill a number of bytes, lent ones included.</summary>
+    /// <param name="byteCount">Number of bytes.</param>
+    /// <param name="power">Exponent of the size of a block, in [0, 30].</param>
+    public void EnsureCapacityForPower(int byteCount, int power)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(byteCount);
+        CheckPower(power);
+        GetPool(Math.Max(power, MinimumPower)).EnsureCapacity((ulong)byteCount);
+    }
+
+    /// <summary>Bytes held for blocks of one power of two, lent or not; the greatest int when they are more than it can tell.</summary>
+    /// <param name="power">Exponent of the size of a block, in [0, 30].</param>
+    public int GetCapacityForPower(int power)
+    {
+        CheckPower(power);
+        var pool = pools[Math.Max(power, MinimumPower) - MinimumPower];
+        return pool == null ? 0 : (int)Math.Min(pool.AllocatedByteCount, int.MaxValue);
+    }
+
+    /// <summary>Bytes that this pool holds from the system, whether lent or not.</summary>
+    public ulong GetTotalAllocatedByteCount()
+    {
+        ulong total = 0;
+        foreach (var pool in pools)
+            total += pool?.AllocatedByteCount ?? 0;
+        return total;
+    }
+
+    /// <summary>Requires that all that was lent has been given back.</summary>
+    /// <exception cref="InvalidOperationException">Something is still lent; the message says how much of what size, and the first ids.</exception>
+    public void AssertEmpty()
+    {
+        StringBuilder? message = null;
+        foreach (var pool in pools)
+        {
+            if (pool == null || pool.TakenCount == 0)
+                continue;
+            message ??= new StringBuilder("Buffers were not returned to the pool:");
+            pool.DescribeTaken(message);
+        }
+        if (message != null)
+            throw new InvalidOperationException(message.ToString());
+    }
+
+    /// <summary>Gives all memory back to the system. Buffers still lent must not be used any more; the pool itself may be.</summary>
+    public void Clear()
+    {
+        foreach (var pool in pools)
+            pool?.Clear();
+    }
+
+    /// <summary>The same as <see cref="Clear"/>.</summary>
+    public void Dispose() => Clear();
+
+    void Resize<T>(ref Buffer<T> buffer, int targetSize, int copyCount, bool exact) where T : unmanaged
+    {
+        var power = GetPower<T>(targetSize);
+        ArgumentOutOfRangeException.ThrowIfNegative(copyCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(copyCount, Math.Min(buffer.Length, targetSize));
+        var length = exact ? targetSize : GetCapacity<T>(power);
+        if (!buffer.Allocated)
+        {
+            TakeBlock(power, out var memory, out var id);
+            buffer = new Buffer<T>(memory, length, id);
+            return;
+        }
+        var owner = FindOwner(buffer.Id, buffer.Memory, out var slot);
+        if (owner.Power == power && owner.GetBlock(slot) == buffer.Memory)
+        {
+            buffer.Length = length;
+            return;
+        }
+        TakeBlock(power, out var newMemory, out var newId);
+        var resized = new Buffer<T>(newMemory, length, newId);
+        buffer.CopyTo(0, resized, 0, copyCount);
+        owner.Return(slot);
+        buffer = resized;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void TakeBlock(int power, out byte* memory, out int id)
+    {
+        var slot = GetPool(power).Take(out memory);
+        id = ((power - MinimumPower) << SlotBits) | slot;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    PowerPool GetPool(int power) => pools[power - MinimumPower] ?? CreatePool(power);
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    PowerPool CreatePool(int power) =>
+        pools[power - MinimumPower] = new PowerPool(power, Math.Max(power, blockPower), expectedPooledResourceCount);
+
+    PowerPool FindOwner(int id, out int slot)
+    {
+        slot = id & ((1 << SlotBits) - 1);
+        var pool = id < 0 ? null : pools[id >> SlotBits];
+        if (pool == null || !pool.IsTaken(slot))
+            ThrowNotTaken(id);
+        return pool;
+    }
+
+    PowerPool FindOwner(int id, void* memory, out int slot)
+    {
+        var pool = FindOwner(id, out slot);
+        // The address betrays a buffer of another pool that happens to bear an id that is lent here as well.
+        if ((nuint)((byte*)memory - pool.GetBlock(slot)) >= (nuint)1 << pool.Power)
+            ThrowForeign(id);
+        return pool;
+    }
+
+    /// <summary>Exponent of the smallest block for a number of elements.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static int GetPower<T>(int count) where T : unmanaged
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(count);
+        var power = GetPower((ulong)count * (ulong)sizeof(T));
+        if (power > MaximumPower)
+            ThrowTooLarge(count);
+        return power;
+    }
+
+    static int GetPower(ulong byteCount) => byteCount <= 1UL << MinimumPower ? MinimumPower : BitOperations.Log2(byteCount - 1) + 1;
+
+    static int GetCapacity<T>(int power) where T : unmanaged => (int)Math.Min((1UL << power) / (ulong)sizeof(T), int.MaxValue);
+
+    static void CheckPower(int power)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(power);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(power, MaximumBytePower);
+    }
+
+    [DoesNotReturn]
+    static void ThrowNotTaken(int id) => throw new InvalidOperationException(
+        id < 0 ? $"A buffer with id {id} was not lent by a pool." : $"The buffer with id {id} is not lent: returned already, or taken from another pool.");
+
+    [DoesNotReturn]
+    static void ThrowForeign(int id) => throw new InvalidOperationException(
+        $"The buffer with id {id} does not lie in this pool's block of that id: it was taken from another pool.");
+
+    [DoesNotReturn]
+    static void ThrowTooLarge(int count) => throw new ArgumentOutOfRangeException(
+        nameof(count), count, $"A block holds at most 2^{MaximumPower} bytes.");
+}

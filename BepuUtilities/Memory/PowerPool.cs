@@ -1,0 +1,140 @@
+using System;
+using System.Diagnostics;
+using System.Globalization;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace BepuUtilities.Memory;
+
+/// <summary>The blocks of one size of a <see cref="BufferPool"/>: memory from the system, cut into slots.</summary>
+/// <remarks>
+/// Slots [0, usedSlotCount) have been lent at least once; those of them that are free lie on a stack, so that what was returned
+/// last, and is in the cache, is lent next. All bookkeeping grows with the memory, so that lending and returning allocate nothing.
+/// </remarks>
+sealed unsafe class PowerPool
+{
+    readonly int allocationPower;
+    readonly int slotShift;
+    nint[] allocations;
+    int[] freeSlots;
+    ulong[] taken;
+    int allocationCount;
+    int usedSlotCount;
+    int freeSlotCount;
+
+    /// <summary>Creates a pool that holds no memory yet.</summary>
+    /// <param name="power">Exponent of the size of a slot in bytes.</param>
+    /// <param name="allocationPower">Exponent of the number of bytes to ask the system for at a time; not less than the slot's.</param>
+    /// <param name="expectedSlotCount">Number of slots for which bookkeeping is made in advance.</param>
+    public PowerPool(int power, int allocationPower, int expectedSlotCount)
+    {
+        Power = power;
+        this.allocationPower = allocationPower;
+        slotShift = allocationPower - power;
+        allocations = new nint[Math.Max(1, expectedSlotCount >> slotShift)];
+        freeSlots = new int[expectedSlotCount];
+        taken = new ulong[(expectedSlotCount + 63) >> 6];
+    }
+
+    /// <summary>Exponent of the size of a slot in bytes.</summary>
+    public int Power { get; }
+
+    /// <summary>Bytes held from the system.</summary>
+    public ulong AllocatedByteCount => (ulong)allocationCount << allocationPower;
+
+    /// <summary>Number of slots that are lent.</summary>
+    public int TakenCount => usedSlotCount - freeSlotCount;
+
+    /// <summary>Lends a slot.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public int Take(out byte* memory)
+    {
+        var slot = freeSlotCount > 0 ? freeSlots[--freeSlotCount] : TakeUnused();
+        taken[slot >> 6] |= 1UL << slot;
+        memory = GetBlock(slot);
+        return slot;
+    }
+
+    /// <summary>Whether a slot exists and is lent.</summary>
+    public bool IsTaken(int slot) => (uint)slot < (uint)usedSlotCount && (taken[slot >> 6] & (1UL << slot)) != 0;
+
+    /// <summary>Takes a slot back that is lent.</summary>
+    public void Return(int slot)
+    {
+        Poison(GetBlock(slot), (nuint)1 << Power);
+        taken[slot >> 6] &= ~(1UL << slot);
+        freeSlots[freeSlotCount++] = slot;
+    }
+
+    /// <summary>Address of a slot that has been lent before.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public byte* GetBlock(int slot) => (byte*)allocations[slot >> slotShift] + ((nuint)(slot & ((1 << slotShift) - 1)) << Power);
+
+    /// <summary>Asks the system for memory until at least so many bytes are held.</summary>
+    public void EnsureCapacity(ulong byteCount)
+    {
+        while (AllocatedByteCount < byteCount)
+            Allocate();
+    }
+
+    /// <summary>Writes how many slots are lent, and the first ids.</summary>
+    public void DescribeTaken(StringBuilder message)
+    {
+        const int listedCount = 8;
+        message.Append(CultureInfo.InvariantCulture, $" {TakenCount} of {1UL << Power} bytes (ids");
+        var listed = 0;
+        for (int slot = 0; slot < usedSlotCount && listed < listedCount; ++slot)
+        {
+            if (IsTaken(slot))
+            {
+                message.Append(CultureInfo.InvariantCulture, $" {((Power - BufferPool.MinimumPower) << BufferPool.SlotBits) | slot}");
+                ++listed;
+            }
+        }
+        message.Append(TakenCount > listed ? " ...);" : ");");
+    }
+
+    /// <summary>Gives all memory back to the system, lent or not.</summary>
+    public void Clear()
+    {
+        for (int i = 0; i < allocationCount; ++i)
+            NativeMemory.AlignedFree((void*)allocations[i]);
+        Array.Clear(allocations);
+        Array.Clear(taken);
+        allocationCount = 0;
+        usedSlotCount = 0;
+        freeSlotCount = 0;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    int TakeUnused()
+    {
+        if (usedSlotCount == allocationCount << slotShift)
+            Allocate();
+        return usedSlotCount++;
+    }
+
+    void Allocate()
+    {
+        var slotCount = ((long)allocationCount + 1) << slotShift;
+        if (slotCount > 1 << BufferPool.SlotBits)
+            throw new InsufficientMemoryException($"A pool lends at most 2^{BufferPool.SlotBits} blocks of {1UL << Power} bytes.");
+        // Bookkeeping first: should the system refuse the memory, nothing has changed but spare room.
+        if (allocationCount == allocations.Length)
+            Array.Resize(ref allocations, allocations.Length * 2);
+        if (slotCount > freeSlots.Length)
+            Array.Resize(ref freeSlots, (int)BitOperations.RoundUpToPowerOf2((uint)slotCount));
+        if (slotCount > (long)taken.Length << 6)
+            Array.Resize(ref taken, (int)(BitOperations.RoundUpToPowerOf2((uint)slotCount) + 63) >> 6);
+        var byteCount = (nuint)1 << allocationPower;
+        var memory = (byte*)NativeMemory.AlignedAlloc(byteCount, BufferPool.Alignment);
+        Poison(memory, byteCount);
+        allocations[allocationCount++] = (nint)memory;
+    }
+
+    /// <summary>Fills memory that nobody may read with NaN and -1 in validating builds: who reads it all the same is found out.</summary>
+    [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
+    static void Poison(byte* memory, nuint byteCount) => NativeMemory.Fill(memory, byteCount, 0xff);
+}

@@ -1,0 +1,71 @@
+using System;
+using System.Runtime.CompilerServices;
+using System.Runtime.ExceptionServices;
+
+namespace BepuUtilities.TaskScheduling;
+
+/// <summary>Runs staged work on the workers of a dispatcher, in one dispatch for all stages. It allocates nothing.</summary>
+/// <remarks>
+/// Each stage's blocks are divided into as many sections as there are workers. A worker begins with its own section, the same part
+/// of every stage, so that it finds in its cache what it wrote in the stage before; then it takes what is left of the others'.
+/// Which worker does a block is up to chance, so blocks must not care.
+/// <para>
+/// The worker that ends the last block of a stage opens the next one. Nobody waits for a worker to arrive: a worker waits only for
+/// blocks that others have claimed, and those are running. So the work gets done by however many workers the dispatcher provides,
+/// at the same time or one after another, down to none at all, since the caller looks after the dispatch whether something is left.
+/// </para>
+/// </remarks>
+public static unsafe class StagedWork
+{
+    // More sections would only make the way around them longer; workers beyond that share sections.
+    const int MaximumSectionCount = 64;
+
+    /// <summary>Does all stages of a work and returns when they have ended.</summary>
+    /// <param name="work">The work; all workers use this very variable.</param>
+    /// <param name="dispatcher">Provides the workers; null to do everything on the caller.</param>
+    /// <param name="maximumWorkerCount">Most workers to use, at least one.</param>
+    /// <remarks>An exception from a block ends the work: blocks that run are ended, no others are begun, and the first one is thrown here.</remarks>
+    public static void Run<TWork>(ref TWork work, IThreadDispatcher? dispatcher, int maximumWorkerCount = int.MaxValue)
+        where TWork : struct, IStagedWork
+    {
+        ArgumentOutOfRangeException.ThrowIfNegativeOrZero(maximumWorkerCount);
+        var workerCount = dispatcher == null ? 1 : Math.Min(dispatcher.ThreadCount, maximumWorkerCount);
+        var stageCount = work.StageCount;
+        // Leading stages without anything to share stay on the caller, and often there are no others.
+        var stage = 0;
+        var blockCount = 0;
+        for (; stage < stageCount; ++stage)
+        {
+            blockCount = StagedRun<TWork>.GetBlockCount(ref work, stage);
+            if (workerCount > 1 && blockCount > 1)
+                break;
+            for (int block = 0; block < blockCount; ++block)
+                work.Execute(stage, block, 0);
+        }
+        if (stage < stageCount)
+            Dispatch(ref work, dispatcher!, workerCount, stage, stageCount, blockCount);
+    }
+
+    static void Dispatch<TWork>(ref TWork work, IThreadDispatcher dispatcher, int workerCount, int stage, int stageCount, int blockCount)
+        where TWork : struct, IStagedWork
+    {
+        var sectionCount = Math.Min(workerCount, MaximumSectionCount);
+        // One more than there are, to move the first to the start of a cache line.
+        var memory = stackalloc StagedSection[sectionCount + 1];
+        var sections = (StagedSection*)(((nuint)memory + StagedSection.Size - 1) / StagedSection.Size * StagedSection.Size);
+        // The work may be a field of an object, which the collector must not move while other threads hold its address.
+        fixed (byte* pinnedWork = &Unsafe.As<TWork, byte>(ref work))
+        {
+            var run = new StagedRun<TWork>(pinnedWork, sections, sectionCount, stageCount);
+            run.Open(stage, blockCount);
+            dispatcher.DispatchWorkers(&RunWorker<TWork>, workerCount, Unsafe.AsPointer(ref run));
+            // For a dispatcher that ran no worker; otherwise there is nothing left.
+            run.RunWorker(0);
+            if (run.Failure != null)
+                ExceptionDispatchInfo.Throw(run.Failure);
+        }
+    }
+
+    static void RunWorker<TWork>(int workerIndex, IThreadDispatcher dispatcher) where TWork : struct, IStagedWork =>
+        Unsafe.AsRef<StagedRun<TWork>>(dispatcher.UnmanagedContext).RunWorker(workerIndex);
+}
