@@ -1,1 +1,3 @@
-return 0;
+using Demos.Terminal;
+
+return DemosCommand.Run(args);

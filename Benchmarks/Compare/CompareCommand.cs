@@ -1,0 +1,125 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Globalization;
+using System.IO;
+
+namespace Benchmarks.Compare;
+
+/// <summary>
+/// Runs the same scenes with this engine and a peer, in turn, so that whatever else the machine does falls on both. Only the ratio
+/// within a pair of neighbouring runs is a result; milliseconds belong to the machine and the hour.
+/// </summary>
+static class CompareCommand
+{
+    /// <summary>Reads the arguments after the word compare, measures, and returns the exit status.</summary>
+    public static int Run(string[] arguments)
+    {
+        var peer = new Option<string>("--peer")
+        {
+            Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or a built scene program (.dll).",
+            Required = true,
+        };
+        var ours = new Option<string?>("--ours") { Description = "Scene program (.dll) to take for ours [default: Demos as built with this program]." };
+        var scenes = List("--scenes", "Built-in scenes or scene files.", "pyramids,great-pyramid,cloth-lattice");
+        var threads = List("--threads", "Thread counts.", "1,2");
+        var settings = List("--settings", "Iterations x substeps.", "1x4,8x1");
+        var lanes = List("--lanes", "Floats in a vector: 4, 8, 16; empty for the machine's own.", "");
+        var runs = new Option<int>("--runs") { Description = "Pairs of runs of each case.", DefaultValueFactory = _ => 5 };
+        var frames = new Option<int?>("--frames") { Description = "Steps of each run [default: as the scene says]." };
+        var warmup = new Option<int?>("--warmup") { Description = "First steps that are not measured." };
+        var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
+        var root = new RootCommand("Compares this engine with a peer, scene by scene.");
+        Option[] options = [peer, ours, scenes, threads, settings, lanes, runs, frames, warmup, csv];
+        foreach (Option option in options)
+            root.Options.Add(option);
+        root.SetAction(parsed =>
+        {
+            try
+            {
+                List<CompareCase> cases = Plan(parsed.GetRequiredValue(scenes), parsed.GetRequiredValue(threads),
+                    parsed.GetRequiredValue(settings), parsed.GetRequiredValue(lanes));
+                if (parsed.GetValue(runs) < 1)
+                    throw new CompareException("--runs has to be at least 1");
+                var ourProgram = new SceneProgram(parsed.GetValue(ours) ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"));
+                string peerPath = parsed.GetRequiredValue(peer);
+                SceneProgram peerProgram = peerPath.EndsWith(".dll", StringComparison.OrdinalIgnoreCase)
+                    ? new SceneProgram(peerPath)
+                    : SceneProgram.BuildPeer(peerPath);
+                List<CompareOutcome> outcomes = Measure(cases, ourProgram, peerProgram, parsed.GetValue(runs),
+                    parsed.GetValue(frames), parsed.GetValue(warmup));
+                if (parsed.GetValue(csv) is string path)
+                    CompareReport.WriteCsv(path, outcomes);
+                return 0;
+            }
+            catch (Exception error) when (error is CompareException or IOException or UnauthorizedAccessException)
+            {
+                Console.Error.WriteLine($"error: {error.Message}");
+                return 1;
+            }
+        });
+        return root.Parse(arguments).Invoke();
+    }
+
+    static List<CompareOutcome> Measure(List<CompareCase> cases, SceneProgram ours, SceneProgram peer, int runs, int? frames, int? warmup)
+    {
+        var outcomes = new List<CompareOutcome>();
+        CompareReport.WriteHead(Console.Out);
+        foreach (CompareCase subject in cases)
+        {
+            List<string> arguments = subject.Arguments(frames, warmup);
+            var pairs = new List<(RunFigures, RunFigures)>();
+            while (pairs.Count < runs)
+            {
+                RunFigures figures = ours.Run(arguments, subject.Lanes);
+                // The runtime takes fewer lanes when the machine has no more; such a row would pass for a measurement of what was asked.
+                if (subject.Lanes is int asked && figures.Lanes != asked)
+                {
+                    CompareReport.WriteSkipped(Console.Out, subject, figures);
+                    break;
+                }
+                pairs.Add((figures, peer.Run(arguments, subject.Lanes)));
+            }
+            if (pairs.Count < runs)
+                continue;
+            var outcome = new CompareOutcome(subject, pairs);
+            outcomes.Add(outcome);
+            CompareReport.Write(Console.Out, outcome);
+        }
+        return outcomes;
+    }
+
+    static List<CompareCase> Plan(string scenes, string threads, string settings, string lanes)
+    {
+        var cases = new List<CompareCase>();
+        foreach (string scene in Split(scenes))
+        {
+            foreach (string setting in Split(settings))
+            {
+                string[] parts = setting.Split('x');
+                if (parts.Length != 2)
+                    throw new CompareException($"'{setting}' in --settings is not ITERATIONSxSUBSTEPS");
+                (int iterations, int substeps) = (Number(parts[0], "--settings"), Number(parts[1], "--settings"));
+                foreach (string thread in Split(threads))
+                {
+                    int threadCount = Number(thread, "--threads");
+                    if (lanes.Length == 0)
+                        cases.Add(new CompareCase(scene, iterations, substeps, threadCount, null));
+                    foreach (string lane in Split(lanes))
+                        cases.Add(new CompareCase(scene, iterations, substeps, threadCount, Number(lane, "--lanes")));
+                }
+            }
+        }
+        return cases;
+    }
+
+    static string[] Split(string list) => list.Split(',', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
+
+    static int Number(string text, string option) =>
+        int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out int value) && value > 0
+            ? value
+            : throw new CompareException($"'{text}' in {option} is not a whole number above zero");
+
+    static Option<string> List(string name, string description, string defaultValue) =>
+        new(name) { Description = $"{description} Separated by commas.", DefaultValueFactory = _ => defaultValue };
+}

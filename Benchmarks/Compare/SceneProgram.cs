@@ -1,0 +1,84 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+
+namespace Benchmarks.Compare;
+
+/// <summary>A program that runs scenes and writes their figures; each run is a process of its own.</summary>
+sealed class SceneProgram(string assemblyPath)
+{
+    /// <summary>Exit status of a run whose bodies did not all stay where bodies can be: slow or fast, it has to be told.</summary>
+    const int UnsoundStatus = 2;
+
+    /// <summary>Runs one case and reads its figures.</summary>
+    /// <param name="arguments">Arguments of the run.</param>
+    /// <param name="lanes">Widest vectors that the runtime may use, in floats; null for its own choice.</param>
+    public RunFigures Run(IEnumerable<string> arguments, int? lanes)
+    {
+        string path = Path.GetTempFileName();
+        try
+        {
+            var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
+            start.ArgumentList.Add(assemblyPath);
+            foreach (string argument in arguments)
+                start.ArgumentList.Add(argument);
+            start.ArgumentList.Add("--json");
+            start.ArgumentList.Add(path);
+            if (lanes is int count)
+                start.Environment["DOTNET_MaxVectorTBitWidth"] = FormattableString.Invariant($"{32 * count}");
+            int status = Execute(start, out string messages);
+            if (status == UnsoundStatus)
+                Console.Error.WriteLine($"warning: {assemblyPath} lost bodies in {string.Join(' ', arguments)}");
+            else if (status != 0)
+                throw new CompareException($"{assemblyPath} ended with status {status}: {messages.Trim()}");
+            return RunFigures.Read(path);
+        }
+        finally
+        {
+            File.Delete(path);
+        }
+    }
+
+    /// <summary>Builds the peer program against the engine of a folder.</summary>
+    /// <param name="peerFolder">Holds the peer's two assemblies.</param>
+    public static SceneProgram BuildPeer(string peerFolder)
+    {
+        if (!File.Exists(Path.Combine(peerFolder, "BepuPhysics.dll")))
+            throw new CompareException($"there is no BepuPhysics.dll in the folder '{peerFolder}' of --peer");
+        string root = FindRoot();
+        string output = Path.Combine(root, "artifacts", "bin", "Peer", "release");
+        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
+        string[] arguments =
+            ["build", Path.Combine(root, "Benchmarks", "Peer"), "-c", "Release", $"-p:PeerFolder={Path.GetFullPath(peerFolder)}"];
+        foreach (string argument in arguments)
+            start.ArgumentList.Add(argument);
+        if (Execute(start, out string messages) != 0)
+            throw new CompareException($"the peer program does not build:\n{messages.Trim()}");
+        return new SceneProgram(Path.Combine(output, "Peer.dll"));
+    }
+
+    /// <summary>Runs a process to its end. What it writes is read as it comes: a full pipe would stop it.</summary>
+    static int Execute(ProcessStartInfo start, out string messages)
+    {
+        using Process process = Process.Start(start) ?? throw new CompareException($"cannot start {start.FileName}");
+        var errors = process.StandardError.ReadToEndAsync();
+        string output = process.StandardOutput.ReadToEnd();
+        process.WaitForExit();
+        string errorText = errors.GetAwaiter().GetResult();
+        messages = errorText.Length > 0 ? errorText : output;
+        if (process.ExitCode == 0 && errorText.Length > 0)
+            Console.Error.Write(errorText);
+        return process.ExitCode;
+    }
+
+    static string FindRoot()
+    {
+        for (DirectoryInfo? folder = new(AppContext.BaseDirectory); folder is not null; folder = folder.Parent)
+        {
+            if (File.Exists(Path.Combine(folder.FullName, "Physics.sln")))
+                return folder.FullName;
+        }
+        throw new CompareException("this program does not lie below the folder of Physics.sln, so the peer's source cannot be found");
+    }
+}

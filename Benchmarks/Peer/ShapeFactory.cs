@@ -1,0 +1,124 @@
+using System;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
+using Demos.Running;
+using Demos.Scenes;
+
+namespace Demos.Engine;
+
+/// <summary>Makes the engine's shapes out of the scene's: all of them.</summary>
+sealed class ShapeFactory(Simulation simulation)
+{
+    /// <summary>From this many children on a tree pays.</summary>
+    const int BigCompoundChildCount = 16;
+
+    readonly BufferPool pool = simulation.BufferPool;
+    readonly Shapes shapes = simulation.Shapes;
+
+    public static bool SupportsCompounds => true;
+
+    public static bool Supports(SceneShapeKind kind) => Enum.IsDefined(kind);
+
+    /// <summary>Adds a shape.</summary>
+    /// <param name="shape">The scene's shape.</param>
+    /// <param name="solid">Whether a body of this shape has mass; matters to a mesh, which then is taken as closed.</param>
+    public BuiltShape Build(SceneShape shape, bool solid)
+    {
+        (float x, float y, float z) = (shape.Size.X, shape.Size.Y, shape.Size.Z);
+        switch (shape.Kind)
+        {
+            case SceneShapeKind.Box:
+                return Convex(new Box(2 * x, 2 * y, 2 * z), default, 8.0 * x * y * z);
+            case SceneShapeKind.Sphere:
+                return Convex(new Sphere(x), default, 4 / 3.0 * Math.PI * x * x * x);
+            case SceneShapeKind.Capsule:
+                return Convex(new Capsule(x, 2 * y), default, Math.PI * x * x * (4 / 3.0 * x + 2.0 * y));
+            case SceneShapeKind.Cylinder:
+                return Convex(new Cylinder(x, 2 * y), default, 2 * Math.PI * x * x * y);
+            case SceneShapeKind.Hull:
+                return Hull(shape);
+            default:
+                return Mesh(shape, solid);
+        }
+    }
+
+    /// <summary>Adds a shape made of others.</summary>
+    /// <param name="children">The parts and where they are in the body's frame.</param>
+    /// <param name="solid">Whether the body has mass: then the centre of mass becomes the shape's origin.</param>
+    public BuiltShape BuildCompound(ReadOnlySpan<(BuiltShape Shape, SceneChild Child)> children, bool solid)
+    {
+        double volume = 0;
+        foreach ((BuiltShape shape, SceneChild _) in children)
+            volume += shape.Volume;
+        using var builder = new CompoundBuilder(pool, shapes, children.Length);
+        foreach ((BuiltShape shape, SceneChild child) in children)
+        {
+            var pose = new RigidPose(child.Position + SceneMath.Rotate(shape.Center, child.Orientation), child.Orientation);
+            builder.Add(shape.Index, pose, shape.Inertia((float)(shape.Volume / volume)));
+        }
+        Buffer<CompoundChild> parts;
+        Vector3 center = default;
+        BodyInertia unitInertia = default;
+        if (solid)
+            builder.BuildDynamicCompound(out parts, out unitInertia, out center);
+        else
+            builder.BuildKinematicCompound(out parts);
+        TypedIndex index = parts.Length >= BigCompoundChildCount
+            ? shapes.Add(new BigCompound(parts, shapes, pool))
+            : shapes.Add(new Compound(parts));
+        return new BuiltShape(index, center, volume, mass => new BodyInertia
+        {
+            InverseMass = unitInertia.InverseMass / mass,
+            InverseInertiaTensor = unitInertia.InverseInertiaTensor * (1 / mass),
+        });
+    }
+
+    BuiltShape Convex<TShape>(TShape shape, Vector3 center, double volume) where TShape : unmanaged, IConvexShape =>
+        new(shapes.Add(shape), center, volume, shape.ComputeInertia);
+
+    BuiltShape Hull(SceneShape shape)
+    {
+        if (!ConvexHullHelper.CreateShape(shape.Points, pool, out Vector3 center, out ConvexHull hull))
+            throw new SceneException(shape.Line, shape.Word, "the points of the hull enclose no volume");
+        return Convex(hull, center, HullVolume(hull));
+    }
+
+    static double HullVolume(in ConvexHull hull)
+    {
+        double volume = 0;
+        for (int face = 0; face < hull.FaceToVertexIndicesStart.Length; ++face)
+        {
+            hull.GetVertexIndicesForFace(face, out Buffer<HullVertexIndex> vertices);
+            hull.GetPoint(vertices[0], out Vector3 first);
+            for (int i = 2; i < vertices.Length; ++i)
+            {
+                hull.GetPoint(vertices[i - 1], out Vector3 second);
+                hull.GetPoint(vertices[i], out Vector3 third);
+                volume += Math.Abs(Vector3.Dot(first, Vector3.Cross(second, third))) / 6.0;
+            }
+        }
+        return volume;
+    }
+
+    BuiltShape Mesh(SceneShape shape, bool solid)
+    {
+        int count = shape.Indices.Length / 3;
+        pool.Take(count, out Buffer<Triangle> triangles);
+        for (int i = 0; i < count; ++i)
+        {
+            // The engine sees the side from which a triangle is clockwise.
+            ReadOnlySpan<int> corners = shape.Indices.AsSpan(3 * i, 3);
+            triangles[i] = new Triangle(shape.Points[corners[0]], shape.Points[corners[2]], shape.Points[corners[1]]);
+        }
+        var mesh = new Mesh(triangles, Vector3.One, pool);
+        Vector3 center = default;
+        if (solid)
+        {
+            center = mesh.ComputeClosedCenterOfMass();
+            mesh.Recenter(center);
+        }
+        return new BuiltShape(shapes.Add(mesh), center, 0, mesh.ComputeClosedInertia);
+    }
+}

@@ -1,0 +1,117 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics;
+
+/// <summary>A body, for reading and changing it. Cheap to make; its refs are valid until bodies are added or removed.</summary>
+/// <remarks>Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does.</remarks>
+public struct BodyReference(BodyHandle handle, Bodies bodies)
+{
+    /// <summary>Handle of the body.</summary>
+    public BodyHandle Handle = handle;
+    /// <summary>The bodies among which it is.</summary>
+    public Bodies Bodies = bodies;
+
+    /// <summary>Whether there still is such a body.</summary>
+    public readonly bool Exists => Bodies is not null && Bodies.BodyExists(Handle);
+    /// <summary>Where the body is stored.</summary>
+    public readonly ref BodyMemoryLocation MemoryLocation => ref Bodies.HandleToLocation[Handle.Value];
+    /// <summary>Whether the body is simulated.</summary>
+    public readonly bool Awake => MemoryLocation.SetIndex == 0;
+    /// <summary>Pose and velocity.</summary>
+    public readonly ref MotionState MotionState => ref Set.MotionStates[MemoryLocation.Index];
+    /// <summary>Where the body is.</summary>
+    public readonly ref RigidPose Pose => ref MotionState.Pose;
+    /// <summary>How the body moves.</summary>
+    public readonly ref BodyVelocity Velocity => ref MotionState.Velocity;
+    /// <summary>Inverse mass and inertia in the body's frame. To make the body kinematic or dynamic, use <see cref="SetLocalInertia"/>.</summary>
+    public readonly ref BodyInertia LocalInertia => ref Set.LocalInertias[MemoryLocation.Index];
+    /// <summary>Shape and collision state.</summary>
+    public readonly ref Collidable Collidable => ref Set.Collidables[MemoryLocation.Index];
+    /// <summary>Progress towards sleep.</summary>
+    public readonly ref BodyActivity Activity => ref Set.Activity[MemoryLocation.Index];
+    /// <summary>Constraints of the body.</summary>
+    public readonly ref QuickList<BodyConstraintReference> Constraints => ref Set.Constraints[MemoryLocation.Index];
+    /// <summary>The body as the collision detection names it.</summary>
+    public readonly CollidableReference CollidableReference => new(Kinematic ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, Handle);
+    /// <summary>Whether nothing moves the body.</summary>
+    public readonly bool Kinematic => Bodies.IsKinematic(LocalInertia);
+    /// <summary>Whether nothing turns the body.</summary>
+    public readonly bool HasLockedInertia => Bodies.HasLockedInertia(LocalInertia.InverseInertiaTensor);
+    /// <summary>Bounds of the body in the broad phase; those of the last step include its motion.</summary>
+    public readonly unsafe BoundingBox BoundingBox
+    {
+        get
+        {
+            GetBoundsReferencesFromBroadPhase(out var min, out var max);
+            return new(*min, *max);
+        }
+    }
+
+    readonly ref BodySet Set => ref Bodies.Sets[MemoryLocation.SetIndex];
+
+    /// <summary>Makes the body kinematic: it keeps its velocity and nothing pushes it.</summary>
+    public readonly void BecomeKinematic() => SetLocalInertia(default);
+    /// <summary>Gives the body another inertia.</summary>
+    public readonly void SetLocalInertia(in BodyInertia localInertia) => Bodies.SetLocalInertia(Handle, localInertia);
+    /// <summary>Gives the body another shape.</summary>
+    public readonly void SetShape(TypedIndex shape) => Bodies.SetShape(Handle, shape);
+    /// <summary>Describes the body as it is now.</summary>
+    public readonly void GetDescription(out BodyDescription description) => Bodies.GetDescription(Handle, out description);
+    /// <summary>Makes the body what a description says.</summary>
+    public readonly void ApplyDescription(in BodyDescription description) => Bodies.ApplyDescription(Handle, description);
+    /// <summary>Moves the bounds of the body in the broad phase to where its pose says.</summary>
+    public readonly void UpdateBounds() => Bodies.UpdateBounds(Handle);
+    /// <summary>Pointers to the bounds of the body in the broad phase; valid until collidables are added or removed.</summary>
+    public readonly unsafe void GetBoundsReferencesFromBroadPhase(out Vector3* min, out Vector3* max) =>
+        Bodies.GetBoundsPointers(MemoryLocation.Index, out min, out max);
+
+    /// <summary>Inverse inertia tensor in world axes.</summary>
+    public readonly void ComputeInverseInertia(out Symmetric3x3 inverseInertia) =>
+        inverseInertia = Symmetric3x3.RotateInverseInertia(LocalInertia.InverseInertiaTensor, Pose.Orientation);
+
+    /// <summary>Velocity of a point that moves with the body.</summary>
+    /// <param name="offset">From the centre of mass, world axes.</param>
+    /// <param name="velocity">Velocity of the point.</param>
+    public readonly void GetVelocityForOffset(Vector3 offset, out Vector3 velocity) =>
+        velocity = Velocity.Linear + Exact.Cross(Velocity.Angular, offset);
+
+    /// <summary>Applies an impulse at a point.</summary>
+    /// <param name="impulse">N s, world axes.</param>
+    /// <param name="impulseOffset">From the centre of mass, world axes.</param>
+    /// <exception cref="System.ArgumentException">A value is not finite; nothing was changed.</exception>
+    public readonly void ApplyImpulse(Vector3 impulse, Vector3 impulseOffset)
+    {
+        BodyChecks.Vector(impulse, nameof(impulse));
+        BodyChecks.Vector(impulseOffset, nameof(impulseOffset));
+        Velocity.Linear += impulse * LocalInertia.InverseMass;
+        Turn(Exact.Cross(impulseOffset, impulse));
+    }
+
+    /// <summary>Applies an impulse at the centre of mass, N s.</summary>
+    /// <exception cref="System.ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    public readonly void ApplyLinearImpulse(Vector3 impulse)
+    {
+        BodyChecks.Vector(impulse, nameof(impulse));
+        Velocity.Linear += impulse * LocalInertia.InverseMass;
+    }
+
+    /// <summary>Applies an angular impulse, N m s.</summary>
+    /// <exception cref="System.ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
+    {
+        BodyChecks.Vector(angularImpulse, nameof(angularImpulse));
+        Turn(angularImpulse);
+    }
+
+    readonly void Turn(Vector3 angularImpulse)
+    {
+        ComputeInverseInertia(out var inverseInertia);
+        Velocity.Angular += inverseInertia * angularImpulse;
+    }
+
+    /// <summary>Handle of the body.</summary>
+    public static implicit operator BodyHandle(BodyReference reference) => reference.Handle;
+}

@@ -1,0 +1,120 @@
+using System.Numerics;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Where a body is stored.</summary>
+public struct BodyMemoryLocation
+{
+    /// <summary>Set of the body: 0 is the active one; -1 says that there is no such body.</summary>
+    public int SetIndex;
+    /// <summary>Index within the set.</summary>
+    public int Index;
+}
+
+/// <summary>A constraint as its body knows it.</summary>
+public struct BodyConstraintReference
+{
+    /// <summary>The constraint.</summary>
+    public ConstraintHandle ConnectingConstraintHandle;
+    /// <summary>Which of the constraint's bodies this one is.</summary>
+    public int BodyIndexInConstraint;
+}
+
+/// <summary>Bodies that are stored together, each property in an array of its own.</summary>
+/// <remarks>
+/// Bodies stay scalar structs, since constraints gather them in any order. What the solver touches is kept in rows of 32 bytes,
+/// and what it does not touch (the local inertia) is kept apart, so that no cache line carries dead weight through it.
+/// Capacities are whole bundles and rows behind the last body are zero, so passes over all bodies may read whole bundles.
+/// </remarks>
+public struct BodySet
+{
+    /// <summary>Number of bodies.</summary>
+    public int Count;
+    /// <summary>Handle of each body.</summary>
+    public Buffer<BodyHandle> IndexToHandle;
+    /// <summary>Pose and velocity of each body.</summary>
+    public Buffer<MotionState> MotionStates;
+    /// <summary>Inverse inertia of each body in its own frame.</summary>
+    public Buffer<BodyInertia> LocalInertias;
+    /// <summary>Inverse inertia of each body in world axes; valid while the solver runs.</summary>
+    internal Buffer<BodyInertia> WorldInertias;
+    /// <summary>Translation and rotation of each body since collision detection; valid while the solver runs.</summary>
+    internal Buffer<BodyVelocity> Displacements;
+    /// <summary>Position of each body (w unused) when the step began, to which its whole translation is added once.</summary>
+    internal Buffer<Vector4> StartPositions;
+    /// <summary>Shape and collision settings of each body.</summary>
+    public Buffer<Collidable> Collidables;
+    /// <summary>Progress of each body towards sleep.</summary>
+    public Buffer<BodyActivity> Activity;
+    /// <summary>Constraints of each body.</summary>
+    public Buffer<QuickList<BodyConstraintReference>> Constraints;
+
+    internal readonly int Capacity => IndexToHandle.Length;
+
+    internal void Resize(int capacity, BufferPool pool)
+    {
+        capacity = (capacity + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
+        ResizeZeroed(ref IndexToHandle, capacity, Count, pool);
+        ResizeZeroed(ref MotionStates, capacity, Count, pool);
+        ResizeZeroed(ref LocalInertias, capacity, Count, pool);
+        ResizeZeroed(ref WorldInertias, capacity, Count, pool);
+        ResizeZeroed(ref Displacements, capacity, Count, pool);
+        ResizeZeroed(ref StartPositions, capacity, Count, pool);
+        ResizeZeroed(ref Collidables, capacity, Count, pool);
+        ResizeZeroed(ref Activity, capacity, Count, pool);
+        ResizeZeroed(ref Constraints, capacity, Count, pool);
+    }
+
+    static void ResizeZeroed<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged
+    {
+        pool.Take<T>(length, out var larger);
+        if (buffer.Allocated)
+        {
+            buffer.CopyTo(0, larger, 0, used);
+            pool.Return(ref buffer);
+        }
+        larger.Clear(used, length - used);
+        buffer = larger;
+    }
+
+    // Moves the last body into the place of a removed one.
+    internal void RemoveAt(int index)
+    {
+        var last = --Count;
+        if (index != last)
+        {
+            IndexToHandle[index] = IndexToHandle[last];
+            MotionStates[index] = MotionStates[last];
+            LocalInertias[index] = LocalInertias[last];
+            Collidables[index] = Collidables[last];
+            Activity[index] = Activity[last];
+            Constraints[index] = Constraints[last];
+        }
+        IndexToHandle[last] = default;
+        MotionStates[last] = default;
+        LocalInertias[last] = default;
+        WorldInertias[last] = default;
+        Displacements[last] = default;
+        Collidables[last] = default;
+        Activity[last] = default;
+        Constraints[last] = default;
+    }
+
+    internal void Dispose(BufferPool pool)
+    {
+        for (int i = 0; i < Count; ++i)
+            Constraints[i].Dispose(pool);
+        pool.Return(ref IndexToHandle);
+        pool.Return(ref MotionStates);
+        pool.Return(ref LocalInertias);
+        pool.Return(ref WorldInertias);
+        pool.Return(ref Displacements);
+        pool.Return(ref StartPositions);
+        pool.Return(ref Collidables);
+        pool.Return(ref Activity);
+        pool.Return(ref Constraints);
+        Count = 0;
+    }
+}

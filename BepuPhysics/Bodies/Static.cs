@@ -1,0 +1,83 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+/// <summary>A collidable that never moves by itself.</summary>
+public struct Static
+{
+    /// <summary>Where it is.</summary>
+    public RigidPose Pose;
+    /// <summary>Continuous detection of bodies against it.</summary>
+    public ContinuousDetection Continuity;
+    /// <summary>Its shape.</summary>
+    public TypedIndex Shape;
+    /// <summary>Index of its leaf in the broad phase.</summary>
+    public int BroadPhaseIndex;
+}
+
+/// <summary>Everything about a static when it is added.</summary>
+/// <param name="pose">Where it is.</param>
+/// <param name="shape">Its shape.</param>
+/// <param name="continuity">Continuous detection of bodies against it.</param>
+public struct StaticDescription(RigidPose pose, TypedIndex shape, ContinuousDetection continuity)
+{
+    /// <summary>Where it is.</summary>
+    public RigidPose Pose = pose;
+    /// <summary>Its shape.</summary>
+    public TypedIndex Shape = shape;
+    /// <summary>Continuous detection of bodies against it.</summary>
+    public ContinuousDetection Continuity = continuity;
+
+    /// <summary>With discrete detection.</summary>
+    public StaticDescription(RigidPose pose, TypedIndex shape) : this(pose, shape, ContinuousDetection.Discrete) { }
+    /// <summary>With position and orientation apart.</summary>
+    public StaticDescription(Vector3 position, Quaternion orientation, TypedIndex shape, ContinuousDetection continuity)
+        : this(new RigidPose(position, orientation), shape, continuity) { }
+    /// <summary>With position and orientation apart, and discrete detection.</summary>
+    public StaticDescription(Vector3 position, Quaternion orientation, TypedIndex shape)
+        : this(new RigidPose(position, orientation), shape, ContinuousDetection.Discrete) { }
+}
+
+/// <summary>A static, for reading and changing it. Cheap to make; its refs are valid until statics are added or removed.</summary>
+public struct StaticReference(StaticHandle handle, Statics statics)
+{
+    /// <summary>Handle of the static.</summary>
+    public StaticHandle Handle = handle;
+    /// <summary>The statics among which it is.</summary>
+    public Statics Statics = statics;
+
+    /// <summary>Whether there still is such a static.</summary>
+    public readonly bool Exists => Statics is not null && Statics.StaticExists(Handle);
+    /// <summary>Index of the static.</summary>
+    public readonly int Index => Statics.HandleToIndex[Handle.Value];
+    /// <summary>The static in place.</summary>
+    public readonly ref Static Static => ref Statics.GetDirectReference(Handle);
+    /// <summary>Where it is; call <see cref="UpdateBounds"/> after writing.</summary>
+    public readonly ref RigidPose Pose => ref Static.Pose;
+    /// <summary>Continuous detection of bodies against it.</summary>
+    public readonly ref ContinuousDetection Continuity => ref Static.Continuity;
+    /// <summary>Its shape.</summary>
+    public readonly TypedIndex Shape => Static.Shape;
+    /// <summary>The static as the collision detection names it.</summary>
+    public readonly CollidableReference CollidableReference => new(Handle);
+    /// <summary>Bounds of the static in the broad phase.</summary>
+    public readonly unsafe BoundingBox BoundingBox
+    {
+        get
+        {
+            Statics.GetBoundsPointers(Handle, out var min, out var max);
+            return new(*min, *max);
+        }
+    }
+
+    /// <summary>Gives the static another shape.</summary>
+    public readonly void SetShape(TypedIndex shape) => Statics.SetShape(Handle, shape);
+    /// <summary>Describes the static as it is now.</summary>
+    public readonly void GetDescription(out StaticDescription description) => Statics.GetDescription(Handle, out description);
+    /// <summary>Makes the static what a description says.</summary>
+    public readonly void ApplyDescription(in StaticDescription description) => Statics.ApplyDescription(Handle, description);
+    /// <summary>Moves the bounds of the static to where its pose says.</summary>
+    public readonly void UpdateBounds() => Statics.UpdateBounds(Handle);
+}

@@ -1,0 +1,226 @@
+using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The narrow phase, compiled for the callbacks of a game.</summary>
+sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : struct, INarrowPhaseCallbacks
+{
+    TCallbacks callbacks;
+    Worker[] workers = [];
+    QuickList<PairKey> order;
+
+    internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
+        : base(simulation, collisionTaskRegistry, initialPairCapacity) => this.callbacks = callbacks;
+
+    // What a worker has found; its memory is its own.
+    struct Worker
+    {
+        public CollisionBatcher<Completion> Batcher;
+        public QuickList<CollidablePair> TestedPairs;
+        public QuickList<PendingPair> Pending;
+        public BufferPool Pool;
+    }
+
+    // A pair whose contacts need a constraint that it does not have.
+    struct PendingPair
+    {
+        public CollidablePair Pair;
+        public ConvexContactManifold Manifold;
+        public PairMaterialProperties Material;
+    }
+
+    // Where a pending pair is, with the key by which all are put in order.
+    struct PairKey
+    {
+        public ulong Key;
+        public int Worker;
+        public int Index;
+    }
+
+    struct ByKey : IComparerRef<PairKey>
+    {
+        public readonly int Compare(ref PairKey a, ref PairKey b) => a.Key.CompareTo(b.Key);
+    }
+
+    // Receives the manifolds of one worker's batcher.
+    readonly struct Completion(NarrowPhase<TCallbacks> narrowPhase, int workerIndex) : ICollisionCallbacks
+    {
+        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
+            narrowPhase.OnPairCompleted(workerIndex, pairId, ref manifold);
+
+        void ICollisionCallbacks.OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
+
+        bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) => true;
+    }
+
+    // Receives overlapping pairs of the broad phase.
+    readonly struct Overlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase) : IBroadPhaseOverlapHandler
+    {
+        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic) => narrowPhase.TestPair(
+            workerIndex, broadPhase.ActiveLeaves[leafA], bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB]);
+    }
+
+    internal override void Initialize() => callbacks.Initialize(Simulation);
+
+    internal override void DisposeCallbacks() => callbacks.Dispose();
+
+    internal override void FindContacts(float dt, IThreadDispatcher? dispatcher)
+    {
+        Pairs.BeginStep();
+        var count = dispatcher?.ThreadCount ?? 1;
+        if (workers.Length < count)
+            Array.Resize(ref workers, count);
+        for (int i = 0; i < count; ++i)
+        {
+            ref var worker = ref workers[i];
+            worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
+            worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i));
+            worker.TestedPairs = new QuickList<CollidablePair>(256, worker.Pool);
+            worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
+        }
+        var handler = new Overlaps(this, Simulation.BroadPhase);
+        Simulation.BroadPhase.FindOverlaps(ref handler, dispatcher);
+        var flush = new FlushWork { NarrowPhase = this, WorkerCount = count };
+        StagedWork.Run(ref flush, dispatcher);
+    }
+
+    // Tests what is left in the batchers of all workers.
+    struct FlushWork : IStagedWork
+    {
+        public NarrowPhase<TCallbacks> NarrowPhase;
+        public int WorkerCount;
+
+        public readonly int StageCount => 1;
+        public readonly int GetBlockCount(int stage) => WorkerCount;
+        // A batcher may be emptied by another worker than filled it: one batcher is one block, so no two touch it at once.
+        public readonly void Execute(int stage, int block, int workerIndex) => NarrowPhase.workers[block].Batcher.Flush();
+    }
+
+    void TestPair(int workerIndex, CollidableReference a, CollidableReference b)
+    {
+        // Statics come second, then kinematics, then the larger handle: the constraint of a pair has its bodies in one order for ever.
+        if (a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.RawHandleValue > b.RawHandleValue))
+            (a, b) = (b, a);
+        if (a.Mobility != CollidableMobility.Dynamic)
+            return;
+        ref var set = ref Simulation.Bodies.ActiveSet;
+        var handleToLocation = Simulation.Bodies.HandleToLocation;
+        var indexA = handleToLocation[a.RawHandleValue].Index;
+        ref var collidableA = ref set.Collidables[indexA];
+        ref var poseA = ref set.MotionStates[indexA].Pose;
+        var margin = collidableA.SpeculativeMargin;
+        TypedIndex shapeB;
+        ref var poseB = ref Unsafe.NullRef<RigidPose>();
+        if (b.Mobility == CollidableMobility.Static)
+        {
+            ref var other = ref Simulation.Statics[Simulation.Statics.HandleToIndex[b.RawHandleValue]];
+            shapeB = other.Shape;
+            poseB = ref other.Pose;
+        }
+        else
+        {
+            var indexB = handleToLocation[b.RawHandleValue].Index;
+            shapeB = set.Collidables[indexB].Shape;
+            margin += set.Collidables[indexB].SpeculativeMargin;
+            poseB = ref set.MotionStates[indexB].Pose;
+        }
+        if (!callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
+            return;
+        ref var worker = ref workers[workerIndex];
+        var pairId = worker.TestedPairs.Count;
+        worker.TestedPairs.Add(new(a, b), worker.Pool);
+        worker.Batcher.Add(
+            collidableA.Shape.Type, collidableA.Shape.Index, shapeB.Type, shapeB.Index,
+            poseB.Position - poseA.Position, poseA.Orientation, poseB.Orientation, margin, pairId);
+    }
+
+    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        ref var worker = ref workers[workerIndex];
+        var pair = worker.TestedPairs[pairId];
+        if (!callbacks.ConfigureContactManifold(workerIndex, pair, ref manifold, out var material) || manifold.Count == 0)
+            return;
+        if (typeof(TManifold) != typeof(ConvexContactManifold))
+            throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint yet.");
+        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
+        var typeId = ConstraintTypeIds.ConvexContact(convex.Count, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
+        var index = Pairs.Pairs.IndexOf(pair);
+        if (index >= 0)
+        {
+            Pairs.MarkSeen(index);
+            ref var cached = ref Pairs.Pairs.Values[index];
+            if (cached.ConstraintTypeId == typeId)
+            {
+                var target = new ContactConstraint(Simulation.Solver, cached.Constraint, convex.Count);
+                target.ReadImpulses(cached.Features, out var impulses);
+                target.Write(convex, material);
+                target.WriteImpulses(impulses, convex, ref cached.Features);
+                return;
+            }
+        }
+        worker.Pending.Add(new() { Pair = pair, Manifold = convex, Material = material }, worker.Pool);
+    }
+
+    internal override void Flush()
+    {
+        RemoveUnseenPairs();
+        order = new QuickList<PairKey>(64, Pool);
+        for (int i = 0; i < workers.Length; ++i)
+        {
+            ref var pending = ref workers[i].Pending;
+            for (int j = 0; j < pending.Count; ++j)
+                order.Add(new() { Key = (ulong)pending[j].Pair.A.Packed << 32 | pending[j].Pair.B.Packed, Worker = i, Index = j }, Pool);
+        }
+        var comparer = new ByKey();
+        QuickSort.Sort(order.Span, order.Count, ref comparer);
+        for (int i = 0; i < order.Count; ++i)
+            Apply(workers[order[i].Worker].Pending[order[i].Index]);
+        order.Dispose(Pool);
+        for (int i = 0; i < workers.Length; ++i)
+            Release(ref workers[i]);
+    }
+
+    void Apply(in PendingPair pending)
+    {
+        ContactImpulses impulses = default;
+        var solver = Simulation.Solver;
+        var contactCount = pending.Manifold.Count;
+        var typeId = ConstraintTypeIds.ConvexContact(contactCount, pending.Pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
+        var index = Pairs.Pairs.IndexOf(pending.Pair);
+        if (index >= 0)
+        {
+            ref var old = ref Pairs.Pairs.Values[index];
+            new ContactConstraint(solver, old.Constraint, old.ConstraintTypeId % 4 + 1).ReadImpulses(old.Features, out impulses);
+            solver.RemoveWithoutNotice(old.Constraint);
+        }
+        var handle = AddConstraint(pending.Pair, typeId);
+        if (index < 0)
+        {
+            index = Pairs.Pairs.Count;
+            Pairs.Add(pending.Pair, default, Pool);
+        }
+        ref var cached = ref Pairs.Pairs.Values[index];
+        cached.Constraint = handle;
+        cached.ConstraintTypeId = typeId;
+        var target = new ContactConstraint(solver, handle, contactCount);
+        target.Write(pending.Manifold, pending.Material);
+        target.WriteImpulses(impulses, pending.Manifold, ref cached.Features);
+    }
+
+    static void Release(ref Worker worker)
+    {
+        if (worker.Pool is null)
+            return;
+        worker.Batcher.Dispose();
+        worker.TestedPairs.Dispose(worker.Pool);
+        worker.Pending.Dispose(worker.Pool);
+        worker = default;
+    }
+}

@@ -1,0 +1,77 @@
+using System;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Turns pairs of overlapping bounds into contacts, and contacts into constraints.</summary>
+// Pairs come from the broad phase on many threads, in any order. A pair whose constraint keeps its type is written in place by whichever
+// worker finds it: that is most pairs of a scene at rest, and the order does not matter. All other changes (new pairs, pairs whose number
+// of contacts changed, pairs that parted) are noted, sorted by the handles of the pair, and made on one thread after the workers have
+// ended, so that handles, batches and with them every bit of the result do not depend on threads.
+public abstract class NarrowPhase
+{
+    private protected readonly Simulation Simulation;
+    private protected readonly BufferPool Pool;
+    private protected PairCache Pairs;
+    Buffer<CollidablePair> pairOfConstraint;
+
+    /// <summary>Tests of shape pairs.</summary>
+    public CollisionTaskRegistry CollisionTaskRegistry { get; }
+
+    private protected NarrowPhase(Simulation simulation, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
+    {
+        Simulation = simulation;
+        Pool = simulation.BufferPool;
+        CollisionTaskRegistry = collisionTaskRegistry;
+        Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
+    }
+
+    /// <summary>Number of pairs that have contacts.</summary>
+    public int PairCount => Pairs.Pairs.Count;
+
+    internal abstract void Initialize();
+    internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
+    internal abstract void Flush();
+    internal abstract void DisposeCallbacks();
+
+    internal void Clear() => Pairs.Clear();
+
+    internal void Dispose()
+    {
+        DisposeCallbacks();
+        Pairs.Dispose(Pool);
+        if (pairOfConstraint.Allocated)
+            Pool.Return(ref pairOfConstraint);
+    }
+
+    /// <summary>Removes the constraint of every pair that was not seen in this step.</summary>
+    private protected void RemoveUnseenPairs()
+    {
+        for (int i = Pairs.FindUnseen(Pairs.Pairs.Count); i >= 0; i = Pairs.FindUnseen(i))
+        {
+            Simulation.Solver.RemoveWithoutNotice(Pairs.Pairs.Values[i].Constraint);
+            Pairs.RemoveAt(i);
+        }
+    }
+
+    /// <summary>Adds the constraint of a pair.</summary>
+    private protected ConstraintHandle AddConstraint(in CollidablePair pair, int typeId)
+    {
+        Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
+        var handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
+        if (handle.Value >= pairOfConstraint.Length)
+            Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Value * 2), pairOfConstraint.Length);
+        pairOfConstraint[handle.Value] = pair;
+        return handle;
+    }
+
+    /// <summary>Forgets the pair of a contact constraint that is removed from outside, as with one of its bodies.</summary>
+    internal void Forget(ConstraintHandle handle)
+    {
+        var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Value]);
+        if (index >= 0 && Pairs.Pairs.Values[index].Constraint == handle)
+            Pairs.RemoveAt(index);
+    }
+}

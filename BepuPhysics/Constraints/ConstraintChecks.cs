@@ -1,0 +1,67 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>Checks of the values in constraint descriptions.</summary>
+static class ConstraintChecks
+{
+    /// <summary>Longest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
+    // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find a vector never normalised.
+    const float UnitTolerance = 1e-2f;
+
+    internal static void Finite(Vector3 value, string name)
+    {
+        if (!float.IsFinite(value.X) || !float.IsFinite(value.Y) || !float.IsFinite(value.Z))
+            throw new ArgumentException($"{name} must be finite, not {value}.", name);
+    }
+
+    internal static void Finite(float value, string name)
+    {
+        if (!float.IsFinite(value))
+            throw new ArgumentException($"{name} must be finite, not {value}.", name);
+    }
+
+    internal static void NotNegative(float value, string name)
+    {
+        if (!(value >= 0))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must not be negative or NaN.");
+    }
+
+    internal static void Unit(Vector3 value, string name)
+    {
+        Finite(value, name);
+        if (MathF.Abs(Exact.LengthSquared(value) - 1) > UnitTolerance)
+            throw new ArgumentException($"{name} must have unit length, not {value}.", name);
+    }
+
+    internal static void Unit(Quaternion value, string name)
+    {
+        var lengthSquared = value.X * value.X + value.Y * value.Y + value.Z * value.Z + value.W * value.W;
+        if (!(MathF.Abs(lengthSquared - 1) <= UnitTolerance))
+            throw new ArgumentException($"{name} must have unit length, not {value}.", name);
+    }
+
+    internal static void Spring(in SpringSettings value, string name)
+    {
+        if (!SpringSettings.Validate(value))
+            throw new ArgumentException(
+                $"{name} must be finite and not negative, not an angular frequency of {value.AngularFrequency} and twice a damping ratio of {value.TwiceDampingRatio}.", name);
+    }
+
+    internal static void Servo(in ServoSettings value, string name)
+    {
+        if (!ServoSettings.Validate(value))
+            throw new ArgumentException(
+                $"{name} must not be negative or NaN, not maximum speed {value.MaximumSpeed}, base speed {value.BaseSpeed}, maximum force {value.MaximumForce}.", name);
+    }
+
+    internal static void Order(float minimum, float maximum, string minimumName, string maximumName)
+    {
+        Finite(minimum, minimumName);
+        Finite(maximum, maximumName);
+        if (minimum > maximum)
+            throw new ArgumentException($"{minimumName} ({minimum}) must not be above {maximumName} ({maximum}).", minimumName);
+    }
+}

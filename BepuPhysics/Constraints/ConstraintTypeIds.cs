@@ -1,0 +1,23 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>Ids of the constraint types of the library. Contacts come first, so that they can be told from joints by their id.</summary>
+public static class ConstraintTypeIds
+{
+    /// <summary>Ids below this one are contacts.</summary>
+    public const int ContactTypeCount = 22;
+
+    internal const int ContactOneBody = 0;
+    internal const int ContactTwoBody = 4;
+    internal const int BallSocket = 22;
+    internal const int SwingLimit = 25;
+    internal const int TwistLimit = 27;
+    internal const int Weld = 31;
+    internal const int DistanceLimit = 34;
+    internal const int OneBodyLinearServo = 44;
+    internal const int Hinge = 47;
+
+    /// <summary>Type id of a convex contact constraint.</summary>
+    /// <param name="contactCount">Number of contacts, 1 to 4.</param>
+    /// <param name="bodyCount">Number of bodies, 1 or 2.</param>
+    internal static int ConvexContact(int contactCount, int bodyCount) => (bodyCount - 1) * 4 + contactCount - 1;
+}

@@ -1,0 +1,66 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>One contact of a bundle of manifolds.</summary>
+public struct ContactPrestepWide
+{
+    /// <summary>Position of the contact relative to the centre of A, world axes.</summary>
+    public Vector3Wide OffsetA;
+    /// <summary>Depth at collision detection; negative where the surfaces are apart.</summary>
+    public Vector<float> Depth;
+}
+
+/// <summary>How a bundle of contact patches behaves.</summary>
+public struct ContactMaterialWide
+{
+    /// <summary>Coulomb coefficient of the patch.</summary>
+    public Vector<float> FrictionCoefficient;
+    /// <summary>Stiffness of the contacts.</summary>
+    public SpringSettingsWide SpringSettings;
+    /// <summary>Greatest speed at which penetration is corrected.</summary>
+    public Vector<float> MaximumRecoveryVelocity;
+}
+
+/// <summary>A bundle of convex manifolds: contacts that share a normal.</summary>
+/// <remarks>The order of the fields is known to <see cref="ContactPrestepLayout"/>, which writes single lanes for any number of contacts.</remarks>
+public struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<ContactPrestepWide>
+{
+    /// <summary>The contacts.</summary>
+    public TContacts Contacts;
+    /// <summary>Position of B relative to A; unused with one body.</summary>
+    public Vector3Wide OffsetB;
+    /// <summary>Unit normal from B to A.</summary>
+    public Vector3Wide Normal;
+    /// <summary>Friction, stiffness and recovery.</summary>
+    public ContactMaterialWide Material;
+}
+
+/// <summary>Accumulated impulses of a bundle of convex manifolds, N s.</summary>
+public struct ConvexContactImpulsesWide<TNormals> where TNormals : unmanaged, IFew<Vector<float>>
+{
+    /// <summary>Along the normal, per contact.</summary>
+    public TNormals Normals;
+    /// <summary>Friction of the patch, in world axes and at right angles to the normal.</summary>
+    // A vector, not two coordinates: these would belong to tangents that jump somewhere as the normal turns, and with them the load.
+    public Vector3Wide Friction;
+    /// <summary>Friction against turning about the normal, N m s.</summary>
+    public Vector<float> Twist;
+}
+
+/// <summary>Where the numbers of a convex contact constraint are, in floats (bundles: in vectors) from its beginning.</summary>
+static class ContactPrestepLayout
+{
+    internal const int FloatsPerContact = 4;
+    internal const int Depth = 3;
+
+    internal static int OffsetB(int contactCount) => contactCount * FloatsPerContact;
+    internal static int Normal(int contactCount) => OffsetB(contactCount) + 3;
+    internal static int Friction(int contactCount) => Normal(contactCount) + 3;
+    internal static int Spring(int contactCount) => Friction(contactCount) + 1;
+    internal static int MaximumRecovery(int contactCount) => Spring(contactCount) + 2;
+    internal static int PrestepFloats(int contactCount) => MaximumRecovery(contactCount) + 1;
+    internal static int FrictionImpulse(int contactCount) => contactCount;
+    internal static int ImpulseFloats(int contactCount) => contactCount + 4;
+}

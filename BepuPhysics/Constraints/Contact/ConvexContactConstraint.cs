@@ -1,0 +1,239 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>A convex manifold of one to four contacts on one or two bodies: non-penetration per contact, friction per patch.</summary>
+// Notation: n normal from B to A, rA lever arm from the centre of A to the contact, rB = rA - offsetB.
+// Normal rows     C_i = separation_i >= 0        J_i = [ n, rA_i x n, -n, n x rB_i ]         lambda_i >= 0
+// Friction rows   at the patch centre c, along two tangents                                  |f| <= mu sum(lambda_i)   (Coulomb, for the patch)
+// Twist row       J = [ 0, n, 0, -n ]                                                       |t| <= mu sum(lambda_i |c - c_i|)
+// Friction is bounded by the sum of the normal impulses, so it does not depend on how many contacts represent the patch, and it is
+// solved after them, so that it knows the load of this very sweep.
+//
+// Contacts follow their bodies within a step: separation = separation at detection + J_i (displacement since then), with the arms kept.
+// Arms, normal and displacement are consistent to first order, so what a contact takes at one arm it gives back at the same arm.
+public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
+    IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>
+    where TBodies : unmanaged, IBodySlots where TContacts : unmanaged, IFew<ContactPrestepWide> where TNormals : unmanaged, IFew<Vector<float>>
+{
+    /// <inheritdoc/>
+    public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass;
+    /// <inheritdoc/>
+    public static BodyAccess SolveAccess => BodyAccess.Velocity | BodyAccess.Mass | BodyAccess.Displacement;
+
+    /// <inheritdoc/>
+    // All impulses of the manifold are summed to one force and one torque before they touch the bodies:
+    // sum(rA_i x n l_i) = (sum l_i rA_i) x n, and the same about B with every arm shifted by -offsetB.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void WarmStart(ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
+    {
+        if (substep.WarmStartScale != 1)
+            Scale(ref impulses, new Vector<float>(substep.WarmStartScale));
+        var load = impulses.Normals[0];
+        var arm = prestep.Contacts[0].OffsetA * load;
+        for (int i = 1; i < TContacts.Count; ++i)
+        {
+            load += impulses.Normals[i];
+            arm += prestep.Contacts[i].OffsetA * impulses.Normals[i];
+        }
+        var linear = prestep.Normal * load + impulses.Friction;
+        var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(ref prestep), impulses.Friction);
+        if (TContacts.Count > 1)
+            angularA += prestep.Normal * impulses.Twist;
+        ref var a = ref BodySlots.At(ref bodies, 0);
+        a.Linear += linear * a.InverseMass;
+        a.Angular += a.InverseInertia * angularA;
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            b.Linear -= linear * b.InverseMass;
+            b.Angular -= b.InverseInertia * (angularA - Vector3Wide.Cross(prestep.OffsetB, linear));
+        }
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Solve(ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
+    {
+        var softness = prestep.Material.SpringSettings.ForSubstep(substep);
+        var inverseDt = new Vector<float>(substep.InverseDt);
+        var load = Vector<float>.Zero;
+        for (int i = 0; i < TContacts.Count; ++i)
+        {
+            SolveNormal(ref bodies, ref prestep, prestep.Contacts[i], softness, inverseDt, ref impulses.Normals[i]);
+            load += impulses.Normals[i];
+        }
+        var center = PatchCenter(ref prestep);
+        SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, prestep.Material.FrictionCoefficient * load, ref impulses.Friction);
+        if (TContacts.Count > 1)
+        {
+            var moment = Vector<float>.Zero;
+            for (int i = 0; i < TContacts.Count; ++i)
+                moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();
+            SolveTwist(ref bodies, prestep.Normal, prestep.Material.FrictionCoefficient * moment, ref impulses.Twist);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SolveNormal(ref TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact, in SoftnessWide softness, Vector<float> inverseDt, ref Vector<float> impulse)
+    {
+        ref var a = ref BodySlots.At(ref bodies, 0);
+        var n = prestep.Normal;
+        var angularA = Vector3Wide.Cross(contact.OffsetA, n);
+        var responseA = a.InverseInertia * angularA;
+        var inverseMass = a.InverseMass + Vector3Wide.Dot(responseA, angularA);
+        var velocity = Vector3Wide.Dot(a.Linear, n) + Vector3Wide.Dot(a.Angular, angularA);
+        var depth = contact.Depth - (Vector3Wide.Dot(a.Translation, n) + Vector3Wide.Dot(a.Rotation, angularA));
+        Unsafe.SkipInit(out Vector3Wide responseB);
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            var angularB = Vector3Wide.Cross(n, contact.OffsetA - prestep.OffsetB);
+            responseB = b.InverseInertia * angularB;
+            inverseMass += b.InverseMass + Vector3Wide.Dot(responseB, angularB);
+            velocity += Vector3Wide.Dot(b.Angular, angularB) - Vector3Wide.Dot(b.Linear, n);
+            depth += Vector3Wide.Dot(b.Translation, n) - Vector3Wide.Dot(b.Rotation, angularB);
+        }
+        // Surfaces that are apart may close their gap within the substep but no more; penetration is pushed out as the spring says.
+        var wanted = Wide.Min(depth * inverseDt, Wide.Min(depth * softness.ErrorToVelocity, prestep.Material.MaximumRecoveryVelocity));
+        var total = Wide.Max(impulse + (wanted - velocity) * (softness.MassScale / inverseMass) - impulse * softness.ImpulseScale, Vector<float>.Zero);
+        var change = total - impulse;
+        impulse = total;
+        a.Linear += n * (change * a.InverseMass);
+        a.Angular += responseA * change;
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            b.Linear -= n * (change * b.InverseMass);
+            b.Angular += responseB * change;
+        }
+    }
+
+    // Two rows that share an anchor, so their effective mass is a 2 x 2 block: a block solve stops sliding in one sweep where two rows in turn would not.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SolveFriction(ref TBodies bodies, in Vector3Wide n, in Vector3Wide center, in Vector3Wide offsetB, Vector<float> maximum, ref Vector3Wide impulse)
+    {
+        BuildTangents(n, out var x, out var y);
+        ref var a = ref BodySlots.At(ref bodies, 0);
+        var angularAX = Vector3Wide.Cross(center, x);
+        var angularAY = Vector3Wide.Cross(center, y);
+        var responseAX = a.InverseInertia * angularAX;
+        var responseAY = a.InverseInertia * angularAY;
+        var velocityX = Vector3Wide.Dot(a.Linear, x) + Vector3Wide.Dot(a.Angular, angularAX);
+        var velocityY = Vector3Wide.Dot(a.Linear, y) + Vector3Wide.Dot(a.Angular, angularAY);
+        Symmetric2x2Wide inverseMass;
+        inverseMass.XX = a.InverseMass + Vector3Wide.Dot(responseAX, angularAX);
+        inverseMass.YX = Vector3Wide.Dot(responseAX, angularAY);
+        inverseMass.YY = a.InverseMass + Vector3Wide.Dot(responseAY, angularAY);
+        Unsafe.SkipInit(out Vector3Wide responseBX);
+        Unsafe.SkipInit(out Vector3Wide responseBY);
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            var armB = center - offsetB;
+            var angularBX = Vector3Wide.Cross(x, armB);
+            var angularBY = Vector3Wide.Cross(y, armB);
+            responseBX = b.InverseInertia * angularBX;
+            responseBY = b.InverseInertia * angularBY;
+            velocityX += Vector3Wide.Dot(b.Angular, angularBX) - Vector3Wide.Dot(b.Linear, x);
+            velocityY += Vector3Wide.Dot(b.Angular, angularBY) - Vector3Wide.Dot(b.Linear, y);
+            inverseMass.XX += b.InverseMass + Vector3Wide.Dot(responseBX, angularBX);
+            inverseMass.YX += Vector3Wide.Dot(responseBX, angularBY);
+            inverseMass.YY += b.InverseMass + Vector3Wide.Dot(responseBY, angularBY);
+        }
+        // The block is positive definite wherever anything can move: its determinant is at least the square of the sum of inverse masses.
+        var inverseDeterminant = Vector<float>.One / (inverseMass.XX * inverseMass.YY - inverseMass.YX * inverseMass.YX);
+        var totalX = Vector3Wide.Dot(impulse, x) - (inverseMass.YY * velocityX - inverseMass.YX * velocityY) * inverseDeterminant;
+        var totalY = Vector3Wide.Dot(impulse, y) - (inverseMass.XX * velocityY - inverseMass.YX * velocityX) * inverseDeterminant;
+        var length = Vector.SquareRoot(totalX * totalX + totalY * totalY);
+        var scale = Vector.ConditionalSelect(Vector.GreaterThan(length, maximum), maximum / length, Vector<float>.One);
+        totalX *= scale;
+        totalY *= scale;
+        var total = x * totalX + y * totalY;
+        var linear = total - impulse;
+        impulse = total;
+        var changeX = Vector3Wide.Dot(linear, x);
+        var changeY = Vector3Wide.Dot(linear, y);
+        a.Linear += linear * a.InverseMass;
+        a.Angular += responseAX * changeX + responseAY * changeY;
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            b.Linear -= linear * b.InverseMass;
+            b.Angular += responseBX * changeX + responseBY * changeY;
+        }
+    }
+
+    // Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited. JCGT 6(1), 2017.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void BuildTangents(in Vector3Wide n, out Vector3Wide x, out Vector3Wide y)
+    {
+        var sign = Vector.ConditionalSelect(Vector.LessThan(n.Z, Vector<float>.Zero), -Vector<float>.One, Vector<float>.One);
+        var a = -Vector<float>.One / (sign + n.Z);
+        var b = n.X * n.Y * a;
+        x = new(Vector<float>.One + sign * n.X * n.X * a, sign * b, -sign * n.X);
+        y = new(b, sign + n.Y * n.Y * a, -n.Y);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SolveTwist(ref TBodies bodies, in Vector3Wide n, Vector<float> maximum, ref Vector<float> impulse)
+    {
+        ref var a = ref BodySlots.At(ref bodies, 0);
+        var responseA = a.InverseInertia * n;
+        var inverseMass = Vector3Wide.Dot(responseA, n);
+        var velocity = Vector3Wide.Dot(a.Angular, n);
+        Unsafe.SkipInit(out Vector3Wide responseB);
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref bodies, 1);
+            responseB = b.InverseInertia * n;
+            inverseMass += Vector3Wide.Dot(responseB, n);
+            velocity -= Vector3Wide.Dot(b.Angular, n);
+        }
+        // Bodies with locked rotation have no twist to stop.
+        var turns = Vector.GreaterThan(inverseMass, Vector<float>.Zero);
+        var total = impulse - Vector.ConditionalSelect(turns, velocity / inverseMass, Vector<float>.Zero);
+        total = Wide.Max(Wide.Min(total, maximum), -maximum);
+        var change = total - impulse;
+        impulse = total;
+        a.Angular += responseA * change;
+        if (TBodies.Count > 1)
+            BodySlots.At(ref bodies, 1).Angular -= responseB * change;
+    }
+
+    // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep)
+    {
+        if (TContacts.Count == 1)
+            return prestep.Contacts[0].OffsetA;
+        var all = prestep.Contacts[0].OffsetA;
+        var weight = Touching(prestep.Contacts[0].Depth);
+        var touching = all * weight;
+        for (int i = 1; i < TContacts.Count; ++i)
+        {
+            var one = Touching(prestep.Contacts[i].Depth);
+            all += prestep.Contacts[i].OffsetA;
+            touching += prestep.Contacts[i].OffsetA * one;
+            weight += one;
+        }
+        var none = Vector.Equals(weight, Vector<float>.Zero);
+        var sum = Vector3Wide.Select(none, all, touching);
+        return sum * (Vector<float>.One / Vector.ConditionalSelect(none, new Vector<float>(TContacts.Count), weight));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Touching(Vector<float> depth) =>
+        Vector.ConditionalSelect(Vector.LessThan(depth, Vector<float>.Zero), Vector<float>.Zero, Vector<float>.One);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Scale(ref ConvexContactImpulsesWide<TNormals> impulses, Vector<float> scale)
+    {
+        for (int i = 0; i < TNormals.Count; ++i)
+            impulses.Normals[i] *= scale;
+        impulses.Friction *= scale;
+        impulses.Twist *= scale;
+    }
+}

@@ -1,0 +1,28 @@
+using System.Numerics;
+using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+public static partial class DefaultTypes
+{
+    /// <summary>Registers the constraint types of the library with a solver.</summary>
+    internal static void RegisterDefaults(Solver solver)
+    {
+        RegisterContacts<Few1<ContactPrestepWide>, Few1<Vector<float>>>(solver, 1);
+        RegisterContacts<Few2<ContactPrestepWide>, Few2<Vector<float>>>(solver, 2);
+        RegisterContacts<Few3<ContactPrestepWide>, Few3<Vector<float>>>(solver, 3);
+        RegisterContacts<Few4<ContactPrestepWide>, Few4<Vector<float>>>(solver, 4);
+        solver.Register<BallSocket>();
+    }
+
+    static void RegisterContacts<TContacts, TNormals>(Solver solver, int contactCount)
+        where TContacts : unmanaged, IFew<ContactPrestepWide> where TNormals : unmanaged, IFew<Vector<float>>
+    {
+        solver.RegisterProcessor(ConstraintTypeIds.ConvexContact(contactCount, 1), new TypeProcessor<
+            OneBody, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>, ConvexContactConstraint<OneBody, TContacts, TNormals>>());
+        solver.RegisterProcessor(ConstraintTypeIds.ConvexContact(contactCount, 2), new TypeProcessor<
+            TwoBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>, ConvexContactConstraint<TwoBodies, TContacts, TNormals>>());
+    }
+}

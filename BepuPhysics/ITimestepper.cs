@@ -1,0 +1,40 @@
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+/// <summary>Called between two stages of a step, on the thread that steps.</summary>
+public delegate void TimestepperStageHandler(float dt, IThreadDispatcher? threadDispatcher);
+
+/// <summary>Chooses the order of the stages of a step.</summary>
+public interface ITimestepper
+{
+    /// <summary>Called before collision detection.</summary>
+    event TimestepperStageHandler? BeforeCollisionDetection;
+    /// <summary>Called after collision detection.</summary>
+    event TimestepperStageHandler? CollisionsDetected;
+
+    /// <summary>Advances a simulation.</summary>
+    void Timestep(Simulation simulation, float dt, IThreadDispatcher? threadDispatcher = null);
+}
+
+/// <summary>The usual order: bounds, collisions, constraints.</summary>
+public sealed class DefaultTimestepper : ITimestepper
+{
+    /// <inheritdoc/>
+    public event TimestepperStageHandler? BeforeCollisionDetection;
+    /// <inheritdoc/>
+    public event TimestepperStageHandler? CollisionsDetected;
+    /// <summary>Called after the constraints have been solved and the bodies moved.</summary>
+    public event TimestepperStageHandler? ConstraintsSolved;
+
+    /// <inheritdoc/>
+    public void Timestep(Simulation simulation, float dt, IThreadDispatcher? threadDispatcher = null)
+    {
+        simulation.PredictBoundingBoxes(dt, threadDispatcher);       // bodies  -> bounds
+        BeforeCollisionDetection?.Invoke(dt, threadDispatcher);
+        simulation.CollisionDetection(dt, threadDispatcher);         // bounds  -> pairs -> contacts -> constraints
+        CollisionsDetected?.Invoke(dt, threadDispatcher);
+        simulation.Solve(dt, threadDispatcher);                      // constraints -> velocities -> poses
+        ConstraintsSolved?.Invoke(dt, threadDispatcher);
+    }
+}

@@ -1,0 +1,27 @@
+namespace BepuPhysics;
+
+/// <summary>Parts of a step in which bodies are integrated.</summary>
+enum IntegrationStage
+{
+    /// <summary>The step begins: velocities only. Nothing has moved since collision detection.</summary>
+    First,
+    /// <summary>A substep ends and the next begins: poses, then velocities.</summary>
+    Between,
+    /// <summary>The step ends: poses only.</summary>
+    Last,
+}
+
+/// <summary>Moves bodies by their velocities, and velocities by what the game's callbacks say.</summary>
+public interface IPoseIntegrator
+{
+    internal void Initialize(Simulation simulation);
+
+    /// <summary>Tells the callbacks about a time over which velocities will be integrated. Called on the thread that steps.</summary>
+    internal void Prepare(float dt);
+
+    /// <summary>Integrates some bundles of the active bodies. Called on worker threads.</summary>
+    internal void Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex);
+
+    /// <summary>Velocities that a bundle of bodies will have after a time, for the prediction of bounds.</summary>
+    internal void PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity);
+}

@@ -1,0 +1,203 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+/// <summary>Moves bodies, compiled for the callbacks of a game.</summary>
+// A pass over all bodies between two substeps does all that happens to a body there: the pose follows the velocity that the solver left,
+// the callbacks change the velocity for the next substep, and the inverse inertia is turned to the new orientation.
+//
+// The translations of a step's substeps are summed and added once: far from the origin a substep's translation may be too small to change
+// a position at all. Positions within the step are the position at its beginning plus that sum, rounded once.
+sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
+{
+    const int FloatsPerRow = 8;
+    const int FloatsPerMotion = 16;
+
+    TCallbacks callbacks;
+    Bodies bodies = null!;
+
+    internal PoseIntegrator(in TCallbacks callbacks) => this.callbacks = callbacks;
+
+    void IPoseIntegrator.Initialize(Simulation simulation)
+    {
+        bodies = simulation.Bodies;
+        callbacks.Initialize(simulation);
+    }
+
+    void IPoseIntegrator.Prepare(float dt) => callbacks.PrepareForIntegration(dt);
+
+    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
+    {
+        ref var set = ref bodies.ActiveSet;
+        var motions = (float*)set.MotionStates.Memory;
+        var localInertias = (float*)set.LocalInertias.Memory;
+        var worldInertias = (float*)set.WorldInertias.Memory;
+        var displacements = (float*)set.Displacements.Memory;
+        var wideDt = new Vector<float>(dt);
+        for (int bundle = startBundle; bundle < endBundle; ++bundle)
+        {
+            var indices = Indices(bundle, set.Count, out var exists);
+            ReadBodies(motions, localInertias, indices, out var pose, out var velocity, out var localInertia);
+            var kinematic = IsKinematic(localInertia);
+            if (stage == IntegrationStage.First)
+                Begin(ref set, displacements, indices, pose.Position);
+            else
+                MovePoses(ref set, motions, displacements, indices, kinematic, wideDt, localInertia, ref pose, ref velocity);
+            if (stage == IntegrationStage.Last)
+            {
+                // The gyroscopic motion changed the angular velocity along with the orientation.
+                WriteVelocity(motions, indices, velocity);
+                continue;
+            }
+            IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, wideDt, ref velocity);
+            WriteVelocity(motions, indices, velocity);
+            WriteWorldInertia(worldInertias, indices, localInertia, pose.Orientation);
+        }
+    }
+
+    void IPoseIntegrator.PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity)
+    {
+        ref var set = ref bodies.ActiveSet;
+        var indices = Indices(bundle, set.Count, out var exists);
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out pose, out velocity, out var localInertia);
+        IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, new Vector<float>(dt), ref velocity);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Indices(int bundle, int bodyCount, out Vector<int> exists)
+    {
+        var indices = new Vector<int>(bundle * Vector<int>.Count) + Vector<int>.Indices;
+        exists = Vector.LessThan(indices, new Vector<int>(bodyCount));
+        return Vector.ConditionalSelect(exists, indices, new Vector<int>(-1));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void ReadBodies(float* motions, float* localInertias, Vector<int> indices, out RigidPoseWide pose, out BodyVelocityWide velocity, out BodyInertiaWide localInertia)
+    {
+        var row = Transpose.Gather(motions, FloatsPerMotion, indices);
+        pose.Orientation = new(row.R0, row.R1, row.R2, row.R3);
+        pose.Position = new(row.R4, row.R5, row.R6);
+        row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, indices);
+        velocity.Linear = new(row.R0, row.R1, row.R2);
+        velocity.Angular = new(row.R4, row.R5, row.R6);
+        row = Transpose.Gather(localInertias, FloatsPerRow, indices);
+        localInertia.InverseInertiaTensor = new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
+        localInertia.InverseMass = row.R6;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsKinematic(in BodyInertiaWide inertia)
+    {
+        var zero = Vector<float>.Zero;
+        var i = inertia.InverseInertiaTensor;
+        return Vector.Equals(inertia.InverseMass, zero) & Vector.Equals(i.XX, zero) & Vector.Equals(i.YX, zero) & Vector.Equals(i.YY, zero) &
+            Vector.Equals(i.ZX, zero) & Vector.Equals(i.ZY, zero) & Vector.Equals(i.ZZ, zero);
+    }
+
+    static void Begin(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide position)
+    {
+        Rows8 none = default;
+        Transpose.Scatter(none, displacements, FloatsPerRow, indices);
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+        {
+            if (indices[lane] >= 0)
+                set.StartPositions[indices[lane]] = new(position.X[lane], position.Y[lane], position.Z[lane], 0);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void MovePoses(ref BodySet set, float* motions, float* displacements, Vector<int> indices, Vector<int> kinematic, Vector<float> dt, in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+    {
+        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
+        var rotation = new Vector3Wide(row.R4, row.R5, row.R6) + velocity.Angular * dt;
+        row.R0 = translation.X;
+        row.R1 = translation.Y;
+        row.R2 = translation.Z;
+        row.R4 = rotation.X;
+        row.R5 = rotation.Y;
+        row.R6 = rotation.Z;
+        Transpose.Scatter(row, displacements, FloatsPerRow, indices);
+
+        pose.Position = ReadStartPositions(ref set, indices) + translation;
+        var inverseInertia = localInertia.InverseInertiaTensor;
+        switch (callbacks.AngularIntegrationMode)
+        {
+            case AngularIntegrationMode.ConserveMomentum:
+                FreeRotation.TurnKeepingMomentum(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
+                break;
+            case AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque:
+                FreeRotation.Tumble(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
+                break;
+            default:
+                pose.Orientation = FreeRotation.Turn(pose.Orientation, velocity.Angular, dt);
+                break;
+        }
+        Rows8 poseRow;
+        poseRow.R0 = pose.Orientation.X;
+        poseRow.R1 = pose.Orientation.Y;
+        poseRow.R2 = pose.Orientation.Z;
+        poseRow.R3 = pose.Orientation.W;
+        poseRow.R4 = pose.Position.X;
+        poseRow.R5 = pose.Position.Y;
+        poseRow.R6 = pose.Position.Z;
+        poseRow.R7 = Vector<float>.Zero;
+        Transpose.Scatter(poseRow, motions, FloatsPerMotion, indices);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide ReadStartPositions(ref BodySet set, Vector<int> indices)
+    {
+        Unsafe.SkipInit(out Vector3Wide positions);
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+        {
+            ref var start = ref set.StartPositions[Math.Max(indices[lane], 0)];
+            Lanes.Write(new Vector3(start.X, start.Y, start.Z), ref positions, lane);
+        }
+        return positions;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void IntegrateVelocity(Vector<int> indices, Vector<int> exists, Vector<int> kinematic, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
+    {
+        var mask = callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
+        var changed = velocity;
+        callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, mask, workerIndex, dt, ref changed);
+        velocity.Linear = Vector3Wide.Select(mask, changed.Linear, velocity.Linear);
+        velocity.Angular = Vector3Wide.Select(mask, changed.Angular, velocity.Angular);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void WriteVelocity(float* motions, Vector<int> indices, in BodyVelocityWide velocity)
+    {
+        Rows8 row;
+        row.R0 = velocity.Linear.X;
+        row.R1 = velocity.Linear.Y;
+        row.R2 = velocity.Linear.Z;
+        row.R3 = Vector<float>.Zero;
+        row.R4 = velocity.Angular.X;
+        row.R5 = velocity.Angular.Y;
+        row.R6 = velocity.Angular.Z;
+        row.R7 = Vector<float>.Zero;
+        Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, indices);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void WriteWorldInertia(float* worldInertias, Vector<int> indices, in BodyInertiaWide localInertia, in QuaternionWide orientation)
+    {
+        var world = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
+        Rows8 row;
+        row.R0 = world.XX;
+        row.R1 = world.YX;
+        row.R2 = world.YY;
+        row.R3 = world.ZX;
+        row.R4 = world.ZY;
+        row.R5 = world.ZZ;
+        row.R6 = localInertia.InverseMass;
+        row.R7 = Vector<float>.Zero;
+        Transpose.Scatter(row, worldInertias, FloatsPerRow, indices);
+    }
+}

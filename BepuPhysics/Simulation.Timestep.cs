@@ -1,0 +1,57 @@
+using System;
+using BepuUtilities;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics;
+
+// The step. DefaultTimestepper calls these stages in order; Docs/Timestep.md says what each reads and writes.
+public sealed partial class Simulation
+{
+    /// <summary>Advances the simulation.</summary>
+    /// <param name="dt">Time to advance by, s; above 0. May change from step to step.</param>
+    /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The time is not finite or not above 0.</exception>
+    public void Timestep(float dt, IThreadDispatcher? threadDispatcher = null)
+    {
+        ObjectDisposedException.ThrowIf(disposed, this);
+        CheckDt(dt);
+        using (Profiler.Time(this))
+            Timestepper.Timestep(this, dt, threadDispatcher);
+    }
+
+    /// <summary>Bodies to bounds that contain their motion: reads poses and velocities, writes bounds and speculative margins.</summary>
+    public void PredictBoundingBoxes(float dt, IThreadDispatcher? threadDispatcher = null)
+    {
+        CheckDt(dt);
+        using var timer = Profiler.Time(PoseIntegrator);
+        PoseIntegrator.Prepare(dt);
+        var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
+        StagedWork.Run(ref work, threadDispatcher);
+    }
+
+    /// <summary>Bounds to pairs, pairs to contacts, contacts to constraints.</summary>
+    public void CollisionDetection(float dt, IThreadDispatcher? threadDispatcher = null)
+    {
+        CheckDt(dt);
+        using (Profiler.Time(BroadPhase))
+            BroadPhase.Update(threadDispatcher);
+        using (Profiler.Time(NarrowPhase))
+            NarrowPhase.FindContacts(dt, threadDispatcher);
+        using (Profiler.Time(SimulationProfiler.Flush))
+            NarrowPhase.Flush();
+    }
+
+    /// <summary>Constraints to velocities, velocities to poses, in substeps.</summary>
+    public void Solve(float dt, IThreadDispatcher? threadDispatcher = null)
+    {
+        CheckDt(dt);
+        using var timer = Profiler.Time(Solver);
+        Solver.Step(dt, PoseIntegrator, threadDispatcher);
+    }
+
+    static void CheckDt(float dt)
+    {
+        if (!(dt > 0 && float.IsFinite(dt)))
+            throw new ArgumentOutOfRangeException(nameof(dt), dt, "The time of a step must be finite and above 0.");
+    }
+}

@@ -1,0 +1,43 @@
+using System;
+
+namespace BepuPhysics;
+
+/// <summary>How much room to make ahead of time; everything grows on demand.</summary>
+/// <param name="bodies">Number of bodies.</param>
+/// <param name="statics">Number of statics.</param>
+/// <param name="islands">Number of islands that sleep.</param>
+/// <param name="shapesPerType">Number of shapes of each type.</param>
+/// <param name="constraints">Number of constraints, contacts included.</param>
+/// <param name="constraintsPerTypeBatch">Number of constraints for which a new type batch has room.</param>
+/// <param name="constraintCountPerBodyEstimate">Number of constraints for which a new body has room.</param>
+public struct SimulationAllocationSizes(
+    int bodies, int statics, int islands, int shapesPerType, int constraints, int constraintsPerTypeBatch, int constraintCountPerBodyEstimate)
+{
+    /// <summary>Number of bodies.</summary>
+    public int Bodies = bodies;
+    /// <summary>Number of statics.</summary>
+    public int Statics = statics;
+    /// <summary>Number of islands that sleep.</summary>
+    public int Islands = islands;
+    /// <summary>Number of shapes of each type.</summary>
+    public int ShapesPerType = shapesPerType;
+    /// <summary>Number of constraints, contacts included.</summary>
+    public int Constraints = constraints;
+    /// <summary>Number of constraints for which a new type batch has room.</summary>
+    public int ConstraintsPerTypeBatch = constraintsPerTypeBatch;
+    /// <summary>Number of constraints for which a new body has room.</summary>
+    public int ConstraintCountPerBodyEstimate = constraintCountPerBodyEstimate;
+
+    internal static SimulationAllocationSizes Default => new(4096, 4096, 0, 128, 16384, 256, 8);
+
+    internal readonly void Validate()
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(Bodies);
+        ArgumentOutOfRangeException.ThrowIfNegative(Statics);
+        ArgumentOutOfRangeException.ThrowIfNegative(Islands);
+        ArgumentOutOfRangeException.ThrowIfNegative(ShapesPerType);
+        ArgumentOutOfRangeException.ThrowIfNegative(Constraints);
+        ArgumentOutOfRangeException.ThrowIfNegative(ConstraintsPerTypeBatch);
+        ArgumentOutOfRangeException.ThrowIfNegative(ConstraintCountPerBodyEstimate);
+    }
+}

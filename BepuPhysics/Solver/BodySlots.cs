@@ -1,0 +1,95 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>One bundle of bodies as constraints see them.</summary>
+public struct SolverBodyWide
+{
+    /// <summary>Velocity of the centre of mass.</summary>
+    public Vector3Wide Linear;
+    /// <summary>Angular velocity in world axes.</summary>
+    public Vector3Wide Angular;
+    /// <summary>Inverse inertia tensor in world axes; zero for kinematics.</summary>
+    public Symmetric3x3Wide InverseInertia;
+    /// <summary>Inverse mass; zero for kinematics.</summary>
+    public Vector<float> InverseMass;
+    /// <summary>Position of the centre of mass.</summary>
+    public Vector3Wide Position;
+    /// <summary>Rotation from the body's frame to the world.</summary>
+    public QuaternionWide Orientation;
+    /// <summary>How far the centre of mass has moved since collision detection.</summary>
+    public Vector3Wide Translation;
+    /// <summary>Rotation since collision detection, as the sum of angular velocity times time.</summary>
+    public Vector3Wide Rotation;
+}
+
+/// <summary>Parts of a body that a constraint reads. Folded away by the JIT.</summary>
+[Flags]
+public enum BodyAccess
+{
+    /// <summary>Nothing.</summary>
+    None = 0,
+    /// <summary>Position and orientation.</summary>
+    Pose = 1,
+    /// <summary>Velocities.</summary>
+    Velocity = 2,
+    /// <summary>Inverse mass and inertia.</summary>
+    Mass = 4,
+    /// <summary>Translation and rotation since collision detection; read only where there can be any.</summary>
+    Displacement = 8,
+}
+
+/// <summary>The one to four bodies that a constraint connects.</summary>
+public interface IBodySlots
+{
+    /// <summary>Number of bodies; a JIT constant.</summary>
+    static abstract int Count { get; }
+}
+
+/// <summary>One body against the world.</summary>
+public struct OneBody : IBodySlots
+{
+    /// <summary>The body.</summary>
+    public SolverBodyWide A;
+    /// <inheritdoc/>
+    public static int Count => 1;
+}
+
+/// <summary>Two bodies.</summary>
+public struct TwoBodies : IBodySlots
+{
+    /// <summary>The connected bodies.</summary>
+    public SolverBodyWide A, B;
+    /// <inheritdoc/>
+    public static int Count => 2;
+}
+
+/// <summary>Three bodies.</summary>
+public struct ThreeBodies : IBodySlots
+{
+    /// <summary>The connected bodies.</summary>
+    public SolverBodyWide A, B, C;
+    /// <inheritdoc/>
+    public static int Count => 3;
+}
+
+/// <summary>Four bodies.</summary>
+public struct FourBodies : IBodySlots
+{
+    /// <summary>The connected bodies.</summary>
+    public SolverBodyWide A, B, C, D;
+    /// <inheritdoc/>
+    public static int Count => 4;
+}
+
+/// <summary>Access to the bodies of a constraint by slot.</summary>
+public static class BodySlots
+{
+    /// <summary>Body in a slot. Use constant slots: a loop would take addresses and keep the bodies out of registers.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static ref SolverBodyWide At<TBodies>(ref TBodies bodies, int slot) where TBodies : unmanaged, IBodySlots =>
+        ref Unsafe.Add(ref Unsafe.As<TBodies, SolverBodyWide>(ref bodies), slot);
+}

@@ -1,0 +1,25 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>The mathematics of one constraint type, for a bundle of constraints at a time.</summary>
+/// <typeparam name="TBodies">Bodies that a constraint connects.</typeparam>
+/// <typeparam name="TPrestep">Wide form of the constraint's description.</typeparam>
+/// <typeparam name="TImpulses">Accumulated impulses, kept from step to step.</typeparam>
+/// <remarks>
+/// Lanes are independent constraints and stay so: what happens in a lane depends on its inputs alone. Joints do not implement this
+/// but <see cref="IJoint{TBodies, TPrestep, TGeometry, TRows, TMass}"/>, from which <see cref="JointConstraint{TBodies, TPrestep, TGeometry, TRows, TMass, TJoint}"/>
+/// makes the two functions.
+/// </remarks>
+public interface IConstraint<TBodies, TPrestep, TImpulses>
+    where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TImpulses : unmanaged
+{
+    /// <summary>Parts of the bodies that <see cref="WarmStart"/> reads.</summary>
+    static abstract BodyAccess WarmStartAccess { get; }
+    /// <summary>Parts of the bodies that <see cref="Solve"/> reads.</summary>
+    static abstract BodyAccess SolveAccess { get; }
+
+    /// <summary>Applies the impulses that earlier substeps accumulated.</summary>
+    static abstract void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
+
+    /// <summary>Moves the velocities of the bodies towards satisfying the constraint.</summary>
+    static abstract void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
+}

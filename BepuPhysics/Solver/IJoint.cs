@@ -1,0 +1,54 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>How the rows of a joint are held.</summary>
+public enum RowKind
+{
+    /// <summary>C = 0; impulses of either sign.</summary>
+    Equality,
+    /// <summary>C &gt;= 0; impulses are not negative, and a row with room left may use it up within the substep.</summary>
+    Inequality,
+    /// <summary>C = 0, approached no faster and pushed no harder than the joint's <see cref="ServoSettings"/> say.</summary>
+    Servo,
+}
+
+/// <summary>The mathematics of one type of joint, in the parts that every solver needs.</summary>
+/// <typeparam name="TBodies">Bodies that the joint connects.</typeparam>
+/// <typeparam name="TPrestep">Wide form of the joint's description.</typeparam>
+/// <typeparam name="TGeometry">Lever arms and axes: what the Jacobian is made of.</typeparam>
+/// <typeparam name="TRows">One number per row.</typeparam>
+/// <typeparam name="TMass">Symmetric matrix over the rows.</typeparam>
+/// <remarks>
+/// The parts are kept apart on purpose. The sequential solver (<see cref="JointConstraint{TBodies, TPrestep, TGeometry, TRows, TMass, TJoint}"/>)
+/// composes them; a direct solver gets the blocks of its matrix from the same source, column by column, as the relative velocity
+/// along one joint's rows of bodies at rest to which a unit impulse of another joint was applied. So nothing here may fold softness
+/// into the mass, or signs into the impulses.
+/// <para>C is the position error, J its derivative by the bodies' velocities, K = J M^-1 J^T, lambda the impulses; M v+ = M v + J^T lambda.</para>
+/// </remarks>
+public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
+    where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TGeometry : unmanaged
+    where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
+{
+    /// <summary>How the rows are held.</summary>
+    static virtual RowKind Kind => RowKind.Equality;
+
+    /// <summary>Lever arms and axes for the current poses.</summary>
+    static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);
+
+    /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the room that is left.</summary>
+    static abstract void PositionError(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows error);
+
+    /// <summary>J v.</summary>
+    static abstract void RelativeVelocity(in TGeometry geometry, in TBodies bodies, out TRows velocity);
+
+    /// <summary>v += M^-1 J^T lambda.</summary>
+    static abstract void ApplyImpulse(in TGeometry geometry, ref TBodies bodies, in TRows impulse);
+
+    /// <summary>K, neither inverted nor softened.</summary>
+    static abstract void InverseEffectiveMass(in TGeometry geometry, in TBodies bodies, out TMass inverseMass);
+
+    /// <summary>Stiffness of the joint.</summary>
+    static abstract SpringSettingsWide Spring(in TPrestep prestep);
+
+    /// <summary>Limits of a servo; asked for only where <see cref="Kind"/> is <see cref="RowKind.Servo"/>.</summary>
+    static virtual ServoSettingsWide Servo(in TPrestep prestep) => default;
+}

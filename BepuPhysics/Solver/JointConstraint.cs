@@ -1,0 +1,83 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>The sequential solver's way to hold a joint: one soft, clamped, block solve of all its rows per sweep.</summary>
+public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMass, TJoint> : IConstraint<TBodies, TPrestep, TRows>
+    where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TGeometry : unmanaged
+    where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
+    where TJoint : unmanaged, IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
+{
+    /// <inheritdoc/>
+    public static BodyAccess WarmStartAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+    /// <inheritdoc/>
+    public static BodyAccess SolveAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
+    {
+        if (substep.WarmStartScale != 1)
+            impulses *= new Vector<float>(substep.WarmStartScale);
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.ApplyImpulse(geometry, ref bodies, impulses);
+    }
+
+    /// <inheritdoc/>
+    // A kernel of this size is its own JIT root: inlined into the loop it would run out of the inliner's budget.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.PositionError(bodies, prestep, geometry, out var error);
+        TJoint.RelativeVelocity(geometry, bodies, out var velocity);
+        TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
+        var softness = TJoint.Spring(prestep).ForSubstep(substep);
+
+        var wanted = error * -softness.ErrorToVelocity;
+        if (TJoint.Kind == RowKind.Inequality)
+        {
+            // Room that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
+            // The first is the smaller of the two where C > 0, the second where C < 0, since ErrorToVelocity < 1 / h.
+            wanted = TRows.Min(wanted, error * new Vector<float>(-substep.InverseDt));
+        }
+        if (TJoint.Kind == RowKind.Servo)
+            wanted = LimitSpeed(error, wanted, substep, TJoint.Servo(prestep));
+
+        var change = TMass.Solve(inverseMass, (wanted - velocity) * softness.MassScale) - impulses * softness.ImpulseScale;
+        if (TJoint.Kind == RowKind.Equality)
+        {
+            impulses += change;
+        }
+        else
+        {
+            var previous = impulses;
+            impulses += change;
+            if (TJoint.Kind == RowKind.Inequality)
+                impulses = TRows.ClampToPositive(impulses);
+            else
+                impulses *= LimitFactor(TRows.Length(impulses), TJoint.Servo(prestep).MaximumForce * substep.Dt);
+            change = impulses - previous;
+        }
+        TJoint.ApplyImpulse(geometry, ref bodies, change);
+    }
+
+    // The speed of approach is at least the base speed, as long as that does not overshoot within the substep, and at most the maximum.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static TRows LimitSpeed(in TRows error, in TRows wanted, in Substep substep, in ServoSettingsWide servo)
+    {
+        var errorLength = TRows.Length(error);
+        var speed = TRows.Length(wanted);
+        var baseSpeed = Wide.Min(servo.BaseSpeed, errorLength * substep.InverseDt);
+        var limited = Wide.Min(Wide.Max(speed, baseSpeed), servo.MaximumSpeed);
+        var scale = Vector.ConditionalSelect(Vector.GreaterThan(errorLength, Vector<float>.Zero), limited / errorLength, Vector<float>.Zero);
+        return error * -scale;
+    }
+
+    // Factor that brings a length down to a maximum; 1 where it is below.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> LimitFactor(Vector<float> length, Vector<float> maximum) =>
+        Vector.ConditionalSelect(Vector.GreaterThan(length, maximum), maximum / length, Vector<float>.One);
+}

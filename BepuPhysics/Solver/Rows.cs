@@ -1,0 +1,98 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>One number per row of a constraint: a velocity, an error or an impulse, for a bundle of constraints.</summary>
+public interface IRows<TRows> where TRows : unmanaged, IRows<TRows>
+{
+    /// <summary>Sum.</summary>
+    static abstract TRows operator +(in TRows a, in TRows b);
+    /// <summary>Difference.</summary>
+    static abstract TRows operator -(in TRows a, in TRows b);
+    /// <summary>Product with one factor per lane.</summary>
+    static abstract TRows operator *(in TRows a, Vector<float> scale);
+    /// <summary>Euclidean length over the rows.</summary>
+    static abstract Vector<float> Length(in TRows a);
+    /// <summary>Row by row, the larger of the value and zero.</summary>
+    static abstract TRows ClampToPositive(in TRows a);
+    /// <summary>Row by row, the smaller of two values.</summary>
+    static abstract TRows Min(in TRows a, in TRows b);
+}
+
+/// <summary>A symmetric matrix over the rows of a constraint: the inverse of its effective mass, K = J M^-1 J^T.</summary>
+public interface IRowMatrix<TMatrix, TRows> where TMatrix : unmanaged where TRows : unmanaged
+{
+    /// <summary>K^-1 times a vector; zero where K is zero, as between two bodies that nothing moves.</summary>
+    static abstract TRows Solve(in TMatrix matrix, in TRows rightSide);
+}
+
+/// <summary>One row; also the 1 x 1 matrix over it.</summary>
+public struct Rows1(Vector<float> x) : IRows<Rows1>, IRowMatrix<Rows1, Rows1>
+{
+    /// <summary>The row.</summary>
+    public Vector<float> X = x;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 operator +(in Rows1 a, in Rows1 b) => new(a.X + b.X);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 operator -(in Rows1 a, in Rows1 b) => new(a.X - b.X);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 operator *(in Rows1 a, Vector<float> scale) => new(a.X * scale);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Length(in Rows1 a) => Vector.Abs(a.X);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 ClampToPositive(in Rows1 a) => new(Wide.Max(a.X, Vector<float>.Zero));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 Min(in Rows1 a, in Rows1 b) => new(Wide.Min(a.X, b.X));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 Solve(in Rows1 matrix, in Rows1 rightSide) =>
+        new(Vector.ConditionalSelect(Vector.GreaterThan(matrix.X, Vector<float>.Zero), rightSide.X / matrix.X, Vector<float>.Zero));
+}
+
+/// <summary>Three rows.</summary>
+public struct Rows3(in Vector3Wide v) : IRows<Rows3>
+{
+    /// <summary>The rows.</summary>
+    public Vector3Wide V = v;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 operator +(in Rows3 a, in Rows3 b) => new(a.V + b.V);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 operator -(in Rows3 a, in Rows3 b) => new(a.V - b.V);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 operator *(in Rows3 a, Vector<float> scale) => new(a.V * scale);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Length(in Rows3 a) => a.V.Length();
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 ClampToPositive(in Rows3 a) =>
+        new(new(Wide.Max(a.V.X, Vector<float>.Zero), Wide.Max(a.V.Y, Vector<float>.Zero), Wide.Max(a.V.Z, Vector<float>.Zero)));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 Min(in Rows3 a, in Rows3 b) =>
+        new(new(Wide.Min(a.V.X, b.V.X), Wide.Min(a.V.Y, b.V.Y), Wide.Min(a.V.Z, b.V.Z)));
+}
+
+/// <summary>A symmetric 3 x 3 matrix over three rows.</summary>
+public struct RowMatrix3(in Symmetric3x3Wide m) : IRowMatrix<RowMatrix3, Rows3>
+{
+    /// <summary>The matrix.</summary>
+    public Symmetric3x3Wide M = m;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 Solve(in RowMatrix3 matrix, in Rows3 rightSide) => new(Symmetric3x3Wide.Invert(matrix.M) * rightSide.V);
+}

@@ -1,0 +1,61 @@
+using System;
+
+namespace BepuPhysics;
+
+/// <summary>How hard the solver works: the dial between speed and accuracy.</summary>
+/// <remarks>Substeps are the first dial: four with one iteration each are more accurate than one with eight, at about the same cost.</remarks>
+public struct SolveDescription
+{
+    /// <summary>Number of batches before constraints of a body go to the fallback batch, unless said otherwise.</summary>
+    public const int DefaultFallbackBatchThreshold = 64;
+
+    /// <summary>Sweeps over the constraints per substep; at least 1.</summary>
+    public int VelocityIterationCount;
+    /// <summary>Parts into which a step is divided; at least 1.</summary>
+    public int SubstepCount;
+    /// <summary>Number of batches before constraints of a body go to the fallback batch; at least 1.</summary>
+    public int FallbackBatchThreshold;
+    /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>
+    public SubstepVelocityIterationScheduler? VelocityIterationScheduler;
+
+    /// <summary>The same number of iterations in each substep.</summary>
+    public SolveDescription(int velocityIterationCount, int substepCount, int fallbackBatchThreshold = DefaultFallbackBatchThreshold)
+    {
+        VelocityIterationCount = velocityIterationCount;
+        SubstepCount = substepCount;
+        FallbackBatchThreshold = fallbackBatchThreshold;
+        Validate();
+    }
+
+    /// <summary>A number of iterations for each substep, chosen by a function.</summary>
+    public SolveDescription(int substepCount, SubstepVelocityIterationScheduler velocityIterationScheduler, int fallbackBatchThreshold = DefaultFallbackBatchThreshold)
+        : this(1, substepCount, fallbackBatchThreshold) =>
+        VelocityIterationScheduler = velocityIterationScheduler ?? throw new ArgumentNullException(nameof(velocityIterationScheduler));
+
+    /// <summary>A number of iterations for each substep.</summary>
+    public SolveDescription(ReadOnlySpan<int> substepVelocityIterations, int fallbackBatchThreshold = DefaultFallbackBatchThreshold)
+        : this(1, substepVelocityIterations.Length, fallbackBatchThreshold)
+    {
+        var iterations = substepVelocityIterations.ToArray();
+        foreach (var count in iterations)
+            ArgumentOutOfRangeException.ThrowIfLessThan(count, 1, nameof(substepVelocityIterations));
+        VelocityIterationScheduler = substep => substep < iterations.Length ? iterations[substep] : 0;
+    }
+
+    /// <summary>One substep with a number of iterations.</summary>
+    public static implicit operator SolveDescription(int velocityIterationCount) => new(velocityIterationCount, 1);
+    /// <summary>Iterations per substep, and substeps.</summary>
+    public static implicit operator SolveDescription((int velocityIterationCount, int substepCount) schedule) =>
+        new(schedule.velocityIterationCount, schedule.substepCount);
+    /// <summary>Iterations of each substep.</summary>
+    public static implicit operator SolveDescription(ReadOnlySpan<int> substepVelocityIterations) => new(substepVelocityIterations);
+    /// <summary>Iterations of each substep.</summary>
+    public static implicit operator SolveDescription(int[] substepVelocityIterations) => new(substepVelocityIterations.AsSpan());
+
+    internal readonly void Validate()
+    {
+        ArgumentOutOfRangeException.ThrowIfLessThan(VelocityIterationCount, 1, nameof(VelocityIterationCount));
+        ArgumentOutOfRangeException.ThrowIfLessThan(SubstepCount, 1, nameof(SubstepCount));
+        ArgumentOutOfRangeException.ThrowIfLessThan(FallbackBatchThreshold, 1, nameof(FallbackBatchThreshold));
+    }
+}

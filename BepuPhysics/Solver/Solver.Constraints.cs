@@ -1,0 +1,317 @@
+using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics;
+
+// Adding, removing and looking at constraints.
+public sealed unsafe partial class Solver
+{
+    const int MaximumBodiesPerConstraint = 4;
+    const int MaximumFloatsPerConstraint = 128;
+
+    /// <summary>Adds a constraint on one body.</summary>
+    /// <exception cref="ArgumentException">The body does not exist or a value cannot be simulated; nothing was changed.</exception>
+    public ConstraintHandle Add<TDescription>(BodyHandle body, in TDescription description)
+        where TDescription : unmanaged, IOneBodyConstraintDescription<TDescription> => Add([body], description);
+
+    /// <summary>Adds a constraint between two bodies.</summary>
+    /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
+    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, in TDescription description)
+        where TDescription : unmanaged, ITwoBodyConstraintDescription<TDescription> => Add([a, b], description);
+
+    /// <summary>Adds a constraint between three bodies.</summary>
+    /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
+    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, BodyHandle c, in TDescription description)
+        where TDescription : unmanaged, IThreeBodyConstraintDescription<TDescription> => Add([a, b, c], description);
+
+    /// <summary>Adds a constraint between four bodies.</summary>
+    /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
+    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, BodyHandle c, BodyHandle d, in TDescription description)
+        where TDescription : unmanaged, IFourBodyConstraintDescription<TDescription> => Add([a, b, c, d], description);
+
+    /// <summary>Adds a constraint between as many bodies as its type connects.</summary>
+    /// <exception cref="ArgumentException">A body does not exist, occurs twice, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
+    public ConstraintHandle Add<TDescription>(Span<BodyHandle> bodyHandles, in TDescription description)
+        where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        if (bodyHandles.Length != TDescription.BodyCount)
+            throw new ArgumentException($"{typeof(TDescription).Name} connects {TDescription.BodyCount} bodies, not {bodyHandles.Length}.", nameof(bodyHandles));
+        CheckBodies(bodyHandles);
+        description.Validate();
+        Register<TDescription>();
+        var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
+        WriteDescription(HandleToConstraint[handle.Value], description);
+        return handle;
+    }
+
+    /// <summary>Removes a constraint.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint.</exception>
+    public void Remove(ConstraintHandle handle)
+    {
+        CheckHandle(handle);
+        if (HandleToConstraint[handle.Value].TypeId < ConstraintTypeIds.ContactTypeCount)
+            contactRemoved(handle);
+        RemoveWithoutNotice(handle);
+    }
+
+    /// <summary>Removes a constraint that exists and tells nobody.</summary>
+    internal void RemoveWithoutNotice(ConstraintHandle handle)
+    {
+        RemoveFromBodies(handle);
+        RemoveFromBatch(HandleToConstraint[handle.Value]);
+        HandleToConstraint[handle.Value].SetIndex = -1;
+        HandlePool.Return(handle.Value, pool);
+    }
+
+    /// <summary>Changes the description of a constraint; its accumulated impulses stay.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
+    public void ApplyDescription<TDescription>(ConstraintHandle handle, in TDescription description)
+        where TDescription : unmanaged, IConstraintDescription<TDescription> => ApplyDescriptionWithoutWaking(handle, description);
+
+    /// <summary>Changes the description of a constraint without waking its bodies.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
+    public void ApplyDescriptionWithoutWaking<TDescription>(ConstraintHandle handle, in TDescription description)
+        where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        CheckType<TDescription>(handle);
+        description.Validate();
+        WriteDescription(HandleToConstraint[handle.Value], description);
+    }
+
+    /// <summary>Reads the description of a constraint.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint or it has another type.</exception>
+    public void GetDescription<TDescription>(ConstraintHandle handle, out TDescription description)
+        where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        CheckType<TDescription>(handle);
+        ref var location = ref HandleToConstraint[handle.Value];
+        ref var batch = ref TypeBatchAt(location);
+        var processor = Processor(location.TypeId);
+        Unsafe.SkipInit(out description);
+        ref var floats = ref Unsafe.As<TDescription, float>(ref description);
+        for (int i = 0; i < processor.PrestepFloats; ++i)
+            Unsafe.Add(ref floats, i) = processor.PrestepFloat(ref batch, location.IndexInTypeBatch, i);
+    }
+
+    /// <summary>Visits the accumulated impulses of a constraint, row by row, N s or N m s, as the last substep left them.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint.</exception>
+    public void EnumerateAccumulatedImpulses<TEnumerator>(ConstraintHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<float>
+    {
+        CheckHandle(handle);
+        ref var location = ref HandleToConstraint[handle.Value];
+        ref var batch = ref TypeBatchAt(location);
+        var processor = Processor(location.TypeId);
+        for (int i = 0; i < processor.ImpulseFloats; ++i)
+            enumerator.LoopBody(processor.Impulse(ref batch, location.IndexInTypeBatch, i));
+    }
+
+    /// <summary>Square of the Euclidean length of a constraint's accumulated impulses over its rows.</summary>
+    public float GetAccumulatedImpulseMagnitudeSquared(ConstraintHandle handle)
+    {
+        var sum = new SumOfSquares();
+        EnumerateAccumulatedImpulses(handle, ref sum);
+        return sum.Sum;
+    }
+
+    /// <summary>Euclidean length of a constraint's accumulated impulses over its rows.</summary>
+    public float GetAccumulatedImpulseMagnitude(ConstraintHandle handle) => MathF.Sqrt(GetAccumulatedImpulseMagnitudeSquared(handle));
+
+    struct SumOfSquares : IForEach<float>
+    {
+        public float Sum;
+
+        public void LoopBody(float i) => Sum += i * i;
+    }
+
+    internal void EnumerateOtherBodies<TEnumerator>(in BodyConstraintReference constraint, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
+    {
+        ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            if (slot == constraint.BodyIndexInConstraint)
+                continue;
+            var index = processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+            enumerator.LoopBody(bodies.ActiveSet.IndexToHandle[index]);
+        }
+    }
+
+    /// <summary>Adds a constraint of a registered type; the caller writes its description.</summary>
+    internal ConstraintHandle AddUnwritten(ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
+    {
+        var handle = new ConstraintHandle(HandlePool.Take());
+        if (handle.Value >= HandleToConstraint.Length)
+        {
+            var previous = HandleToConstraint.Length;
+            pool.ResizeToAtLeast(ref HandleToConstraint, handle.Value + 1, previous);
+            for (int i = previous; i < HandleToConstraint.Length; ++i)
+                HandleToConstraint[i].SetIndex = -1;
+        }
+        HandleToConstraint[handle.Value] = Allocate(handle, bodyHandles, typeId);
+        for (int i = 0; i < bodyHandles.Length; ++i)
+            bodies.AddConstraint(bodyHandles[i], handle, i);
+        return handle;
+    }
+
+    ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
+    {
+        Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
+        Span<int> dynamics = stackalloc int[MaximumBodiesPerConstraint];
+        int dynamicCount = 0;
+        for (int i = 0; i < bodyHandles.Length; ++i)
+        {
+            var bodyIndex = bodies.HandleToLocation[bodyHandles[i].Value].Index;
+            var kinematic = Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]);
+            encoded[i] = kinematic ? bodyIndex | EncodedBody.KinematicFlag : bodyIndex;
+            if (!kinematic)
+                dynamics[dynamicCount++] = bodyHandles[i].Value;
+        }
+        var batchIndex = FindBatch(dynamics[..dynamicCount]);
+        ref var batch = ref ActiveSet.Batches[batchIndex];
+        if (batchIndex < FallbackBatchThreshold)
+        {
+            for (int i = 0; i < dynamicCount; ++i)
+                batch.DynamicBodies.Add(dynamics[i], pool);
+        }
+        var typeBatchIndex = batch.FindOrCreate(typeId, pool);
+        var index = Processor(typeId).Allocate(
+            ref batch.TypeBatches[typeBatchIndex], handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool);
+        return new() { SetIndex = 0, BatchIndex = batchIndex, TypeBatchIndex = typeBatchIndex, IndexInTypeBatch = index, TypeId = typeId };
+    }
+
+    int FindBatch(Span<int> dynamics)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        var colored = Math.Min(batches.Count, FallbackBatchThreshold);
+        for (int i = 0; i < colored; ++i)
+        {
+            if (batches[i].DynamicBodies.CanFit(dynamics))
+                return i;
+        }
+        if (batches.Count <= FallbackBatchThreshold)
+        {
+            var batch = new ConstraintBatch { TypeBatches = new QuickList<TypeBatch>(4, pool) };
+            if (batches.Count < FallbackBatchThreshold)
+                batch.DynamicBodies = new IndexSet(pool, Math.Max(64, bodies.ActiveSet.Count));
+            batches.Add(batch, pool);
+            return batches.Count - 1;
+        }
+        return FallbackBatchThreshold;
+    }
+
+    void RemoveFromBatch(in ConstraintLocation location)
+    {
+        ref var batch = ref Sets[location.SetIndex].Batches[location.BatchIndex];
+        ref var typeBatch = ref batch.TypeBatches[location.TypeBatchIndex];
+        var processor = Processor(location.TypeId);
+        if (location.BatchIndex < FallbackBatchThreshold)
+        {
+            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+            {
+                var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
+                if ((reference & EncodedBody.KinematicFlag) == 0)
+                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference].Value);
+            }
+        }
+        var index = location.IndexInTypeBatch;
+        var moved = processor.Remove(ref typeBatch, index);
+        if (moved.Value >= 0)
+            HandleToConstraint[moved.Value].IndexInTypeBatch = index;
+    }
+
+    void RemoveFromBodies(ConstraintHandle handle)
+    {
+        ref var location = ref HandleToConstraint[handle.Value];
+        ref var typeBatch = ref TypeBatchAt(location);
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+            bodies.RemoveConstraint(reference, handle);
+        }
+    }
+
+    /// <summary>
+    /// Puts the constraints of a body into batches anew, after it became kinematic or dynamic. Impulses and descriptions stay. Constraints
+    /// that are left without a dynamic body are removed.
+    /// </summary>
+    internal void Recolor(BodyHandle body)
+    {
+        ref var constraints = ref bodies.ActiveSet.Constraints[bodies.HandleToLocation[body.Value].Index];
+        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        for (int i = constraints.Count - 1; i >= 0; --i)
+        {
+            var handle = constraints[i].ConnectingConstraintHandle;
+            var old = HandleToConstraint[handle.Value];
+            var processor = Processor(old.TypeId);
+            ref var typeBatch = ref TypeBatchAt(old);
+            bool anyDynamic = false;
+            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+            {
+                var index = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+                handles[slot] = bodies.ActiveSet.IndexToHandle[index];
+                anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[index]);
+            }
+            if (!anyDynamic)
+            {
+                Remove(handle);
+                continue;
+            }
+            processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+            RemoveFromBatch(old);
+            var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
+            HandleToConstraint[handle.Value] = location;
+            processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+        }
+    }
+
+    /// <summary>Follows a body that moved to another index of the active set.</summary>
+    internal void UpdateBodyIndex(int newIndex)
+    {
+        ref var constraints = ref bodies.ActiveSet.Constraints[newIndex];
+        for (int i = 0; i < constraints.Count; ++i)
+        {
+            ref var constraint = ref constraints[i];
+            ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+            ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint);
+            reference = reference & ~EncodedBody.IndexMask | newIndex;
+        }
+    }
+
+    void WriteDescription<TDescription>(in ConstraintLocation location, in TDescription description) where TDescription : unmanaged
+    {
+        ref var batch = ref TypeBatchAt(location);
+        var processor = Processor(location.TypeId);
+        ref var floats = ref Unsafe.As<TDescription, float>(ref Unsafe.AsRef(in description));
+        for (int i = 0; i < processor.PrestepFloats; ++i)
+            processor.PrestepFloat(ref batch, location.IndexInTypeBatch, i) = Unsafe.Add(ref floats, i);
+    }
+
+    void CheckType<TDescription>(ConstraintHandle handle) where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        CheckHandle(handle);
+        if (HandleToConstraint[handle.Value].TypeId != TDescription.ConstraintTypeId)
+            throw new ArgumentException($"{handle} is no {typeof(TDescription).Name}.", nameof(handle));
+    }
+
+    void CheckBodies(ReadOnlySpan<BodyHandle> handles)
+    {
+        bool anyDynamic = false;
+        for (int i = 0; i < handles.Length; ++i)
+        {
+            bodies.CheckHandle(handles[i]);
+            anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodies.HandleToLocation[handles[i].Value].Index]);
+            for (int j = 0; j < i; ++j)
+            {
+                if (handles[i] == handles[j])
+                    throw new ArgumentException($"A constraint cannot connect {handles[i]} to itself.", nameof(handles));
+            }
+        }
+        if (!anyDynamic)
+            throw new ArgumentException("A constraint needs at least one dynamic body; nothing moves a kinematic one.", nameof(handles));
+    }
+}

@@ -1,0 +1,211 @@
+using System;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics;
+
+/// <summary>Something that happens at the beginning or the end of a substep.</summary>
+public delegate void SubstepEvent(int substepIndex);
+
+// One step of the solver: a list of stages, each a number of independent blocks, run by StagedWork on one dispatch.
+//
+//   for each substep:  integrate bodies;  for each batch: warm start;  for each iteration, for each batch: solve
+//   at the end:        integrate poses
+//
+// The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Bundles of constraints per block: large enough that claiming a block is cheap against solving it.</summary>
+    const int ConstraintBundlesPerBlock = 16;
+    /// <summary>Bundles of bodies per block of integration.</summary>
+    const int BodyBundlesPerBlock = 32;
+    /// <summary>Split bodies per block.</summary>
+    const int SplitBodiesPerBlock = 64;
+
+    float previousSubstepDt;
+
+    /// <summary>Called when a substep begins, before its bodies are integrated. Runs on a worker, while the others wait.</summary>
+    public event SubstepEvent? SubstepStarted;
+    /// <summary>Called when the constraints of a substep have been solved. Runs on a worker, while the others wait.</summary>
+    public event SubstepEvent? SubstepEnded;
+
+    enum StageKind
+    {
+        SubstepStarted,
+        Integrate,
+        WarmStart,
+        Solve,
+        JoinParts,
+        SubstepEnded,
+    }
+
+    struct Stage
+    {
+        public StageKind Kind;
+        public IntegrationStage Integration;
+        public int Substep;
+        public int Batch;
+        public int BlockCount;
+    }
+
+    // A range of bundles of one type batch.
+    struct Block
+    {
+        public int TypeBatch;
+        public int StartBundle;
+        public int EndBundle;
+    }
+
+    struct BlockRange
+    {
+        public int Start;
+        public int Count;
+    }
+
+    internal void Step(float dt, IPoseIntegrator integrator, IThreadDispatcher? dispatcher)
+    {
+        ref var set = ref bodies.ActiveSet;
+        if (set.Count == 0)
+            return;
+        var substepDt = dt / substepCount;
+        var scale = previousSubstepDt > 0 ? substepDt / previousSubstepDt : 1;
+        previousSubstepDt = substepDt;
+
+        var work = new SolveWork
+        {
+            Solver = this,
+            Integrator = integrator,
+            SubstepDt = substepDt,
+            FirstWarmStartScale = scale,
+            Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory),
+        };
+        BuildBlocks(ref work);
+        BuildStages(ref work);
+        BuildSplitBodies(ref work.Split);
+        integrator.Prepare(substepDt);
+        StagedWork.Run(ref work, dispatcher);
+        work.Blocks.Dispose(pool);
+        work.BlocksOfBatch.Dispose(pool);
+        work.Stages.Dispose(pool);
+        work.Split.Dispose(pool);
+    }
+
+    void BuildBlocks(ref SolveWork work)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        work.Blocks = new QuickList<Block>(64, pool);
+        work.BlocksOfBatch = new QuickList<BlockRange>(Math.Max(1, batches.Count), pool);
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            var start = work.Blocks.Count;
+            ref var typeBatches = ref batches[i].TypeBatches;
+            for (int j = 0; j < typeBatches.Count; ++j)
+            {
+                var bundles = typeBatches[j].BundleCount;
+                for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
+                    work.Blocks.Add(new() { TypeBatch = j, StartBundle = bundle, EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles) }, pool);
+            }
+            work.BlocksOfBatch.Add(new() { Start = start, Count = work.Blocks.Count - start }, pool);
+        }
+    }
+
+    void BuildStages(ref SolveWork work)
+    {
+        work.Stages = new QuickList<Stage>(64, pool);
+        var bodyBlocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
+        for (int substep = 0; substep < substepCount; ++substep)
+        {
+            if (SubstepStarted is not null)
+                work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
+            var integration = substep == 0 ? IntegrationStage.First : IntegrationStage.Between;
+            work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = integration, Substep = substep, BlockCount = bodyBlocks }, pool);
+            AddSweep(ref work, StageKind.WarmStart, substep);
+            var iterations = VelocityIterationScheduler?.Invoke(substep) ?? 0;
+            for (int i = iterations < 1 ? velocityIterationCount : iterations; i > 0; --i)
+                AddSweep(ref work, StageKind.Solve, substep);
+            if (SubstepEnded is not null)
+                work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = substep, BlockCount = 1 }, pool);
+        }
+        work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = IntegrationStage.Last, Substep = substepCount - 1, BlockCount = bodyBlocks }, pool);
+    }
+
+    void AddSweep(ref SolveWork work, StageKind kind, int substep)
+    {
+        for (int batch = 0; batch < work.BlocksOfBatch.Count; ++batch)
+        {
+            if (work.BlocksOfBatch[batch].Count == 0)
+                continue;
+            work.Stages.Add(new() { Kind = kind, Substep = substep, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
+            if (batch == FallbackBatchThreshold)
+                work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
+        }
+    }
+
+    static int BlockCount(int count, int perBlock) => (count + perBlock - 1) / perBlock;
+
+    struct SolveWork : IStagedWork
+    {
+        public Solver Solver;
+        public IPoseIntegrator Integrator;
+        public float SubstepDt;
+        public float FirstWarmStartScale;
+        public SolverBodies Bodies;
+        public FallbackParts Split;
+        public QuickList<Stage> Stages;
+        public QuickList<Block> Blocks;
+        public QuickList<BlockRange> BlocksOfBatch;
+
+        public readonly int StageCount => Stages.Count;
+
+        public readonly int GetBlockCount(int stage) =>
+            Stages[stage].Kind == StageKind.JoinParts ? BlockCount(Split.BodyCount, SplitBodiesPerBlock) : Stages[stage].BlockCount;
+
+        public void Execute(int stageIndex, int blockIndex, int workerIndex)
+        {
+            ref var stage = ref Stages[stageIndex];
+            switch (stage.Kind)
+            {
+                case StageKind.Integrate:
+                    var bundles = BundleIndexing.GetBundleCount(Solver.bodies.ActiveSet.Count);
+                    var start = blockIndex * BodyBundlesPerBlock;
+                    Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
+                    break;
+                case StageKind.WarmStart:
+                case StageKind.Solve:
+                    RunConstraints(stage, Blocks[BlocksOfBatch[stage.Batch].Start + blockIndex]);
+                    break;
+                case StageKind.JoinParts:
+                    var first = blockIndex * SplitBodiesPerBlock;
+                    Split.Join(ref Solver.bodies.ActiveSet, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
+                    break;
+                case StageKind.SubstepStarted:
+                    Solver.SubstepStarted!(stage.Substep);
+                    break;
+                case StageKind.SubstepEnded:
+                    Solver.SubstepEnded!(stage.Substep);
+                    break;
+            }
+        }
+
+        readonly void RunConstraints(in Stage stage, in Block block)
+        {
+            ref var batch = ref Solver.ActiveSet.Batches[stage.Batch].TypeBatches[block.TypeBatch];
+            var processor = Solver.Processor(batch.TypeId);
+            var substep = new Substep(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1);
+            if (stage.Batch == Solver.FallbackBatchThreshold)
+            {
+                var split = Split.For(block.TypeBatch);
+                if (stage.Kind == StageKind.WarmStart)
+                    processor.WarmStartSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
+                else
+                    processor.SolveSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
+            }
+            else if (stage.Kind == StageKind.WarmStart)
+                processor.WarmStart(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
+            else
+                processor.Solve(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
+        }
+    }
+}

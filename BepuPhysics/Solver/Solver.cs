@@ -1,0 +1,178 @@
+using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Chooses the number of velocity iterations of a substep; values below 1 mean <see cref="Solver.VelocityIterationCount"/>.</summary>
+public delegate int SubstepVelocityIterationScheduler(int substepIndex);
+
+/// <summary>Holds all constraints and moves the velocities of bodies until the constraints are satisfied.</summary>
+// How constraints are kept. Every constraint goes into the first batch in which none of its dynamic bodies occurs yet: a greedy colouring
+// of the graph whose nodes are bodies. All constraints of a batch are independent, so they are solved in bundles and by any number of
+// threads with the same result. A batch keeps one type batch per constraint type. Kinematic bodies do not count for the colouring: they are
+// read by many constraints at once and written by none.
+//
+// A body with more constraints than FallbackBatchThreshold batches sends the rest of them to the fallback batch, in which bodies may
+// occur any number of times: there each occurrence is a body of its own with its share of the mass (SplitBodies).
+public sealed unsafe partial class Solver
+{
+    const int MaximumTypeCount = 128;
+
+    readonly Bodies bodies;
+    readonly BufferPool pool;
+    Action<ConstraintHandle> contactRemoved = static _ => { };
+    int velocityIterationCount;
+    int substepCount;
+
+    /// <summary>Sets of constraints; set 0 is the active one.</summary>
+    public Buffer<ConstraintSet> Sets;
+    /// <summary>Location of each constraint by handle value.</summary>
+    public Buffer<ConstraintLocation> HandleToConstraint;
+    /// <summary>Hands out the values of constraint handles.</summary>
+    public IdPool HandlePool;
+    /// <summary>Processor of each constraint type by id; null where the type is not registered.</summary>
+    public TypeProcessor?[] TypeProcessors { get; } = new TypeProcessor?[MaximumTypeCount];
+
+    /// <summary>Constraints that are solved each step.</summary>
+    public ref ConstraintSet ActiveSet => ref Sets[0];
+
+    /// <summary>Sweeps over the constraints per substep; at least 1.</summary>
+    /// <remarks>At four substeps or more a further substep buys more accuracy than a further iteration.</remarks>
+    public int VelocityIterationCount
+    {
+        get => velocityIterationCount;
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfLessThan(value, 1, nameof(VelocityIterationCount));
+            velocityIterationCount = value;
+        }
+    }
+
+    /// <summary>Parts into which a step is divided for integration and solving; at least 1.</summary>
+    public int SubstepCount
+    {
+        get => substepCount;
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfLessThan(value, 1, nameof(SubstepCount));
+            substepCount = value;
+        }
+    }
+
+    /// <summary>Chooses the number of velocity iterations of each substep; null for <see cref="VelocityIterationCount"/> in all.</summary>
+    public SubstepVelocityIterationScheduler? VelocityIterationScheduler { get; set; }
+    /// <summary>Number of batches before constraints go to the fallback batch.</summary>
+    public int FallbackBatchThreshold { get; }
+    /// <summary>Least number of constraints for which a new type batch has room.</summary>
+    public int MinimumCapacityPerTypeBatch { get; set; } = 64;
+
+    internal Solver(Bodies bodies, BufferPool pool, in SolveDescription description, int initialCapacity)
+    {
+        description.Validate();
+        this.bodies = bodies;
+        this.pool = pool;
+        velocityIterationCount = description.VelocityIterationCount;
+        substepCount = description.SubstepCount;
+        VelocityIterationScheduler = description.VelocityIterationScheduler;
+        FallbackBatchThreshold = description.FallbackBatchThreshold;
+        pool.Take(1, out Sets);
+        Sets[0] = new ConstraintSet { Batches = new QuickList<ConstraintBatch>(16, pool) };
+        pool.Take(Math.Max(16, initialCapacity), out HandleToConstraint);
+        for (int i = 0; i < HandleToConstraint.Length; ++i)
+            HandleToConstraint[i].SetIndex = -1;
+        HandlePool = new IdPool(Math.Max(16, initialCapacity), pool);
+    }
+
+    /// <summary>Makes a constraint type known. Types of the library are known already.</summary>
+    /// <exception cref="ArgumentException">Another type has the same id, or the id is out of range.</exception>
+    public void Register<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        var typeId = TDescription.ConstraintTypeId;
+        if ((uint)typeId >= MaximumTypeCount)
+            throw new ArgumentException($"Constraint type ids are from 0 to {MaximumTypeCount - 1}; {typeof(TDescription).Name} has {typeId}.");
+        var processor = TDescription.CreateTypeProcessor();
+        if (TypeProcessors[typeId] is { } other && other.GetType() != processor.GetType())
+            throw new ArgumentException($"Constraint type id {typeId} of {typeof(TDescription).Name} is taken by another type.");
+        if (TypeProcessors[typeId] is null)
+            RegisterProcessor(typeId, processor);
+    }
+
+    /// <summary>Chooses who is told when a contact constraint is removed by anyone but the narrow phase.</summary>
+    internal void OnContactRemoved(Action<ConstraintHandle> action) => contactRemoved = action;
+
+    internal void RegisterProcessor(int typeId, TypeProcessor processor)
+    {
+        processor.TypeId = typeId;
+        TypeProcessors[typeId] = processor;
+    }
+
+    /// <summary>Number of constraints in all sets.</summary>
+    public int CountConstraints()
+    {
+        int count = 0;
+        for (int i = 0; i < Sets.Length; ++i)
+            count += Sets[i].CountConstraints();
+        return count;
+    }
+
+    /// <summary>Whether a handle names a constraint.</summary>
+    public bool ConstraintExists(ConstraintHandle handle) =>
+        (uint)handle.Value < (uint)HandleToConstraint.Length && HandleToConstraint[handle.Value].SetIndex >= 0;
+
+    /// <summary>Where a constraint is; valid until constraints are added or removed.</summary>
+    /// <exception cref="ArgumentException">There is no such constraint.</exception>
+    public ConstraintReference GetConstraintReference(ConstraintHandle handle)
+    {
+        CheckHandle(handle);
+        ref var location = ref HandleToConstraint[handle.Value];
+        return new((TypeBatch*)Unsafe.AsPointer(ref TypeBatchAt(location)), location.IndexInTypeBatch);
+    }
+
+    internal ref TypeBatch TypeBatchAt(in ConstraintLocation location) =>
+        ref Sets[location.SetIndex].Batches[location.BatchIndex].TypeBatches[location.TypeBatchIndex];
+
+    internal TypeProcessor Processor(int typeId) => TypeProcessors[typeId]!;
+
+    void CheckHandle(ConstraintHandle handle)
+    {
+        if (!ConstraintExists(handle))
+            throw new ArgumentException($"There is no {handle}.", nameof(handle));
+    }
+
+    internal void Clear()
+    {
+        for (int i = 0; i < Sets.Length; ++i)
+        {
+            ref var batches = ref Sets[i].Batches;
+            for (int j = 0; j < batches.Count; ++j)
+                DisposeBatch(ref batches[j]);
+            batches.Count = 0;
+        }
+        for (int i = 0; i < HandleToConstraint.Length; ++i)
+            HandleToConstraint[i].SetIndex = -1;
+        HandlePool.Clear();
+        previousSubstepDt = 0;
+    }
+
+    void DisposeBatch(ref ConstraintBatch batch)
+    {
+        for (int i = 0; i < batch.TypeBatches.Count; ++i)
+            TypeProcessor.Dispose(ref batch.TypeBatches[i], pool);
+        batch.TypeBatches.Dispose(pool);
+        if (batch.DynamicBodies.Flags.Allocated)
+            batch.DynamicBodies.Dispose(pool);
+    }
+
+    internal void Dispose()
+    {
+        Clear();
+        for (int i = 0; i < Sets.Length; ++i)
+            Sets[i].Batches.Dispose(pool);
+        pool.Return(ref Sets);
+        pool.Return(ref HandleToConstraint);
+        HandlePool.Dispose(pool);
+    }
+}

@@ -1,0 +1,89 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>The bodies of the active set as the solver reads and writes them: rows of eight floats, so that each is one transpose.</summary>
+unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements)
+{
+    const int FloatsPerRow = 8;
+    const int FloatsPerMotion = 16;
+
+    readonly float* motions = (float*)motions;
+    readonly float* inertias = (float*)inertias;
+    readonly float* displacements = (float*)displacements;
+
+    /// <summary>Reads the parts of a bundle of bodies that are asked for. Unused lanes read body 0, which is harmless and exists.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void Gather(Vector<int> references, BodyAccess access, in Substep substep, out SolverBodyWide body)
+    {
+        Unsafe.SkipInit(out body);
+        if ((access & BodyAccess.Pose) != 0)
+        {
+            var row = Transpose.Gather(motions, FloatsPerMotion, references);
+            body.Orientation = new(row.R0, row.R1, row.R2, row.R3);
+            body.Position = new(row.R4, row.R5, row.R6);
+        }
+        if ((access & BodyAccess.Velocity) != 0)
+        {
+            var row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, references);
+            body.Linear = new(row.R0, row.R1, row.R2);
+            body.Angular = new(row.R4, row.R5, row.R6);
+        }
+        if ((access & BodyAccess.Mass) != 0)
+        {
+            var row = Transpose.Gather(inertias, FloatsPerRow, references);
+            body.InverseInertia.XX = row.R0;
+            body.InverseInertia.YX = row.R1;
+            body.InverseInertia.YY = row.R2;
+            body.InverseInertia.ZX = row.R3;
+            body.InverseInertia.ZY = row.R4;
+            body.InverseInertia.ZZ = row.R5;
+            body.InverseMass = row.R6;
+        }
+        if ((access & BodyAccess.Displacement) != 0)
+        {
+            // Nothing has moved yet in the first substep.
+            body.Translation = default;
+            body.Rotation = default;
+            if (substep.Index > 0)
+            {
+                var row = Transpose.Gather(displacements, FloatsPerRow, references);
+                body.Translation = new(row.R0, row.R1, row.R2);
+                body.Rotation = new(row.R4, row.R5, row.R6);
+            }
+        }
+    }
+
+    /// <summary>Writes the velocities of a bundle of bodies, except for kinematics and unused lanes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void ScatterVelocity(Vector<int> references, in SolverBodyWide body)
+    {
+        Rows8 row;
+        row.R0 = body.Linear.X;
+        row.R1 = body.Linear.Y;
+        row.R2 = body.Linear.Z;
+        row.R3 = Vector<float>.Zero;
+        row.R4 = body.Angular.X;
+        row.R5 = body.Angular.Y;
+        row.R6 = body.Angular.Z;
+        row.R7 = Vector<float>.Zero;
+        Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, references);
+    }
+}
+
+/// <summary>Bodies of the fallback batch, in which a body may occur any number of times.</summary>
+/// <remarks>
+/// A body that occurs n times is split into n bodies of 1/n of its mass and inertia, one per constraint. All constraints are then
+/// independent and are solved in parallel; afterwards the velocity of the body is the mean of its parts. Since each part has the same
+/// mass, the mean keeps the momentum. Tonge, Benevolenski, Voroshilov: Mass splitting for jitter-free parallel rigid body simulation,
+/// ACM Transactions on Graphics 31(4), 2012.
+/// </remarks>
+unsafe readonly struct SplitBodies(float* counts, BodyVelocity* parts)
+{
+    /// <summary>Number of parts of every body of the active set, as a float.</summary>
+    internal readonly float* Counts = counts;
+    /// <summary>Velocity of every part: slot of a constraint after slot, constraint after constraint.</summary>
+    internal readonly BodyVelocity* Parts = parts;
+}

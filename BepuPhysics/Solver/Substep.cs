@@ -1,0 +1,26 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>The part of a step that the solver is working on.</summary>
+public readonly struct Substep
+{
+    /// <summary>Index of the substep within its step, from 0.</summary>
+    public readonly int Index;
+    /// <summary>Length of the substep, s.</summary>
+    public readonly float Dt;
+    /// <summary>One over the length, 1/s.</summary>
+    public readonly float InverseDt;
+    /// <summary>
+    /// Factor for the impulses that the previous substep left: the ratio of the two lengths, since the force is what carries over.
+    /// 1 except in the first substep of a step whose substeps differ in length from the last step's.
+    /// </summary>
+    public readonly float WarmStartScale;
+
+    /// <summary>Describes a substep.</summary>
+    public Substep(int index, float dt, float warmStartScale)
+    {
+        Index = index;
+        Dt = dt;
+        InverseDt = 1 / dt;
+        WarmStartScale = warmStartScale;
+    }
+}

@@ -1,0 +1,120 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>The only loops of the solver, specialised by the JIT for each type of constraint.</summary>
+public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstraint> : TypeProcessor
+    where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TImpulses : unmanaged
+    where TConstraint : unmanaged, IConstraint<TBodies, TPrestep, TImpulses>
+{
+    /// <summary>Creates the processor.</summary>
+    public TypeProcessor() : base(TBodies.Count, sizeof(TPrestep) / sizeof(Vector<float>), sizeof(TImpulses) / sizeof(Vector<float>)) { }
+
+    /// <inheritdoc/>
+    internal override void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
+        {
+            Gather(references, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
+            Scatter(references, bodies, ref slots);
+        }
+    }
+
+    /// <inheritdoc/>
+    internal override void Solve(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
+        {
+            Gather(references, bodies, TConstraint.SolveAccess, substep, out var slots);
+            TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
+            Scatter(references, bodies, ref slots);
+        }
+    }
+
+    /// <inheritdoc/>
+    internal override void WarmStartSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        for (int i = startBundle; i < endBundle; ++i)
+        {
+            Gather(references + i * TBodies.Count, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            ScaleInverseMass(references + i * TBodies.Count, split, ref slots);
+            TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
+            WriteParts(i, split, ref slots);
+        }
+    }
+
+    /// <inheritdoc/>
+    internal override void SolveSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        for (int i = startBundle; i < endBundle; ++i)
+        {
+            Gather(references + i * TBodies.Count, bodies, TConstraint.SolveAccess, substep, out var slots);
+            ScaleInverseMass(references + i * TBodies.Count, split, ref slots);
+            TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
+            WriteParts(i, split, ref slots);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Gather(Vector<int>* references, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
+    {
+        Unsafe.SkipInit(out slots);
+        bodies.Gather(references[0], access, substep, out BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.Gather(references[1], access, substep, out BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.Gather(references[2], access, substep, out BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.Gather(references[3], access, substep, out BodySlots.At(ref slots, 3));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Scatter(Vector<int>* references, in SolverBodies bodies, ref TBodies slots)
+    {
+        bodies.ScatterVelocity(references[0], BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.ScatterVelocity(references[1], BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.ScatterVelocity(references[2], BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.ScatterVelocity(references[3], BodySlots.At(ref slots, 3));
+    }
+
+    static void ScaleInverseMass(Vector<int>* references, in SplitBodies split, ref TBodies slots)
+    {
+        for (int slot = 0; slot < TBodies.Count; ++slot)
+        {
+            Vector<float> count = default;
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                var reference = references[slot][lane];
+                count = count.WithElement(lane, reference < 0 ? 1 : split.Counts[reference & EncodedBody.IndexMask]);
+            }
+            ref var body = ref BodySlots.At(ref slots, slot);
+            body.InverseMass *= count;
+            body.InverseInertia *= count;
+        }
+    }
+
+    static void WriteParts(int bundle, in SplitBodies split, ref TBodies slots)
+    {
+        for (int lane = 0; lane < Vector<float>.Count; ++lane)
+        {
+            for (int slot = 0; slot < TBodies.Count; ++slot)
+            {
+                ref var body = ref BodySlots.At(ref slots, slot);
+                ref var part = ref split.Parts[(bundle * Vector<float>.Count + lane) * TBodies.Count + slot];
+                part.Linear = new(body.Linear.X[lane], body.Linear.Y[lane], body.Linear.Z[lane]);
+                part.Angular = new(body.Angular.X[lane], body.Angular.Y[lane], body.Angular.Z[lane]);
+            }
+        }
+    }
+}

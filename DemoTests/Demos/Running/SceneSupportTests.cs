@@ -1,0 +1,48 @@
+using System;
+using System.Text;
+using Demos.Running;
+using Demos.Scenes;
+using Xunit;
+
+namespace DemoTests.Runner;
+
+/// <summary>What the library cannot do yet is refused by name, before anything is simulated.</summary>
+public class SceneSupportTests
+{
+    [Theory]
+    [InlineData("cylinder 0.5 0.5", "cylinder")]
+    [InlineData("hull 4 0 0 0 1 0 0 0 1 0 0 0 1", "hull")]
+    [InlineData("mesh 3 1 0 0 0 1 0 0 0 0 1 0 1 2", "mesh")]
+    public void A_shape_that_does_not_exist_is_named(string shape, string word)
+    {
+        var error = Assert.Throws<SceneException>(() => Build(shape, "0 1 1 0 0 0 0 0 0 1 0 0 -1 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal($"line 4: '{word}' is not supported yet", error.Message);
+        Assert.Equal(word, error.Token);
+    }
+
+    [Theory]
+    [InlineData("2 2 0 0 0 0 0 0 0 1 0 0 1 0 0 0 0 1 1 0 0 -1 0 0 0 1 0 0 0 0 0 0 0")]
+    [InlineData("0 1 0 0 1 0 0 0 0 1 0 0 -1 0 0 0 0 1 0 0 0 0 0 0 0")]
+    public void A_body_of_displaced_shapes_is_refused(string body)
+    {
+        var error = Assert.Throws<SceneException>(() => Build("sphere 1", body));
+
+        Assert.Equal(6, error.Line);
+        Assert.Contains("'compound'", error.Message, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("2 1 0 0 0 0 0 0 0 1 1e-45 0 0 0 0 0 0 1 0 0 0 0 0 0 0")]
+    [InlineData("2 1 0 0 0 0 0 0 0 1 1e-39 0 0 0 0 0 0 1 0 0 0 0 0 0 0")]
+    public void A_mass_without_inverse_is_refused_with_its_line(string body)
+    {
+        Assert.Equal(6, Assert.Throws<SceneException>(() => Build("sphere 1", body)).Line);
+    }
+
+    static void Build(string shape, string body)
+    {
+        string text = $"scene 1 name n steps 1 friction 0.5 damping 0 sleep 0\nshapes 2\nbox 1 1 1\n{shape}\nbodies 1\n{body}\njoints 0\n";
+        using var run = new SceneRun(SceneFile.Parse(Encoding.UTF8.GetBytes(text)), new RunSettings());
+    }
+}

@@ -1,0 +1,34 @@
+using BepuPhysics;
+using BepuPhysics.Constraints;
+using Demos.Running;
+
+namespace Demos.Engine;
+
+/// <summary>What differs between engines: here this library, at its own defaults.</summary>
+static class EngineDefaults
+{
+    public const string Name = "tootbird";
+
+    /// <summary>Metres per second.</summary>
+    public const float MaximumRecoveryVelocity = 2;
+
+    /// <summary>Contacts as hard as the step allows.</summary>
+    public static SpringSettings ContactSpring => default;
+
+    /// <summary>Joints as hard as the step allows.</summary>
+    public static SpringSettings JointSpring => default;
+
+    /// <summary>Seconds of the stages of the last step. The library does not measure them yet.</summary>
+    public static StageTimes ReadStages(Simulation simulation) => default;
+
+    /// <summary>Colours of the active constraints.</summary>
+    public static int? CountBatches(Simulation simulation) => simulation.Solver.ActiveSet.Batches.Count;
+
+    /// <summary>Constraints of bodies that have more of them than there are colours.</summary>
+    public static int? CountFallback(Simulation simulation)
+    {
+        ref ConstraintSet active = ref simulation.Solver.ActiveSet;
+        int threshold = simulation.Solver.FallbackBatchThreshold;
+        return active.Batches.Count > threshold ? active.Batches[threshold].CountConstraints() : 0;
+    }
+}

@@ -1,0 +1,103 @@
+using System;
+using System.CommandLine;
+using System.Diagnostics;
+using System.IO;
+using System.Reflection;
+using BepuPhysics;
+using BepuUtilities.Memory;
+using Demos.Running;
+using Demos.Scenes;
+
+namespace Demos.Terminal;
+
+/// <summary>The command line: what can be asked for, and what the exit status says.</summary>
+public static class DemosCommand
+{
+    /// <summary>Exit status of a run that ended with every body where it can be.</summary>
+    public const int Finished = 0;
+
+    /// <summary>Exit status when the input was bad; the reason is on standard error.</summary>
+    public const int BadInput = 1;
+
+    /// <summary>Exit status of a run that lost bodies, or has bodies whose state is not finite.</summary>
+    public const int Unsound = 2;
+
+    /// <summary>Runs the command line and returns the exit status.</summary>
+    public static int Run(string[] args) => Run(args, Console.Out, Console.Error);
+
+    /// <summary>As <see cref="Run(string[])"/>, with the messages going to the given writers.</summary>
+    public static int Run(string[] args, TextWriter output, TextWriter error)
+    {
+        var root = new RootCommand("Runs physics scenes without a window and reports what they cost and how well they held.");
+        root.Subcommands.Add(ListCommand());
+        root.Subcommands.Add(RunCommand());
+        root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));
+        // Not the default handler: it would give a defect of ours the exit status of bad input.
+        var configuration = new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false };
+        return root.Parse(args).Invoke(configuration);
+    }
+
+    static Command ListCommand()
+    {
+        var command = new Command("list", "Lists the built-in scenes.");
+        command.SetAction(parsed =>
+        {
+            foreach (BuiltInScene scene in SceneLibrary.Scenes)
+                parsed.InvocationConfiguration.Output.WriteLine($"{scene.Name,-16}{scene.Summary}");
+            return Finished;
+        });
+        return command;
+    }
+
+    static Command RunCommand()
+    {
+        var options = new RunOptions();
+        var sceneArgument = new Argument<string>("scene") { Description = "Name of a built-in scene, or path of a .scene file." };
+        var jsonOption = new Option<string?>("--json") { Description = "File to write the figures to, as JSON.", HelpName = "FILE" };
+        var command = new Command("run", "Runs one scene.");
+        command.Arguments.Add(sceneArgument);
+        command.Options.Add(jsonOption);
+        options.AddTo(command);
+        command.SetAction(parsed => Guard(parsed, report =>
+            RunScene(parsed.GetRequiredValue(sceneArgument), options.Read(parsed), parsed.GetValue(jsonOption), report)));
+        return command;
+    }
+
+    static int RunScene(string nameOrPath, RunSettings settings, string? jsonPath, RunReport report)
+    {
+        SceneDescription scene = SceneLibrary.Load(nameOrPath, settings.Seed);
+        // Found out now rather than after minutes of simulation.
+        if (jsonPath is not null && !Directory.Exists(Path.GetDirectoryName(Path.GetFullPath(jsonPath))))
+            throw new DirectoryNotFoundException($"the folder of '{jsonPath}' does not exist");
+        using var run = new SceneRun(scene, settings);
+        RunResult result = report.RunWithProgress(run, scene.Name, settings.Steps ?? scene.Steps);
+        if (jsonPath is not null)
+            RunResultJson.Write(jsonPath, result);
+        report.Write(result);
+        return result.IsSound ? Finished : Unsound;
+    }
+
+    /// <summary>Turns what is wrong with the input into a line on standard error. Anything else is a defect and may show its trace.</summary>
+    static int Guard(ParseResult parsed, Func<RunReport, int> action)
+    {
+        InvocationConfiguration configuration = parsed.InvocationConfiguration;
+        try
+        {
+            WarnOfUnoptimized(configuration.Error, typeof(Simulation).Assembly);
+            WarnOfUnoptimized(configuration.Error, typeof(BufferPool).Assembly);
+            return action(new RunReport(configuration.Output));
+        }
+        catch (Exception error) when (error is SceneException or IOException or UnauthorizedAccessException)
+        {
+            configuration.Error.WriteLine($"error: {error.Message}");
+            return BadInput;
+        }
+    }
+
+    /// <summary>One of an engine's assemblies built for debugging makes every time meaningless, and nothing else would show it.</summary>
+    static void WarnOfUnoptimized(TextWriter error, Assembly assembly)
+    {
+        if (assembly.GetCustomAttribute<DebuggableAttribute>() is { IsJITOptimizerDisabled: true })
+            error.WriteLine($"warning: {assembly.GetName().Name} was compiled without optimization, its times mean nothing");
+    }
+}

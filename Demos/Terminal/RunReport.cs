@@ -1,0 +1,80 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using Demos.Running;
+using Spectre.Console;
+
+namespace Demos.Terminal;
+
+/// <summary>Shows a run: a progress bar and a table on a terminal, plain lines everywhere else.</summary>
+sealed class RunReport(TextWriter output)
+{
+    readonly bool isTerminal = output == Console.Out && !Console.IsOutputRedirected && AnsiConsole.Profile.Capabilities.Interactive;
+
+    /// <summary>Runs all steps, with a progress bar where somebody can see it.</summary>
+    public RunResult RunWithProgress(SceneRun run, string sceneName, int steps)
+    {
+        if (!isTerminal)
+            return run.Run();
+        // Drawn from between the steps, never by a timer thread: that would cost the steps time and count as their garbage.
+        return AnsiConsole.Progress().AutoRefresh(false).AutoClear(true).Start(context =>
+        {
+            ProgressTask task = context.AddTask(Markup.Escape(sceneName), maxValue: steps);
+            int interval = Math.Max(1, steps / 100);
+            return run.Run(step =>
+            {
+                if (step % interval != 0)
+                    return;
+                task.Value = step;
+                context.Refresh();
+            });
+        });
+    }
+
+    /// <summary>Writes the figures.</summary>
+    public void Write(RunResult result)
+    {
+        if (!isTerminal)
+        {
+            foreach ((string name, string value) in Rows(result))
+                output.WriteLine($"{name,-18}{value}");
+            return;
+        }
+        var table = new Table().Border(TableBorder.Rounded).Title(Markup.Escape(result.Scene));
+        table.AddColumn("figure");
+        table.AddColumn(new TableColumn("value").RightAligned());
+        foreach ((string name, string value) in Rows(result))
+            table.AddRow(Markup.Escape(name), Markup.Escape(value));
+        AnsiConsole.Write(table);
+    }
+
+    static IEnumerable<(string Name, string Value)> Rows(RunResult result)
+    {
+        yield return ("engine", result.Engine);
+        yield return ("scene", result.Scene);
+        yield return ("steps", Text($"{result.Steps} of {result.StepDuration * 1000:0.###} ms"));
+        yield return ("solver", Text($"{result.Substeps} substeps x {result.Iterations} iterations"));
+        yield return ("threads, lanes", Text($"{result.Threads}, {result.Lanes}"));
+        StepTimes ms = result.Times;
+        yield return ("ms per step", Text($"mean {ms.Mean:0.000}, median {ms.Median:0.000}, p95 {ms.P95:0.000}, p99 {ms.P99:0.000}, max {ms.Max:0.000}"));
+        StageTimes at = result.Stages;
+        if (at != default)
+            yield return ("stages, ms", Text($"sleep {at.Sleep:0.000}, predict {at.Predict:0.000}, broad {at.Broad:0.000}, narrow {at.Narrow:0.000}, flush {at.Flush:0.000}, solve {at.Solve:0.000}, settle {at.Settle:0.000}"));
+        yield return ("bodies", Text($"{result.Bodies} ({result.Awake} awake), {result.Statics} statics"));
+        yield return ("contacts", Text($"{Figure(result.Contacts)} in {Figure(result.Manifolds)} manifolds of {Figure(result.Pairs)} pairs"));
+        yield return ("constraints", Text($"{Figure(result.Constraints)} in {Figure(result.Batches)} batches, {Figure(result.Fallback)} without a colour"));
+        yield return ("allocated", Text($"{result.ManagedBytes} bytes managed, {result.PoolBytes} bytes pooled"));
+        if (result.MaximumPenetration is double depth)
+            yield return ("penetration", Text($"{depth * 1000:0.###} mm at most"));
+        if (result.MaximumJointError is double worst && result.RmsJointError is double rms)
+            yield return ("joint error", Text($"{worst * 1000:0.###} mm at most, {rms * 1000:0.###} mm rms"));
+        yield return ("energy", Text($"{result.KineticEnergy:G6} J kinetic, {result.PotentialEnergy:G6} J potential"));
+        yield return ("moved", Text($"{result.Moved} by more than 0.5 m, {result.Lost} lost, {result.NotFinite} not finite"));
+        yield return ("hash", RunResultJson.HashText(result.Hash));
+    }
+
+    static string Text(FormattableString text) => FormattableString.Invariant(text);
+
+    static string Figure(long? value) => value?.ToString(CultureInfo.InvariantCulture) ?? "-";
+}
