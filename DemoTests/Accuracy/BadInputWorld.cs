@@ -36,7 +36,7 @@ sealed class BadInputWorld : IDisposable
 
         RemovedBody = Bodies.Add(HealthyBody());
         RemovedStatic = Simulation.Statics.Add(HealthyStatic());
-        RemovedJoint = Solver.Add(FreeBody, OtherBody, new DistanceLimit { MaximumDistance = 100 });
+        RemovedJoint = Solver.Add(FreeBody, OtherBody, new DistanceLimit { MaximumDistance = 100, SpringSettings = world.Settings.Spring });
         RemovedShape = Simulation.Shapes.Add(new Box(1, 2, 3));
         Simulation.Statics.Remove(RemovedStatic);
         Bodies.Remove(RemovedBody);
@@ -93,7 +93,7 @@ sealed class BadInputWorld : IDisposable
         var shape = Simulation.Shapes.Add(new Sphere(.3f));
         var other = Simulation.Shapes.Add(new Box(1, 1, 1));
         var body = Bodies.Add(HealthyBody());
-        var joint = Solver.Add(body, FreeBody, new DistanceLimit { MaximumDistance = 100 });
+        var joint = Solver.Add(body, FreeBody, new DistanceLimit { MaximumDistance = 100, SpringSettings = world.Settings.Spring });
         var hash = new Fnv();
         var still = Simulation.Statics.Add(HealthyStatic());
         foreach (int value in new[] { (int)shape.Packed, (int)other.Packed, body.Value, joint.Value, still.Value })
