@@ -36,7 +36,8 @@ sealed class BadInputWorld : IDisposable
 
         RemovedBody = Bodies.Add(HealthyBody());
         RemovedStatic = Simulation.Statics.Add(HealthyStatic());
-        RemovedJoint = Solver.Add(FreeBody, OtherBody, new DistanceLimit { MaximumDistance = 100, SpringSettings = world.Settings.Spring });
+        var loose = new DistanceLimit { MaximumDistance = 100, SpringSettings = world.Settings.Spring };
+        RemovedJoint = Solver.Add(FreeBody, OtherBody, loose);
         RemovedShape = Simulation.Shapes.Add(new Box(1, 2, 3));
         Simulation.Statics.Remove(RemovedStatic);
         Bodies.Remove(RemovedBody);
