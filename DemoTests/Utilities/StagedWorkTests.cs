@@ -158,6 +158,30 @@ public unsafe class StagedWorkTests
         work.RequireDone();
     }
 
+    /// <summary>Claims alone, with nothing between them: a claim that is not atomic gives some block twice.</summary>
+    [Fact]
+    public void ABlockIsClaimedOnceHoweverManyWantIt()
+    {
+        const int blockCount = 2_000_000;
+        using var dispatcher = new ThreadDispatcher(4);
+        using var start = new Barrier(4);
+        var section = new StagedSection[1];
+        var claims = new int[blockCount];
+        for (int stage = 0; stage < 8; ++stage)
+        {
+            section[0].Open(stage, 10, blockCount);
+            dispatcher.DispatchWorkers(_ =>
+            {
+                start.SignalAndWait();
+                Assert.False(section[0].TryClaim(stage + 1, out int _));
+                while (section[0].TryClaim(stage, out var block))
+                    Interlocked.Increment(ref claims[block]);
+            });
+            Assert.Equal(-1, claims.AsSpan(0, 10).IndexOfAnyExcept(0));
+            Assert.Equal(-1, claims.AsSpan(10).IndexOfAnyExcept(stage + 1));
+        }
+    }
+
     [Theory]
     [InlineData(0)]
     [InlineData(2)]
