@@ -58,10 +58,6 @@ public unsafe partial struct Tree
         var rootMin = BoxMath.Min(BoxMath.LoadMin(children), BoxMath.LoadMin(children + 1));
         var rootMax = BoxMath.Max(BoxMath.LoadMax(children), BoxMath.LoadMax(children + 1));
         var rootArea = BoxMath.HalfArea(rootMin, rootMax);
-        // Beside the root: one more node around everything. Below: the root grows to that size anyway.
-        if (rootArea < leafArea)
-            return -1;
-        var aboveRoot = rootArea;
 
         var node = 0;
         while (true)
@@ -74,17 +70,25 @@ public unsafe partial struct Tree
             var downB = b->Index < 0 ? float.PositiveInfinity : stopB - BoxMath.HalfArea(b) + leafArea;
             var bestA = downA <= stopA ? downA : stopA;
             var bestB = downB <= stopB ? downB : stopB;
-            if (node == 0 && aboveRoot < bestA && aboveRoot < bestB)
+            // Beside the root means one more node around everything; on any other way the root only grows to that size, so its own surface is the difference.
+            if (node == 0 && rootArea < bestA && rootArea < bestB && MayBecomeSibling(0, LeafCount))
                 return -1;
             var takeB = bestB < bestA || (!(bestA < bestB) && b->LeafCount < a->LeafCount);
             var child = takeB ? b : a;
-            if (child->Index < 0 || !(takeB ? downB <= stopB : downA <= stopA))
+            var stops = child->Index < 0 || (!(takeB ? downB <= stopB : downA <= stopA) && MayBecomeSibling(child->Index, child->LeafCount));
+            if (stops)
                 return 2 * node + (takeB ? 1 : 0);
             BoxMath.StoreBox(child, BoxMath.Min(leafMin, BoxMath.LoadMin(child)), BoxMath.Max(leafMax, BoxMath.LoadMax(child)));
             ++child->LeafCount;
             node = child->Index;
         }
     }
+
+    /// <summary>
+    /// Whether a leaf may hang beside a node. Boxes that grow would all hang beside the root and make a list of it, to be rebuilt again and again;
+    /// where a node is too high for its size already, the leaf goes further down, where a rebuild is cheap.
+    /// </summary>
+    readonly bool MayBecomeSibling(int node, int leafCount) => Metanodes[node].Height < BalancedHeight(leafCount);
 
     /// <summary>Makes a node of what hangs at a slot and a leaf, and hangs it there.</summary>
     readonly void InsertBeside(int slot, NodeChild* leaf, int newNode)
