@@ -15,7 +15,8 @@ namespace DemoTests.Trees;
 public class BroadPhaseTests
 {
     [Theory]
-    [InlineData(0, 0), InlineData(1, 0), InlineData(0, 5), InlineData(1, 1), InlineData(2, 1), InlineData(9, 1), InlineData(300, 0), InlineData(300, 300),
+    [InlineData(0, 0), InlineData(1, 0), InlineData(0, 5), InlineData(1, 1), InlineData(2, 1), InlineData(9, 1), InlineData(300, 0),
+     InlineData(300, 300),
      InlineData(1500, 40), InlineData(260, 3000)]
     public void EveryNumberOfWorkersFindsEachPairOnceAndKeepsTheSameTree(int activeCount, int staticCount)
     {
@@ -140,7 +141,10 @@ public class BroadPhaseTests
             Active = TreeGenerators.World(activeCount, seed: 20, largest: 5);
             Still = TreeGenerators.World(staticCount, seed: 21, largest: 10);
             for (var i = 0; i < activeCount; ++i)
-                Assert.Equal(i, BroadPhase.AddActive(new CollidableReference(CollidableMobility.Dynamic, new BodyHandle(i)), ref Active[i]));
+            {
+                var body = new CollidableReference(CollidableMobility.Dynamic, new BodyHandle(i));
+                Assert.Equal(i, BroadPhase.AddActive(body, ref Active[i]));
+            }
             for (var i = 0; i < staticCount; ++i)
                 Assert.Equal(i, BroadPhase.AddStatic(new CollidableReference(new StaticHandle(i)), ref Still[i]));
         }
@@ -223,7 +227,8 @@ public class BroadPhaseTests
             return Found.Count != Limit;
         }
 
-        public readonly unsafe void RayTest(CollidableReference collidable, RayData* rayData, float* maximumT, BufferPool pool) => Found.Add(collidable);
+        public readonly unsafe void RayTest(CollidableReference collidable, RayData* rayData, float* maximumT, BufferPool pool) =>
+            Found.Add(collidable);
 
         public readonly void Test(CollidableReference collidable, ref float maximumT) => Found.Add(collidable);
     }

@@ -11,7 +11,8 @@ using Xunit;
 
 namespace DemoTests.Trees;
 
-/// <summary>Rays and sweeps against exact arithmetic: which boxes they meet, and, with a callback that shortens them, which first and when.</summary>
+/// <summary>Rays and sweeps against exact arithmetic: which boxes they meet, and, with a callback that shortens them, which first and
+/// when.</summary>
 public class TreeRayTests
 {
     [Fact]
@@ -23,10 +24,12 @@ public class TreeRayTests
         Prop.ForAll(Queries, query => Compare(query, isRay: false)).Check(TreeGenerators.Reproducible(400));
 
     [Theory]
-    [InlineData(0, 0, 0), InlineData(1, 0, 0), InlineData(0, -1, 0), InlineData(0, 0, 1), InlineData(1e-41f, 0, -1), InlineData(1e30f, 1e-30f, 0)]
+    [InlineData(0, 0, 0), InlineData(1, 0, 0), InlineData(0, -1, 0), InlineData(0, 0, 1),
+     InlineData(1e-41f, 0, -1), InlineData(1e30f, 1e-30f, 0)]
     public void DirectionsWithoutALengthOnSomeAxisAreNoSpecialCase(float x, float y, float z)
     {
-        using var model = new TreeModel([new(new(0), new(2)), new(new(10, 0, 0), new(12, 2, 2)), new(new(0, -12, 0), new(2, -10, 2)), new(new(0, 0, 10), new(2, 2, 12))]);
+        using var model = new TreeModel([
+            new(new(0), new(2)), new(new(10, 0, 0), new(12, 2, 2)), new(new(0, -12, 0), new(2, -10, 2)), new(new(0, 0, 10), new(2, 2, 12))]);
         var hits = new HitList { Hits = [] };
         model.Tree.RayCast(new Vector3(1), new Vector3(x, y, z), float.MaxValue, model.Pool, ref hits);
         // Along the edge of the first box too.
@@ -88,7 +91,8 @@ public class TreeRayTests
             model.Tree.Sweep(min, max, query.Direction, ref length, model.Pool, ref first);
         }
 
-        // All numbers are small multiples of a quarter, so doubles are exact up to the divisions; only what is closer than these to a touch may go either way.
+        // All numbers are small multiples of a quarter, so doubles are exact up to the divisions; only what is closer than these to a
+        // touch may go either way.
         const double Tolerance = 1e-6;
         var hits = all.Hits.ToHashSet();
         Assert.Equal(hits.Count, all.Hits.Count);
@@ -141,14 +145,16 @@ public class TreeRayTests
          from half in Quarters(0, 8)
          from direction in Quarters(-8, 8)
          from length in Gen.Elements(0f, 1f, 7.5f, 1000f, float.MaxValue)
-         select new Query(corners.Zip(sizes, (corner, size) => new BoundingBox(corner, corner + size)).ToArray(), origin, half, direction, length)).ToArbitrary();
+         let boxes = corners.Zip(sizes, (corner, size) => new BoundingBox(corner, corner + size)).ToArray()
+         select new Query(boxes, origin, half, direction, length)).ToArbitrary();
 
     struct HitList : IRayLeafTester, ISweepLeafTester
     {
         public List<int> Hits;
         public (double Begin, double End)[]? Entries;
 
-        public readonly unsafe void TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) => TestLeaf(leafIndex, ref *maximumT);
+        public readonly unsafe void TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) =>
+            TestLeaf(leafIndex, ref *maximumT);
 
         public readonly void TestLeaf(int leafIndex, ref float maximumT)
         {

@@ -53,7 +53,8 @@ public class TreeTests
         }).Check(TreeGenerators.Reproducible(150));
 
     [Theory]
-    [InlineData(0), InlineData(1), InlineData(2), InlineData(3), InlineData(7), InlineData(8), InlineData(9), InlineData(17), InlineData(1000)]
+    [InlineData(0), InlineData(1), InlineData(2), InlineData(3), InlineData(7), InlineData(8),
+     InlineData(9), InlineData(17), InlineData(1000)]
     public void ABuildOfAnySizeIsRight(int count)
     {
         using var model = new TreeModel();
