@@ -5,6 +5,7 @@ using BepuUtilities;
 
 namespace BepuPhysics;
 
+/// <summary>Types of the library.</summary>
 public static partial class DefaultTypes
 {
     /// <summary>Registers the constraint types of the library with a solver.</summary>

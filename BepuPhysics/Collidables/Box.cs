@@ -96,8 +96,8 @@ public struct BoxWide : IShapeWide<Box>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void GetBounds(in QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
-        out Vector3Wide min, out Vector3Wide max)
+    public readonly void GetBounds(in QuaternionWide orientation,
+        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
     {
         maximumRadius = new Vector3Wide(HalfWidth, HalfHeight, HalfLength).Length();
         maximumAngularExpansion = maximumRadius - Wide.Min(Wide.Min(HalfWidth, HalfHeight), HalfLength);
@@ -107,7 +107,8 @@ public struct BoxWide : IShapeWide<Box>
     }
 
     /// <inheritdoc/>
-    public readonly void RayTest(in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
+    public readonly void RayTest(
+        in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
     {
         var axes = Matrix3x3Wide.FromQuaternion(pose.Orientation);
         var line = new CenteredRayWide(ray, pose.Position);
@@ -135,7 +136,8 @@ public struct BoxWide : IShapeWide<Box>
 
     /// <summary>Part of a line that is between two parallel planes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void IntersectSlab(Vector<float> position, Vector<float> direction, Vector<float> halfExtent, out Vector<float> entry, out Vector<float> exit)
+    static void IntersectSlab(
+        Vector<float> position, Vector<float> direction, Vector<float> halfExtent, out Vector<float> entry, out Vector<float> exit)
     {
         // A line that is closer to parallel than this stays at its distance, to rounding, over any chord of any box: the interval is
         // then everything or nothing. NaN directions come out as nothing in Resolve.

@@ -84,8 +84,8 @@ public struct CapsuleWide : IShapeWide<Capsule>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void GetBounds(in QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
-        out Vector3Wide min, out Vector3Wide max)
+    public readonly void GetBounds(in QuaternionWide orientation,
+        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
     {
         maximumRadius = HalfLength + Radius;
         maximumAngularExpansion = HalfLength;
@@ -96,7 +96,8 @@ public struct CapsuleWide : IShapeWide<Capsule>
     /// <inheritdoc/>
     // The capsule is a union of two balls and a cylinder, and convex: the line is inside from the first entry into any of them to the
     // last exit. The flat ends of the cylinder are inside the balls, so only its curved side matters.
-    public readonly void RayTest(in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
+    public readonly void RayTest(
+        in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
     {
         var axes = Matrix3x3Wide.FromQuaternion(pose.Orientation);
         var line = new CenteredRayWide(ray, pose.Position);

@@ -67,7 +67,8 @@ struct CenteredRayWide
     /// <param name="distance">Place of the hit, for <see cref="At"/>.</param>
     /// <param name="t">Place of the hit in units of the given direction; zero where nothing is hit.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void Resolve(Vector<float> entry, Vector<float> exit, out Vector<int> hitMask, out Vector<float> distance, out Vector<float> t)
+    public readonly void Resolve(
+        Vector<float> entry, Vector<float> exit, out Vector<int> hitMask, out Vector<float> distance, out Vector<float> t)
     {
         distance = Wide.Max(entry, Start);
         t = (distance - Start) / scaledLength / lengthScale;

@@ -26,8 +26,8 @@ public class ConvexShapeBatch<TShape, TShapeWide> : ShapeBatch<TShape>, IConvexS
     public BodyInertia ComputeInertia(int shapeIndex, float mass) => this[shapeIndex].ComputeInertia(mass);
 
     /// <inheritdoc/>
-    public sealed override void RayTest<TRayHitHandler>(int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool,
-        ref TRayHitHandler hitHandler)
+    public sealed override void RayTest<TRayHitHandler>(
+        int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler)
     {
         if (this[shapeIndex].RayTest(pose, ray.Origin, ray.Direction, out var t, out var normal) && t <= maximumT)
             hitHandler.OnRayHit(ray, ref maximumT, t, normal, 0);

@@ -5,17 +5,6 @@ namespace BepuPhysics.Collidables;
 /// <summary>A convex shape, its centre of mass at the origin of its own frame.</summary>
 public interface IConvexShape : IShape
 {
-    /// <summary>Box around the shape when its centre is at the origin, exact to a few roundings of the shape's size.</summary>
-    /// <param name="orientation">Rotation from the shape's frame to the world; unit length.</param>
-    /// <param name="min">Corner with the least coordinates, relative to the centre, m.</param>
-    /// <param name="max">Corner with the greatest coordinates, relative to the centre, m.</param>
-    void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max);
-
-    /// <summary>How far a rotation can carry the surface beyond the bounds of another orientation.</summary>
-    /// <param name="maximumRadius">Distance from the centre to the farthest point, m: angular speed times this bounds surface speed.</param>
-    /// <param name="maximumAngularExpansion">Maximum radius less the smallest distance from centre to surface, m; zero for a sphere.</param>
-    void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion);
-
     /// <summary>Inverse mass and inverse inertia of the solid shape, filled uniformly, in its own frame.</summary>
     /// <param name="mass">Mass, kg; finite and positive.</param>
     /// <exception cref="System.ArgumentException">
@@ -28,7 +17,8 @@ public interface IConvexShape : IShape
     /// <param name="origin">Start of the ray in the world, m.</param>
     /// <param name="direction">Direction of the ray, of any length; zero hits nothing.</param>
     /// <param name="t">
-    /// At a hit, the point is origin + direction * t, and t is at least zero: exactly zero for a ray that starts inside. Zero without a hit.
+    /// At a hit, the point is origin + direction * t, and t is at least zero: exactly zero for a ray that starts inside.
+    /// Zero without a hit.
     /// </param>
     /// <param name="normal">
     /// At a hit, the unit normal that points out of the shape; for a ray that starts inside, that of the nearest part of the surface.
@@ -36,4 +26,15 @@ public interface IConvexShape : IShape
     /// </param>
     /// <returns>Whether the ray hits. A ray that touches, or starts on the surface, may go either way within rounding.</returns>
     bool RayTest(in RigidPose pose, Vector3 origin, Vector3 direction, out float t, out Vector3 normal);
+
+    /// <summary>Box around the shape when its centre is at the origin, exact to a few roundings of the shape's size.</summary>
+    /// <param name="orientation">Rotation from the shape's frame to the world; unit length.</param>
+    /// <param name="min">Corner with the least coordinates, relative to the centre, m.</param>
+    /// <param name="max">Corner with the greatest coordinates, relative to the centre, m.</param>
+    void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max);
+
+    /// <summary>How far a rotation can carry the surface beyond the bounds of another orientation.</summary>
+    /// <param name="maximumRadius">Distance from the centre to the farthest point, m: spin times it bounds surface speed.</param>
+    /// <param name="maximumAngularExpansion">Maximum radius less the least distance from the centre to the surface, m.</param>
+    void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion);
 }

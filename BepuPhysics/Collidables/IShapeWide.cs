@@ -4,7 +4,9 @@ using BepuUtilities;
 namespace BepuPhysics.Collidables;
 
 /// <summary>A bundle of shapes of one type, and the one source of its geometry: the scalar queries run one lane of it.</summary>
-/// <remarks>What a lane returns depends on nothing but that lane's inputs. Lanes without a shape may hold anything; their results mean nothing.</remarks>
+/// <remarks>
+/// What a lane returns depends on nothing but that lane's inputs. Lanes without a shape may hold anything; their results mean nothing.
+/// </remarks>
 /// <typeparam name="TShape">Scalar form of the shape.</typeparam>
 public interface IShapeWide<TShape> : IWide<TShape> where TShape : unmanaged, IConvexShape
 {
@@ -14,8 +16,8 @@ public interface IShapeWide<TShape> : IWide<TShape> where TShape : unmanaged, IC
     /// <param name="maximumAngularExpansion">As in <see cref="IConvexShape.ComputeAngularExpansionData"/>.</param>
     /// <param name="min">Corners with the least coordinates, m.</param>
     /// <param name="max">Corners with the greatest coordinates, m.</param>
-    void GetBounds(in QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
-        out Vector3Wide min, out Vector3Wide max);
+    void GetBounds(in QuaternionWide orientation,
+        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max);
 
     /// <summary>Tests each ray against the shape in its lane, as <see cref="IConvexShape.RayTest"/> does.</summary>
     /// <param name="pose">Poses of the shapes.</param>

@@ -30,7 +30,7 @@ static class ShapeLimits
             throw new ArgumentOutOfRangeException(field, size, $"{field} of a {shape} must be from 0 to {MaximumSize} m.");
     }
 
-    /// <summary>Inverse inertia of a body from its mass and its moments of inertia per mass around the three axes of its frame, m2.</summary>
+    /// <summary>Inverse inertia of a body from its mass and its moments per mass around the three axes of its frame, m2.</summary>
     public static BodyInertia InvertInertia(float mass, float momentX, float momentY, float momentZ)
     {
         // Mass and moments are inverted one after the other: their product is the first to leave the range of a float.
@@ -41,8 +41,9 @@ static class ShapeLimits
             InverseInertiaTensor = Symmetric3x3.Diagonal(inverseMass / momentX, inverseMass / momentY, inverseMass / momentZ),
         };
         ref var tensor = ref inertia.InverseInertiaTensor;
-        if (!(mass > 0) || !float.IsNormal(inverseMass) || !float.IsNormal(tensor.XX) || !float.IsNormal(tensor.YY) || !float.IsNormal(tensor.ZZ))
-            throw new ArgumentOutOfRangeException(nameof(mass), mass, "A mass must be positive, and it and its inertia must have inverses in the range of a float.");
+        var isInRange = float.IsNormal(inverseMass) && float.IsNormal(tensor.XX) && float.IsNormal(tensor.YY) && float.IsNormal(tensor.ZZ);
+        if (!(mass > 0) || !isInRange)
+            throw new ArgumentOutOfRangeException(nameof(mass), mass, "A mass must be positive, and its inverse a normal number.");
         return inertia;
     }
 }

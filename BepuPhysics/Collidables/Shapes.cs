@@ -38,7 +38,7 @@ public sealed class Shapes
         get
         {
             if ((uint)typeIndex >= (uint)batches.Length)
-                throw new ArgumentOutOfRangeException(nameof(typeIndex), typeIndex, $"Type ids that have a batch are less than {batches.Length}.");
+                throw new ArgumentOutOfRangeException(nameof(typeIndex), typeIndex, $"No type id from {batches.Length} on has a batch.");
             return batches[typeIndex];
         }
     }
@@ -145,8 +145,10 @@ public sealed class Shapes
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     internal void CheckExists(TypedIndex shape, string name)
     {
-        if (!Exists(shape))
-            throw new ArgumentException(shape.Exists ? $"There is no {shape}; it was removed or never added." : "No shape is named; add one to Shapes first.", name);
+        if (Exists(shape))
+            return;
+        var reason = shape.Exists ? $"There is no {shape}: it was removed or never added." : "There is no shape of the default index.";
+        throw new ArgumentException(reason, name);
     }
 
     ShapeBatch GetCheckedBatch(TypedIndex shapeIndex)
@@ -159,7 +161,7 @@ public sealed class Shapes
     {
         var typeId = TShape.TypeId;
         if ((uint)typeId >= TypedIndex.MaximumTypeCount)
-            throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}; ids are from 0 to {TypedIndex.MaximumTypeCount - 1}.");
+            throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}; ids are from 0 to 127.");
         if (typeId >= batches.Length)
             Array.Resize(ref batches, typeId + 1);
         var batch = batches[typeId] ??= TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);

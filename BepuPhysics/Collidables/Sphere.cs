@@ -60,8 +60,8 @@ public struct SphereWide : IShapeWide<Sphere>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void GetBounds(in QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
-        out Vector3Wide min, out Vector3Wide max)
+    public readonly void GetBounds(in QuaternionWide orientation,
+        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
     {
         maximumRadius = Radius;
         maximumAngularExpansion = Vector<float>.Zero;
@@ -70,7 +70,8 @@ public struct SphereWide : IShapeWide<Sphere>
     }
 
     /// <inheritdoc/>
-    public readonly void RayTest(in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
+    public readonly void RayTest(
+        in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal)
     {
         var line = new CenteredRayWide(ray, pose.Position);
         var discriminant = Radius * Radius - line.Closest.LengthSquared();

@@ -15,13 +15,6 @@ struct ContactImpulses
     public float Twist;
 }
 
-/// <summary>Four floats.</summary>
-[InlineArray(4)]
-struct FourFloats
-{
-    float first;
-}
-
 /// <summary>The column of one convex contact constraint in its type batch, for any number of contacts.</summary>
 unsafe readonly ref struct ContactConstraint
 {

@@ -25,6 +25,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         public CollisionBatcher<Completion> Batcher;
         public QuickList<CollidablePair> TestedPairs;
         public QuickList<PendingPair> Pending;
+        public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
     }
 
@@ -36,7 +37,14 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         public PairMaterialProperties Material;
     }
 
-    // Where a pending pair is, with the key by which all are put in order.
+    // A pair with a coefficient of restitution.
+    struct BouncingPair
+    {
+        public CollidablePair Pair;
+        public float Coefficient;
+    }
+
+    // Where a noted pair is, with the key by which all are put in order.
     struct PairKey
     {
         public ulong Key;
@@ -84,6 +92,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i));
             worker.TestedPairs = new QuickList<CollidablePair>(256, worker.Pool);
             worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
+            worker.Bouncing = default;
         }
         var handler = new Overlaps(this, Simulation.BroadPhase);
         Simulation.BroadPhase.FindOverlaps(ref handler, dispatcher);
@@ -150,6 +159,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (typeof(TManifold) != typeof(ConvexContactManifold))
             throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint yet.");
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
+        if (material.Restitution > 0)
+            Note(ref worker, new() { Pair = pair, Coefficient = material.Restitution });
         var typeId = ConstraintTypeIds.ConvexContact(convex.Count, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
         var index = Pairs.Pairs.IndexOf(pair);
         if (index >= 0)
@@ -168,23 +179,58 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         worker.Pending.Add(new() { Pair = pair, Manifold = convex, Material = material }, worker.Pool);
     }
 
+    // Pairs that ask for restitution pay for a list; no others do.
+    static void Note(ref Worker worker, in BouncingPair bouncing)
+    {
+        if (!worker.Bouncing.Span.Allocated)
+            worker.Bouncing = new QuickList<BouncingPair>(64, worker.Pool);
+        worker.Bouncing.Add(bouncing, worker.Pool);
+    }
+
     internal override void Flush()
     {
         RemoveUnseenPairs();
         order = new QuickList<PairKey>(64, Pool);
         for (int i = 0; i < workers.Length; ++i)
         {
-            ref var pending = ref workers[i].Pending;
-            for (int j = 0; j < pending.Count; ++j)
-                order.Add(new() { Key = (ulong)pending[j].Pair.A.Packed << 32 | pending[j].Pair.B.Packed, Worker = i, Index = j }, Pool);
+            for (int j = 0; j < workers[i].Pending.Count; ++j)
+                order.Add(new() { Key = Key(workers[i].Pending[j].Pair), Worker = i, Index = j }, Pool);
         }
-        var comparer = new ByKey();
-        QuickSort.Sort(order.Span, order.Count, ref comparer);
+        SortByKey();
         for (int i = 0; i < order.Count; ++i)
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
+        WatchBouncingPairs();
         order.Dispose(Pool);
         for (int i = 0; i < workers.Length; ++i)
             Release(ref workers[i]);
+    }
+
+    void WatchBouncingPairs()
+    {
+        Restitution.BeginStep();
+        order.Count = 0;
+        for (int i = 0; i < workers.Length; ++i)
+        {
+            for (int j = 0; j < workers[i].Bouncing.Count; ++j)
+                order.Add(new() { Key = Key(workers[i].Bouncing[j].Pair), Worker = i, Index = j }, Pool);
+        }
+        SortByKey();
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var bouncing = ref workers[order[i].Worker].Bouncing[order[i].Index];
+            ref var cached = ref Pairs.Pairs.Values[Pairs.Pairs.IndexOf(bouncing.Pair)];
+            Restitution.Watch(cached.Constraint, ContactCount(cached.ConstraintTypeId), bouncing.Coefficient);
+        }
+    }
+
+    static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
+
+    static int ContactCount(int typeId) => typeId % 4 + 1;
+
+    void SortByKey()
+    {
+        var comparer = new ByKey();
+        QuickSort.Sort(order.Span, order.Count, ref comparer);
     }
 
     void Apply(in PendingPair pending)
@@ -197,7 +243,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (index >= 0)
         {
             ref var old = ref Pairs.Pairs.Values[index];
-            new ContactConstraint(solver, old.Constraint, old.ConstraintTypeId % 4 + 1).ReadImpulses(old.Features, out impulses);
+            new ContactConstraint(solver, old.Constraint, ContactCount(old.ConstraintTypeId)).ReadImpulses(old.Features, out impulses);
             solver.RemoveWithoutNotice(old.Constraint);
         }
         var handle = AddConstraint(pending.Pair, typeId);
@@ -221,6 +267,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         worker.Batcher.Dispose();
         worker.TestedPairs.Dispose(worker.Pool);
         worker.Pending.Dispose(worker.Pool);
+        if (worker.Bouncing.Span.Allocated)
+            worker.Bouncing.Dispose(worker.Pool);
         worker = default;
     }
 }

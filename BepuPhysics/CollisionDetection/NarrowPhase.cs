@@ -1,5 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -15,6 +16,7 @@ public abstract class NarrowPhase
     private protected readonly Simulation Simulation;
     private protected readonly BufferPool Pool;
     private protected PairCache Pairs;
+    private protected readonly Restitution Restitution;
     Buffer<CollidablePair> pairOfConstraint;
 
     /// <summary>Tests of shape pairs.</summary>
@@ -26,6 +28,8 @@ public abstract class NarrowPhase
         Pool = simulation.BufferPool;
         CollisionTaskRegistry = collisionTaskRegistry;
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
+        Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
+        simulation.Solver.OptionalStages.Add(Restitution);
     }
 
     /// <summary>Number of pairs that have contacts.</summary>
@@ -42,6 +46,7 @@ public abstract class NarrowPhase
     {
         DisposeCallbacks();
         Pairs.Dispose(Pool);
+        Restitution.Dispose();
         if (pairOfConstraint.Allocated)
             Pool.Return(ref pairOfConstraint);
     }

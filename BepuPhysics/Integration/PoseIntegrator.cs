@@ -1,7 +1,9 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
@@ -29,7 +31,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
 
     void IPoseIntegrator.Prepare(float dt) => callbacks.PrepareForIntegration(dt);
 
-    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
+    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, Buffer<BodyInertia> stiffness, int startBundle, int endBundle, int workerIndex)
     {
         ref var set = ref bodies.ActiveSet;
         var motions = (float*)set.MotionStates.Memory;
@@ -53,8 +55,14 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 continue;
             }
             IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, wideDt, ref velocity);
+            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
+            if (stiffness.Allocated)
+            {
+                var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, indices);
+                GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), wideDt, ref worldInertia, ref velocity.Angular);
+            }
             WriteVelocity(motions, indices, velocity);
-            WriteWorldInertia(worldInertias, indices, localInertia, pose.Orientation);
+            WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
         }
     }
 
@@ -186,9 +194,8 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteWorldInertia(float* worldInertias, Vector<int> indices, in BodyInertiaWide localInertia, in QuaternionWide orientation)
+    static void WriteWorldInertia(float* worldInertias, Vector<int> indices, in Symmetric3x3Wide world, Vector<float> inverseMass)
     {
-        var world = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         Rows8 row;
         row.R0 = world.XX;
         row.R1 = world.YX;
@@ -196,7 +203,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         row.R3 = world.ZX;
         row.R4 = world.ZY;
         row.R5 = world.ZZ;
-        row.R6 = localInertia.InverseMass;
+        row.R6 = inverseMass;
         row.R7 = Vector<float>.Zero;
         Transpose.Scatter(row, worldInertias, FloatsPerRow, indices);
     }

@@ -1,3 +1,6 @@
+using System.Numerics;
+using BepuUtilities;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>The mathematics of one constraint type, for a bundle of constraints at a time.</summary>
@@ -16,6 +19,13 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     static abstract BodyAccess WarmStartAccess { get; }
     /// <summary>Parts of the bodies that <see cref="Solve"/> reads.</summary>
     static abstract BodyAccess SolveAccess { get; }
+
+    /// <summary>Whether the constraint holds points of its bodies together, so that its load stiffens their rotation.</summary>
+    static virtual bool CarriesPointLoad => false;
+
+    /// <summary>Adds the geometric stiffness of the constraint's load to its bodies; asked for only where <see cref="CarriesPointLoad"/>.</summary>
+    static virtual void AddGeometricStiffness(
+        in TBodies bodies, Vector<float> inverseDt, in TPrestep prestep, in TImpulses impulses, ref Symmetric3x3Wide stiffnessA, ref Symmetric3x3Wide stiffnessB) { }
 
     /// <summary>Applies the impulses that earlier substeps accumulated.</summary>
     static abstract void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);

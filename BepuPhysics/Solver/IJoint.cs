@@ -1,3 +1,5 @@
+using BepuUtilities;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>How the rows of a joint are held.</summary>
@@ -45,6 +47,17 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 
     /// <summary>K, neither inverted nor softened.</summary>
     static abstract void InverseEffectiveMass(in TGeometry geometry, in TBodies bodies, out TMass inverseMass);
+
+    /// <summary>Whether the joint holds a point of A to a point of B.</summary>
+    static virtual bool HoldsPoints => false;
+
+    /// <summary>Arms and impulse (on A) of the point rows; asked for only where <see cref="HoldsPoints"/>.</summary>
+    static virtual void PointLoad(in TGeometry geometry, in TRows impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    {
+        impulse = default;
+        offsetA = default;
+        offsetB = default;
+    }
 
     /// <summary>Stiffness of the joint.</summary>
     static abstract SpringSettingsWide Spring(in TPrestep prestep);

@@ -16,6 +16,21 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
     public static BodyAccess SolveAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
 
     /// <inheritdoc/>
+    public static bool CarriesPointLoad => TJoint.HoldsPoints;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void AddGeometricStiffness(
+        in TBodies bodies, Vector<float> inverseDt, in TPrestep prestep, in TRows impulses, ref Symmetric3x3Wide stiffnessA, ref Symmetric3x3Wide stiffnessB)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.PointLoad(geometry, impulses, out var impulse, out var offsetA, out var offsetB);
+        var force = impulse * inverseDt;
+        GeometricStiffness.Add(force, offsetA, ref stiffnessA);
+        GeometricStiffness.Add(-force, offsetB, ref stiffnessB);
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
     {

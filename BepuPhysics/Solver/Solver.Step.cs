@@ -1,7 +1,9 @@
 using System;
+using System.Collections.Generic;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
@@ -26,6 +28,9 @@ public sealed unsafe partial class Solver
 
     float previousSubstepDt;
 
+    /// <summary>Stages that run between the others where a scene asks for them, in this order.</summary>
+    internal List<ISolverStage> OptionalStages { get; } = [];
+
     /// <summary>Called when a substep begins, before its bodies are integrated. Runs on a worker, while the others wait.</summary>
     public event SubstepEvent? SubstepStarted;
     /// <summary>Called when the constraints of a substep have been solved. Runs on a worker, while the others wait.</summary>
@@ -33,12 +38,14 @@ public sealed unsafe partial class Solver
 
     enum StageKind
     {
+        AddStiffness,
         SubstepStarted,
         Integrate,
         WarmStart,
         Solve,
         JoinParts,
         SubstepEnded,
+        Optional,
     }
 
     struct Stage
@@ -48,6 +55,8 @@ public sealed unsafe partial class Solver
         public int Substep;
         public int Batch;
         public int BlockCount;
+        public SolverPoint Point;
+        public int Optional;
     }
 
     // A range of bundles of one type batch.
@@ -79,8 +88,9 @@ public sealed unsafe partial class Solver
             Integrator = integrator,
             SubstepDt = substepDt,
             FirstWarmStartScale = scale,
-            Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory),
         };
+        TakeStiffness(ref work);
+        work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, work.Stiffness.Memory);
         BuildBlocks(ref work);
         BuildStages(ref work);
         BuildSplitBodies(ref work.Split);
@@ -90,6 +100,26 @@ public sealed unsafe partial class Solver
         work.BlocksOfBatch.Dispose(pool);
         work.Stages.Dispose(pool);
         work.Split.Dispose(pool);
+        if (work.Stiffness.Allocated)
+            pool.Return(ref work.Stiffness);
+    }
+
+    // Room for the geometric stiffness of bodies, if any constraint can add to it.
+    void TakeStiffness(ref SolveWork work)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        for (int i = 0; i < batches.Count && i < FallbackBatchThreshold; ++i)
+        {
+            ref var typeBatches = ref batches[i].TypeBatches;
+            for (int j = 0; j < typeBatches.Count; ++j)
+            {
+                if (typeBatches[j].ConstraintCount == 0 || !Processor(typeBatches[j].TypeId).CarriesPointLoad)
+                    continue;
+                pool.Take(bodies.ActiveSet.Capacity, out work.Stiffness);
+                work.Stiffness.Clear(0, work.Stiffness.Length);
+                return;
+            }
+        }
     }
 
     void BuildBlocks(ref SolveWork work)
@@ -114,6 +144,9 @@ public sealed unsafe partial class Solver
     void BuildStages(ref SolveWork work)
     {
         work.Stages = new QuickList<Stage>(64, pool);
+        if (work.Stiffness.Allocated)
+            AddSweep(ref work, StageKind.AddStiffness, 0);
+        AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
         var bodyBlocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
         for (int substep = 0; substep < substepCount; ++substep)
         {
@@ -121,21 +154,36 @@ public sealed unsafe partial class Solver
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
             var integration = substep == 0 ? IntegrationStage.First : IntegrationStage.Between;
             work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = integration, Substep = substep, BlockCount = bodyBlocks }, pool);
+            AddOptional(ref work, SolverPoint.AfterIntegration, substep);
             AddSweep(ref work, StageKind.WarmStart, substep);
+            AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
             var iterations = VelocityIterationScheduler?.Invoke(substep) ?? 0;
             for (int i = iterations < 1 ? velocityIterationCount : iterations; i > 0; --i)
                 AddSweep(ref work, StageKind.Solve, substep);
+            AddOptional(ref work, SolverPoint.AfterSolve, substep);
             if (SubstepEnded is not null)
                 work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = substep, BlockCount = 1 }, pool);
         }
         work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = IntegrationStage.Last, Substep = substepCount - 1, BlockCount = bodyBlocks }, pool);
+        AddOptional(ref work, SolverPoint.AfterSubsteps, substepCount - 1);
+    }
+
+    void AddOptional(ref SolveWork work, SolverPoint point, int substep)
+    {
+        for (int i = 0; i < OptionalStages.Count; ++i)
+        {
+            var blocks = OptionalStages[i].GetBlockCount(point);
+            if (blocks > 0)
+                work.Stages.Add(new() { Kind = StageKind.Optional, Substep = substep, Point = point, Optional = i, BlockCount = blocks }, pool);
+        }
     }
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
         for (int batch = 0; batch < work.BlocksOfBatch.Count; ++batch)
         {
-            if (work.BlocksOfBatch[batch].Count == 0)
+            // Where bodies are split, each of their constraints is stable by itself: the fallback batch adds no stiffness.
+            if (work.BlocksOfBatch[batch].Count == 0 || (kind == StageKind.AddStiffness && batch == FallbackBatchThreshold))
                 continue;
             work.Stages.Add(new() { Kind = kind, Substep = substep, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
             if (batch == FallbackBatchThreshold)
@@ -152,6 +200,7 @@ public sealed unsafe partial class Solver
         public float SubstepDt;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
+        public Buffer<BodyInertia> Stiffness;
         public FallbackParts Split;
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
@@ -170,8 +219,9 @@ public sealed unsafe partial class Solver
                 case StageKind.Integrate:
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.ActiveSet.Count);
                     var start = blockIndex * BodyBundlesPerBlock;
-                    Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
+                    Integrator.Integrate(stage.Integration, SubstepDt, Stiffness, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
                     break;
+                case StageKind.AddStiffness:
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                     RunConstraints(stage, Blocks[BlocksOfBatch[stage.Batch].Start + blockIndex]);
@@ -179,6 +229,9 @@ public sealed unsafe partial class Solver
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;
                     Split.Join(ref Solver.bodies.ActiveSet, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
+                    break;
+                case StageKind.Optional:
+                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, SubstepOf(stage), blockIndex);
                     break;
                 case StageKind.SubstepStarted:
                     Solver.SubstepStarted!(stage.Substep);
@@ -189,11 +242,13 @@ public sealed unsafe partial class Solver
             }
         }
 
+        readonly Substep SubstepOf(in Stage stage) => new(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1);
+
         readonly void RunConstraints(in Stage stage, in Block block)
         {
             ref var batch = ref Solver.ActiveSet.Batches[stage.Batch].TypeBatches[block.TypeBatch];
             var processor = Solver.Processor(batch.TypeId);
-            var substep = new Substep(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1);
+            var substep = SubstepOf(stage);
             if (stage.Batch == Solver.FallbackBatchThreshold)
             {
                 var split = Split.For(block.TypeBatch);
@@ -202,6 +257,8 @@ public sealed unsafe partial class Solver
                 else
                     processor.SolveSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
             }
+            else if (stage.Kind == StageKind.AddStiffness)
+                processor.AddGeometricStiffness(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
             else if (stage.Kind == StageKind.WarmStart)
                 processor.WarmStart(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
             else

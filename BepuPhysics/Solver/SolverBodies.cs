@@ -5,7 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>The bodies of the active set as the solver reads and writes them: rows of eight floats, so that each is one transpose.</summary>
-unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements)
+unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements, BodyInertia* stiffness)
 {
     const int FloatsPerRow = 8;
     const int FloatsPerMotion = 16;
@@ -13,6 +13,7 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     readonly float* motions = (float*)motions;
     readonly float* inertias = (float*)inertias;
     readonly float* displacements = (float*)displacements;
+    readonly float* stiffness = (float*)stiffness;
 
     /// <summary>Reads the parts of a bundle of bodies that are asked for. Unused lanes read body 0, which is harmless and exists.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -54,6 +55,30 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
                 body.Rotation = new(row.R4, row.R5, row.R6);
             }
         }
+    }
+
+    /// <summary>Reads the geometric stiffness of a bundle of bodies, N m, world axes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal Symmetric3x3Wide GatherStiffness(Vector<int> references)
+    {
+        var row = Transpose.Gather(stiffness, FloatsPerRow, references);
+        return new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
+    }
+
+    /// <summary>Writes the geometric stiffness of a bundle of bodies, except for kinematics and unused lanes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void ScatterStiffness(Vector<int> references, in Symmetric3x3Wide value)
+    {
+        Rows8 row;
+        row.R0 = value.XX;
+        row.R1 = value.YX;
+        row.R2 = value.YY;
+        row.R3 = value.ZX;
+        row.R4 = value.ZY;
+        row.R5 = value.ZZ;
+        row.R6 = Vector<float>.Zero;
+        row.R7 = Vector<float>.Zero;
+        Transpose.Scatter(row, stiffness, FloatsPerRow, references);
     }
 
     /// <summary>Writes the velocities of a bundle of bodies, except for kinematics and unused lanes.</summary>

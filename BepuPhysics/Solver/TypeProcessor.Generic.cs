@@ -12,6 +12,33 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     public TypeProcessor() : base(TBodies.Count, sizeof(TPrestep) / sizeof(Vector<float>), sizeof(TImpulses) / sizeof(Vector<float>)) { }
 
     /// <inheritdoc/>
+    internal override bool CarriesPointLoad => TConstraint.CarriesPointLoad;
+
+    /// <inheritdoc/>
+    internal override void AddGeometricStiffness(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
+    {
+        if (!TConstraint.CarriesPointLoad)
+            return;
+        // Only joints of two bodies hold points together; a point held to the world would take the first half of this.
+        var references = (Vector<int>*)batch.BodyReferences.Memory;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        // The impulses are those of the last substep, of the last step's length.
+        var inverseDt = new Vector<float>(substep.InverseDt * substep.WarmStartScale);
+        for (int i = startBundle; i < endBundle; ++i)
+        {
+            var a = references[i * TBodies.Count];
+            var b = references[i * TBodies.Count + TBodies.Count - 1];
+            Gather(references + i * TBodies.Count, bodies, BodyAccess.Pose, substep, out var slots);
+            var stiffnessA = bodies.GatherStiffness(a);
+            var stiffnessB = bodies.GatherStiffness(b);
+            TConstraint.AddGeometricStiffness(slots, inverseDt, prestep[i], impulses[i], ref stiffnessA, ref stiffnessB);
+            bodies.ScatterStiffness(a, stiffnessA);
+            bodies.ScatterStiffness(b, stiffnessB);
+        }
+    }
+
+    /// <inheritdoc/>
     internal override void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;

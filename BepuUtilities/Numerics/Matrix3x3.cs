@@ -75,4 +75,17 @@ public partial struct Matrix3x3
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Matrix3x3 Transpose(in Matrix3x3 m) =>
         new(new(m.X.X, m.Y.X, m.Z.X), new(m.X.Y, m.Y.Y, m.Z.Y), new(m.X.Z, m.Y.Z, m.Z.Z));
+
+    /// <summary>Determinant.</summary>
+    public static float Determinant(in Matrix3x3 m) => Exact.Dot(m.X, Exact.Cross(m.Y, m.Z));
+
+    /// <summary>Inverse; zero where the determinant is zero.</summary>
+    public static Matrix3x3 Invert(in Matrix3x3 m)
+    {
+        // The columns of the inverse are the cross products of the rows over the determinant.
+        var x = Exact.Cross(m.Y, m.Z);
+        var determinant = Exact.Dot(m.X, x);
+        var scale = determinant == 0 ? 0 : 1 / determinant;
+        return Transpose(new(x * scale, Exact.Cross(m.Z, m.X) * scale, Exact.Cross(m.X, m.Y) * scale));
+    }
 }

@@ -92,6 +92,18 @@ public readonly struct BallSocketJoint : IJoint<TwoBodies, BallSocketWide, BallS
             bodies.A.InverseMass + bodies.B.InverseMass);
 
     /// <inheritdoc/>
+    public static bool HoldsPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(in BallSocketGeometry geometry, in Rows3 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    {
+        impulse = impulses.V;
+        offsetA = geometry.OffsetA;
+        offsetB = geometry.OffsetB;
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in BallSocketWide prestep) => prestep.SpringSettings;
 }

@@ -1,0 +1,104 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Queries see the bounds as of the last update. Each is made of the same query on both trees; the callback goes along as a copy.
+public sealed unsafe partial class BroadPhase
+{
+    /// <summary>Tells which collidables have bounds that a ray meets, active ones first, near ones of each kind first.</summary>
+    /// <param name="origin">Where the ray starts.</param>
+    /// <param name="direction">Direction of the ray, of any length.</param>
+    /// <param name="maximumT">Length of the ray in units of its direction.</param>
+    /// <param name="pool">Passed on to the callback; a pool of the calling thread.</param>
+    /// <param name="rayTester">Receives the collidables on the calling thread; copied in and copied back.</param>
+    /// <param name="id">The caller's number for the ray.</param>
+    public void RayCast<TRayTester>(Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id = 0)
+        where TRayTester : IBroadPhaseRayTester
+    {
+        var leafTester = new RayLeafTester<TRayTester> { RayTester = rayTester, Leaves = ActiveLeaves };
+        ActiveTree.RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
+        leafTester.Leaves = StaticLeaves;
+        StaticTree.RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
+        rayTester = leafTester.RayTester;
+    }
+
+    /// <summary>Tells which collidables have bounds that a moving box meets, active ones first, near ones of each kind first.</summary>
+    /// <param name="min">Lower corner of the box where it starts.</param>
+    /// <param name="max">Upper corner of the box where it starts.</param>
+    /// <param name="direction">Direction of the motion, of any length.</param>
+    /// <param name="maximumT">Length of the sweep in units of its direction.</param>
+    /// <param name="pool">Not used. Kept for callers.</param>
+    /// <param name="sweepTester">Receives the collidables on the calling thread; copied in and copied back.</param>
+    public void Sweep<TSweepTester>(
+        Vector3 min, Vector3 max, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
+        where TSweepTester : IBroadPhaseSweepTester
+    {
+        var leafTester = new SweepLeafTester<TSweepTester> { SweepTester = sweepTester, Leaves = ActiveLeaves };
+        ActiveTree.Sweep(min, max, direction, ref maximumT, pool, ref leafTester);
+        leafTester.Leaves = StaticLeaves;
+        StaticTree.Sweep(min, max, direction, ref maximumT, pool, ref leafTester);
+        sweepTester = leafTester.SweepTester;
+    }
+
+    /// <inheritdoc cref="Sweep{TSweepTester}(Vector3, Vector3, Vector3, float, BufferPool, ref TSweepTester)"/>
+    public void Sweep<TSweepTester>(in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
+        where TSweepTester : IBroadPhaseSweepTester =>
+        Sweep(boundingBox.Min, boundingBox.Max, direction, maximumT, pool, ref sweepTester);
+
+    /// <summary>Tells which collidables have bounds that overlap or touch a box, until the callback returns false.</summary>
+    /// <param name="min">Lower corner of the box.</param>
+    /// <param name="max">Upper corner of the box.</param>
+    /// <param name="pool">Not used. Kept for callers.</param>
+    /// <param name="overlapEnumerator">Receives the collidables on the calling thread; copied in and copied back.</param>
+    public void GetOverlaps<TOverlapEnumerator>(Vector3 min, Vector3 max, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
+        where TOverlapEnumerator : IBreakableForEach<CollidableReference>
+    {
+        var leafEnumerator = new OverlapLeafEnumerator<TOverlapEnumerator> { Enumerator = overlapEnumerator, Leaves = ActiveLeaves };
+        ActiveTree.GetOverlaps(min, max, pool, ref leafEnumerator);
+        if (!leafEnumerator.Stopped)
+        {
+            leafEnumerator.Leaves = StaticLeaves;
+            StaticTree.GetOverlaps(min, max, pool, ref leafEnumerator);
+        }
+        overlapEnumerator = leafEnumerator.Enumerator;
+    }
+
+    /// <inheritdoc cref="GetOverlaps{TOverlapEnumerator}(Vector3, Vector3, BufferPool, ref TOverlapEnumerator)"/>
+    public void GetOverlaps<TOverlapEnumerator>(in BoundingBox boundingBox, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
+        where TOverlapEnumerator : IBreakableForEach<CollidableReference> =>
+        GetOverlaps(boundingBox.Min, boundingBox.Max, pool, ref overlapEnumerator);
+
+    struct RayLeafTester<TRayTester> : IRayLeafTester where TRayTester : IBroadPhaseRayTester
+    {
+        public TRayTester RayTester;
+        public Buffer<CollidableReference> Leaves;
+
+        public void TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) =>
+            RayTester.RayTest(Leaves[leafIndex], rayData, maximumT, pool);
+    }
+
+    struct SweepLeafTester<TSweepTester> : ISweepLeafTester where TSweepTester : IBroadPhaseSweepTester
+    {
+        public TSweepTester SweepTester;
+        public Buffer<CollidableReference> Leaves;
+
+        public void TestLeaf(int leafIndex, ref float maximumT) => SweepTester.Test(Leaves[leafIndex], ref maximumT);
+    }
+
+    struct OverlapLeafEnumerator<TEnumerator> : IBreakableForEach<int> where TEnumerator : IBreakableForEach<CollidableReference>
+    {
+        public TEnumerator Enumerator;
+        public Buffer<CollidableReference> Leaves;
+        public bool Stopped;
+
+        public bool LoopBody(int leafIndex)
+        {
+            Stopped = !Enumerator.LoopBody(Leaves[leafIndex]);
+            return !Stopped;
+        }
+    }
+}

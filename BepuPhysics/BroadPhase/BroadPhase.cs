@@ -1,0 +1,211 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Bounds of all collidables in two trees: one of those that move, one of those that do not.</summary>
+/// <remarks>
+/// The active tree is fitted anew in each <see cref="Update"/>, since most of its bounds change in each step, and rebuilt a slice at a time. The static tree
+/// costs nothing while nothing happens to it: changes fit it at once, and only many of them in sum lead to a rebuild. Active leaves are
+/// tested against each other and against static ones, static ones never against each other.
+/// <para>
+/// A collidable has an index in its tree as long as it stays there; a removal gives the index of the last collidable to the one
+/// removed, and says so. Queries only read and may run on many threads; everything else needs the broad phase for itself.
+/// </para>
+/// </remarks>
+public sealed unsafe partial class BroadPhase : IDisposable
+{
+    /// <summary>Tree of dynamic and kinematic bodies that are awake.</summary>
+    public Tree ActiveTree;
+    /// <summary>Tree of statics and sleeping bodies.</summary>
+    public Tree StaticTree;
+    /// <summary>Collidable of each leaf of the active tree.</summary>
+    public Buffer<CollidableReference> ActiveLeaves;
+    /// <summary>Collidable of each leaf of the static tree.</summary>
+    public Buffer<CollidableReference> StaticLeaves;
+
+    // Leaves that came or went since the last build of a tree, or (active) since the last update.
+    int activeAdditions;
+    int staticChanges;
+
+    /// <summary>Pool that the memory of the trees comes from.</summary>
+    public BufferPool Pool { get; }
+
+    /// <summary>Creates an empty broad phase.</summary>
+    /// <param name="pool">Pool that the memory of the trees comes from; it must outlive the broad phase.</param>
+    /// <param name="initialActiveLeafCapacity">Active collidables that fit before memory is taken again.</param>
+    /// <param name="initialStaticLeafCapacity">Static collidables that fit before memory is taken again.</param>
+    public BroadPhase(BufferPool pool, int initialActiveLeafCapacity = 4096, int initialStaticLeafCapacity = 8192)
+    {
+        ArgumentNullException.ThrowIfNull(pool);
+        ArgumentOutOfRangeException.ThrowIfLessThan(initialActiveLeafCapacity, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(initialStaticLeafCapacity, 1);
+        Pool = pool;
+        EnsureCapacity(initialActiveLeafCapacity, initialStaticLeafCapacity);
+    }
+
+    /// <summary>Adds a collidable to the active tree and returns its index there.</summary>
+    public int AddActive(CollidableReference collidable, ref BoundingBox bounds)
+    {
+        var index = Add(collidable, bounds, ref ActiveTree, ref ActiveLeaves);
+        ++activeAdditions;
+        return index;
+    }
+
+    /// <summary>Adds a collidable to the static tree and returns its index there.</summary>
+    public int AddStatic(CollidableReference collidable, ref BoundingBox bounds)
+    {
+        var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves);
+        ++staticChanges;
+        return index;
+    }
+
+    int Add(CollidableReference collidable, BoundingBox bounds, ref Tree tree, ref Buffer<CollidableReference> leaves)
+    {
+        var index = tree.Add(bounds, Pool);
+        if (index >= leaves.Length)
+            Pool.ResizeToAtLeast(ref leaves, tree.Leaves.Length, index);
+        leaves[index] = collidable;
+        return index;
+    }
+
+    /// <summary>Removes a collidable from the active tree. Returns whether another one has taken over its index, and which.</summary>
+    public bool RemoveActiveAt(int index, out CollidableReference movedLeaf) => RemoveAt(index, ref ActiveTree, ref ActiveLeaves, out movedLeaf);
+
+    /// <summary>Removes a collidable from the static tree. Returns whether another one has taken over its index, and which.</summary>
+    public bool RemoveStaticAt(int index, out CollidableReference movedLeaf)
+    {
+        var moved = RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
+        ++staticChanges;
+        return moved;
+    }
+
+    static bool RemoveAt(int index, ref Tree tree, ref Buffer<CollidableReference> leaves, out CollidableReference movedLeaf)
+    {
+        var movedIndex = tree.RemoveAt(index);
+        movedLeaf = default;
+        if (movedIndex < 0)
+            return false;
+        movedLeaf = leaves[movedIndex];
+        leaves[index] = movedLeaf;
+        return true;
+    }
+
+    /// <summary>Pointers to the bounds of an active leaf, valid until the tree changes. What is written takes effect in the next <see cref="Update"/>.</summary>
+    public void GetActiveBoundsPointers(int index, out Vector3* minPointer, out Vector3* maxPointer) =>
+        ActiveTree.GetBoundsPointers(index, out minPointer, out maxPointer);
+
+    /// <summary>
+    /// Pointers to the bounds of a static leaf, valid until the tree changes, for reading: the static tree is not fitted in steps, so change
+    /// bounds with <see cref="UpdateStaticBounds"/>.
+    /// </summary>
+    public void GetStaticBoundsPointers(int index, out Vector3* minPointer, out Vector3* maxPointer) =>
+        StaticTree.GetBoundsPointers(index, out minPointer, out maxPointer);
+
+    /// <summary>Changes the bounds of an active leaf at once.</summary>
+    public void UpdateActiveBounds(int broadPhaseIndex, Vector3 min, Vector3 max) => ActiveTree.UpdateBounds(broadPhaseIndex, min, max);
+
+    /// <summary>Changes the bounds of a static leaf at once.</summary>
+    public void UpdateStaticBounds(int broadPhaseIndex, Vector3 min, Vector3 max)
+    {
+        StaticTree.UpdateBounds(broadPhaseIndex, min, max);
+        ++staticChanges;
+    }
+
+    /// <summary>Fits the active tree to bounds written since the last call and tidies both trees a little. Once in each step, before overlaps are looked for.</summary>
+    /// <remarks>What the trees look like afterwards does not depend on the dispatcher.</remarks>
+    public void Update(IThreadDispatcher? threadDispatcher = null)
+    {
+        // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
+        if (IsWorthBuilding(activeAdditions, ActiveTree.LeafCount))
+        {
+            ActiveTree.BinnedBuild(Pool);
+        }
+        else
+        {
+            ActiveTree.Refit(Pool);
+            ActiveTree.Refine(Pool);
+        }
+        activeAdditions = 0;
+
+        // Insertions and removals keep the static tree fitted and fairly good, so changes may add up; the rebuild costs each of them its share.
+        if (IsWorthBuilding(staticChanges, StaticTree.LeafCount))
+        {
+            StaticTree.BinnedBuild(Pool);
+            staticChanges = 0;
+        }
+    }
+
+    static bool IsWorthBuilding(int changes, int leafCount) => changes > 32 && changes > leafCount / 4;
+
+    /// <summary>Finds all pairs of leaves with overlapping bounds that have an active leaf, on all workers of the dispatcher.</summary>
+    /// <param name="handler">Receives the pairs; copied in and copied back, one copy shared by all workers.</param>
+    /// <param name="threadDispatcher">Workers to use; null for the calling thread.</param>
+    public void FindOverlaps<THandler>(ref THandler handler, IThreadDispatcher? threadDispatcher = null)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        // Only after changes that no update followed.
+        if (!ActiveTree.IsDepthFirst)
+            ActiveTree.Refit(Pool);
+        OverlapFinder.Find(ActiveTree, StaticTree, Pool, ref handler, threadDispatcher);
+    }
+
+    /// <summary>Makes room for numbers of leaves.</summary>
+    public void EnsureCapacity(int activeCapacity, int staticCapacity)
+    {
+        ActiveTree.EnsureCapacity(activeCapacity, Pool);
+        StaticTree.EnsureCapacity(staticCapacity, Pool);
+        FitLeaves(ActiveTree, ref ActiveLeaves);
+        FitLeaves(StaticTree, ref StaticLeaves);
+    }
+
+    void FitLeaves(in Tree tree, ref Buffer<CollidableReference> leaves)
+    {
+        if (tree.Leaves.Length > leaves.Length)
+            Pool.ResizeToAtLeast(ref leaves, tree.Leaves.Length, tree.LeafCount);
+    }
+
+    /// <summary>Changes the room for leaves to about these numbers, never below what is in use.</summary>
+    public void Resize(int activeCapacity, int staticCapacity)
+    {
+        ActiveTree.Resize(Pool, activeCapacity);
+        StaticTree.Resize(Pool, staticCapacity);
+        Pool.ResizeToAtLeast(ref ActiveLeaves, ActiveTree.Leaves.Length, ActiveTree.LeafCount);
+        Pool.ResizeToAtLeast(ref StaticLeaves, StaticTree.Leaves.Length, StaticTree.LeafCount);
+    }
+
+    /// <summary>Removes all leaves and keeps the memory.</summary>
+    public void Clear()
+    {
+        ActiveTree.Clear();
+        StaticTree.Clear();
+        activeAdditions = 0;
+        staticChanges = 0;
+    }
+
+    /// <summary>Gives all memory back to the pool. Calling it twice does no harm.</summary>
+    public void Dispose()
+    {
+        ActiveTree.Dispose(Pool);
+        StaticTree.Dispose(Pool);
+        if (ActiveLeaves.Allocated)
+            Pool.Return(ref ActiveLeaves);
+        if (StaticLeaves.Allocated)
+            Pool.Return(ref StaticLeaves);
+        activeAdditions = 0;
+        staticChanges = 0;
+    }
+
+    /// <summary>Walks the invariants of both trees.</summary>
+    /// <param name="tightBounds">Whether the boxes of nodes must fit; false between writing active bounds and <see cref="Update"/>.</param>
+    /// <exception cref="BepuUtilities.Diagnostics.PhysicsInvariantException">Something does not hold; the message says what.</exception>
+    public void Validate(bool tightBounds = true)
+    {
+        ActiveTree.Validate(tightBounds);
+        StaticTree.Validate();
+    }
+}

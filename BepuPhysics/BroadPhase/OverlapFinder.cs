@@ -1,0 +1,117 @@
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Finds overlaps within the active tree and between it and the static tree, divided among the workers of a dispatcher.</summary>
+/// <remarks>
+/// Pairs within a tree meet in one node each, so ranges of nodes are independent pieces of work. Only nodes with a large part of all leaves are too much for one
+/// piece: the caller splits their pairs, and the pair of the two roots, until each piece is small. Which pairs are found does not depend
+/// on the pieces, and neither does the order within a pair.
+/// </remarks>
+static unsafe class OverlapFinder
+{
+    // Several for each worker, so that an unlucky one can leave work to the others.
+    const int PiecesPerWorker = 8;
+    // Below this many active leaves a dispatch costs more than it saves.
+    const int MinimumLeafCountForThreads = 256;
+
+    public static void Find<THandler>(
+        in Tree activeTree, in Tree staticTree, BufferPool pool, ref THandler handler, IThreadDispatcher? dispatcher)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        if (activeTree.LeafCount == 0)
+            return;
+        // Handlers are the caller's and may throw.
+        var runs = new LeafRuns(activeTree, pool);
+        try
+        {
+            if (dispatcher is null || dispatcher.ThreadCount <= 1 || activeTree.LeafCount < MinimumLeafCountForThreads)
+                FindOnCaller(activeTree, staticTree, runs, ref handler);
+            else
+                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher);
+        }
+        finally
+        {
+            runs.Dispose(pool);
+        }
+    }
+
+    static void FindOnCaller<THandler>(in Tree activeTree, in Tree staticTree, in LeafRuns runs, ref THandler handler)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        if (activeTree.LeafCount > 1)
+            RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(activeTree, runs, 0, activeTree.NodeCount, int.MaxValue, ref handler, 0);
+        RunTraversal<THandler, StaticConsumer<THandler>>.FindPairs(activeTree, runs, staticTree, ref handler, 0);
+    }
+
+    static void FindOnWorkers<THandler>(
+        in Tree activeTree, in Tree staticTree, in LeafRuns runs, BufferPool pool, ref THandler handler, IThreadDispatcher dispatcher)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
+        var work = new FindWork<THandler> { Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces };
+        try
+        {
+            StagedWork.Run(ref work, dispatcher);
+        }
+        finally
+        {
+            handler = work.Handler;
+            pieces.Dispose(pool);
+        }
+    }
+
+    struct FindWork<THandler> : IStagedWork where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        public THandler Handler;
+        public Tree ActiveTree, StaticTree;
+        public LeafRuns Runs;
+        public OverlapPieces Pieces;
+
+        public readonly int StageCount => 1;
+
+        // Pairs first: they are the larger pieces.
+        public readonly int GetBlockCount(int stage) => Pieces.Pairs.Count + Pieces.RangeCount;
+
+        public void Execute(int stage, int block, int workerIndex)
+        {
+            if (block >= Pieces.Pairs.Count)
+            {
+                Pieces.GetRange(block - Pieces.Pairs.Count, out var firstNode, out var endNode);
+                RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(
+                    ActiveTree, Runs, firstNode, endNode, Pieces.LeafLimit, ref Handler, workerIndex);
+                return;
+            }
+            var pair = Pieces.Pairs[block];
+            if (pair.IsStatic)
+                RunTraversal<THandler, StaticConsumer<THandler>>.FindPairsBelow(ActiveTree, Runs, StaticTree, pair.Children, ref Handler, workerIndex);
+            else
+                RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairsBelow(ActiveTree, Runs, pair.Children, ref Handler, workerIndex);
+        }
+    }
+
+    readonly struct ActiveConsumer<THandler> : IPairConsumer<THandler> where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        public static void Consume(ref THandler handler, int workerIndex, int* leavesA, int* leavesB, int count)
+        {
+            for (var i = 0; i < count; ++i)
+            {
+                var a = leavesA[i];
+                var b = leavesB[i];
+                handler.Handle(workerIndex, a < b ? a : b, a < b ? b : a, bIsStatic: false);
+            }
+        }
+    }
+
+    readonly struct StaticConsumer<THandler> : IPairConsumer<THandler> where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        public static void Consume(ref THandler handler, int workerIndex, int* leavesA, int* leavesB, int count)
+        {
+            for (var i = 0; i < count; ++i)
+                handler.Handle(workerIndex, leavesA[i], leavesB[i], bIsStatic: true);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The work of finding overlaps, cut into pieces of bounded size.</summary>
+unsafe struct OverlapPieces
+{
+    /// <summary>Two children that are known to overlap; the second is of the static tree if so marked.</summary>
+    public struct Pair
+    {
+        public ChildPair Children;
+        public bool IsStatic;
+    }
+
+    /// <summary>Pairs that are pieces of their own.</summary>
+    public QuickList<Pair> Pairs;
+
+    /// <summary>Nodes of the active tree with more leaves than this are not part of any range: their pairs are in the list.</summary>
+    public int LeafLimit { get; }
+
+    /// <summary>Number of ranges that the nodes of the active tree are divided into.</summary>
+    public int RangeCount { get; }
+
+    readonly int nodeCount;
+
+    /// <summary>Cuts the work into at least about a number of pieces.</summary>
+    public OverlapPieces(in Tree activeTree, in Tree staticTree, int targetCount, BufferPool pool)
+    {
+        nodeCount = activeTree.NodeCount;
+        RangeCount = targetCount < nodeCount ? targetCount : nodeCount;
+        LeafLimit = activeTree.LeafCount / targetCount;
+        if (LeafLimit < 32)
+            LeafLimit = 32;
+        Pairs = new QuickList<Pair>(4 * targetCount, pool);
+        AddLargeNodes(activeTree, pool);
+        AddRoots(activeTree, staticTree, pool);
+    }
+
+    public void Dispose(BufferPool pool) => Pairs.Dispose(pool);
+
+    /// <summary>Nodes of a range.</summary>
+    public readonly void GetRange(int range, out int firstNode, out int endNode)
+    {
+        firstNode = (int)((long)nodeCount * range / RangeCount);
+        endNode = (int)((long)nodeCount * (range + 1) / RangeCount);
+    }
+
+    void AddLargeNodes(in Tree tree, BufferPool pool)
+    {
+        var stack = stackalloc int[Tree.TraversalStackSize];
+        var count = 0;
+        if (tree.LeafCount > LeafLimit)
+            stack[count++] = 0;
+        while (count > 0)
+        {
+            var a = tree.Children + 2 * stack[--count];
+            var b = a + 1;
+            if (Overlap(a, b))
+                Split(new Pair { Children = new ChildPair { A = a, B = b } }, tree, tree, pool);
+            if (a->LeafCount > LeafLimit)
+                stack[count++] = a->Index;
+            if (b->LeafCount > LeafLimit)
+                stack[count++] = b->Index;
+        }
+    }
+
+    void AddRoots(in Tree activeTree, in Tree staticTree, BufferPool pool)
+    {
+        var staticSides = staticTree.LeafCount < 2 ? staticTree.LeafCount : 2;
+        for (var sideA = 0; sideA < 2; ++sideA)
+        {
+            for (var sideB = 0; sideB < staticSides; ++sideB)
+            {
+                var pair = new ChildPair { A = activeTree.Children + sideA, B = staticTree.Children + sideB };
+                if (Overlap(pair.A, pair.B))
+                    Split(new Pair { Children = pair, IsStatic = true }, activeTree, staticTree, pool);
+            }
+        }
+    }
+
+    /// <summary>Divides the larger side of overlapping pairs until a pair is cheap: its cost grows with the smaller side.</summary>
+    void Split(Pair pair, in Tree treeA, in Tree treeB, BufferPool pool)
+    {
+        var stack = stackalloc ChildPair[2 * Tree.TraversalStackSize];
+        var count = 1;
+        stack[0] = pair.Children;
+        while (count > 0)
+        {
+            var children = stack[--count];
+            var leavesA = children.A->LeafCount;
+            var leavesB = children.B->LeafCount;
+            if (2 * (leavesA < leavesB ? leavesA : leavesB) <= LeafLimit)
+            {
+                Pairs.Add(new Pair { Children = children, IsStatic = pair.IsStatic }, pool);
+                continue;
+            }
+            // The same choice as in the traversal.
+            var dividesB = leavesA < leavesB;
+            var part = dividesB ? treeB.Children + 2 * children.B->Index : treeA.Children + 2 * children.A->Index;
+            for (var i = 0; i < 2; ++i, ++part)
+            {
+                if (Overlap(part, dividesB ? children.A : children.B))
+                    stack[count++] = dividesB ? new ChildPair { A = children.A, B = part } : new ChildPair { A = part, B = children.B };
+            }
+        }
+    }
+
+    static bool Overlap(NodeChild* a, NodeChild* b) =>
+        BoxMath.Overlaps(BoxMath.LoadMin(a), BoxMath.LoadMax(a), BoxMath.LoadMin(b), BoxMath.LoadMax(b));
+}

@@ -1,0 +1,26 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>Points of a step at which optional stages of the solver may run.</summary>
+enum SolverPoint
+{
+    /// <summary>Before the first substep: velocities are those of the last step.</summary>
+    BeforeSubsteps,
+    /// <summary>Bodies of a substep have been integrated.</summary>
+    AfterIntegration,
+    /// <summary>The impulses of the last substep have been applied: the place for stages that move a load across a whole structure.</summary>
+    AfterWarmStart,
+    /// <summary>The constraints of a substep have been solved; the bodies have not moved yet.</summary>
+    AfterSolve,
+    /// <summary>The bodies have moved to where they are at the end of the step.</summary>
+    AfterSubsteps,
+}
+
+/// <summary>An optional stage of the solver. A stage without blocks at a point costs nothing there.</summary>
+interface ISolverStage
+{
+    /// <summary>Number of independent blocks of work at a point, known before the step.</summary>
+    int GetBlockCount(SolverPoint point);
+
+    /// <summary>Does one block. Called on worker threads.</summary>
+    void Execute(SolverPoint point, in Substep substep, int block);
+}

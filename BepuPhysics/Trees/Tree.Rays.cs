@@ -1,0 +1,132 @@
+using System.Numerics;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Trees;
+
+public unsafe partial struct Tree
+{
+    /// <summary>A subtree or leaf that a ray or sweep still has to visit, and when it gets there.</summary>
+    struct PendingVisit
+    {
+        public int Index;
+        public float T;
+    }
+
+    /// <summary>Tells which leaves have boxes that a ray meets, near subtrees first.</summary>
+    /// <param name="origin">Where the ray starts.</param>
+    /// <param name="direction">Direction of the ray, of any length; zero tests the origin alone.</param>
+    /// <param name="maximumT">Length of the ray in units of its direction; as the callback left it in the end.</param>
+    /// <param name="pool">Passed on to the callback; the traversal itself needs no memory.</param>
+    /// <param name="leafTester">Receives the leaves on the calling thread.</param>
+    /// <param name="id">The caller's number for the ray.</param>
+    public readonly void RayCast<TLeafTester>(
+        Vector3 origin, Vector3 direction, ref float maximumT, BufferPool pool, ref TLeafTester leafTester, int id = 0)
+        where TLeafTester : IRayLeafTester
+    {
+        BoxMath.RequireFinite(origin);
+        BoxMath.RequireFinite(direction);
+        BoxMath.RequireLength(maximumT);
+        var test = new SlabTest(origin, origin, direction);
+        var ray = new RayData { Origin = origin, Id = id, Direction = direction };
+        var length = maximumT;
+        var visitor = new RayVisitor<TLeafTester> { Ray = &ray, Pool = pool, Tester = ref leafTester };
+        Traverse<RayVisitor<TLeafTester>>(test, ref length, ref visitor);
+        maximumT = length;
+    }
+
+    /// <inheritdoc cref="RayCast{TLeafTester}(Vector3, Vector3, ref float, BufferPool, ref TLeafTester, int)"/>
+    public readonly void RayCast<TLeafTester>(
+        Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TLeafTester leafTester, int id = 0)
+        where TLeafTester : IRayLeafTester =>
+        RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
+
+    /// <summary>Tells which leaves have boxes that a moving box meets, near subtrees first.</summary>
+    /// <param name="min">Lower corner of the box where it starts.</param>
+    /// <param name="max">Upper corner of the box where it starts.</param>
+    /// <param name="direction">Direction of the motion, of any length; zero tests the start alone.</param>
+    /// <param name="maximumT">Length of the sweep in units of its direction; as the callback left it in the end.</param>
+    /// <param name="pool">Not used: the traversal needs no memory. Kept for callers.</param>
+    /// <param name="sweepTester">Receives the leaves on the calling thread.</param>
+    public readonly void Sweep<TLeafTester>(
+        Vector3 min, Vector3 max, Vector3 direction, ref float maximumT, BufferPool pool, ref TLeafTester sweepTester)
+        where TLeafTester : ISweepLeafTester
+    {
+        BoxMath.RequireBox(min, max);
+        BoxMath.RequireFinite(direction);
+        BoxMath.RequireLength(maximumT);
+        var visitor = new SweepVisitor<TLeafTester> { Tester = ref sweepTester };
+        Traverse<SweepVisitor<TLeafTester>>(new SlabTest(min, max, direction), ref maximumT, ref visitor);
+    }
+
+    /// <inheritdoc cref="Sweep{TLeafTester}(Vector3, Vector3, Vector3, ref float, BufferPool, ref TLeafTester)"/>
+    public readonly void Sweep<TLeafTester>(
+        Vector3 min, Vector3 max, Vector3 direction, float maximumT, BufferPool pool, ref TLeafTester sweepTester)
+        where TLeafTester : ISweepLeafTester =>
+        Sweep(min, max, direction, ref maximumT, pool, ref sweepTester);
+
+    /// <inheritdoc cref="Sweep{TLeafTester}(Vector3, Vector3, Vector3, ref float, BufferPool, ref TLeafTester)"/>
+    public readonly void Sweep<TLeafTester>(
+        in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TLeafTester sweepTester)
+        where TLeafTester : ISweepLeafTester =>
+        Sweep(boundingBox.Min, boundingBox.Max, direction, maximumT, pool, ref sweepTester);
+
+    interface ILeafVisitor
+    {
+        void Visit(int leafIndex, ref float maximumT);
+    }
+
+    ref struct RayVisitor<TLeafTester> : ILeafVisitor where TLeafTester : IRayLeafTester
+    {
+        public RayData* Ray;
+        public BufferPool Pool;
+        public ref TLeafTester Tester;
+
+        public readonly void Visit(int leafIndex, ref float maximumT)
+        {
+            fixed (float* pointer = &maximumT)
+                Tester.TestLeaf(leafIndex, Ray, pointer, Pool);
+        }
+    }
+
+    ref struct SweepVisitor<TLeafTester> : ILeafVisitor where TLeafTester : ISweepLeafTester
+    {
+        public ref TLeafTester Tester;
+
+        public readonly void Visit(int leafIndex, ref float maximumT) => Tester.TestLeaf(leafIndex, ref maximumT);
+    }
+
+    readonly void Traverse<TVisitor>(SlabTest test, ref float maximumT, ref TVisitor visitor) where TVisitor : ILeafVisitor, allows ref struct
+    {
+        if (LeafCount == 0)
+            return;
+        var children = Children;
+        var stack = stackalloc PendingVisit[TraversalStackSize];
+        var count = 1;
+        stack[0] = default;
+        while (count > 0)
+        {
+            var visit = stack[--count];
+            // The callback may have shortened the query since this was put here.
+            if (visit.T > maximumT)
+                continue;
+            if (visit.Index < 0)
+            {
+                visitor.Visit(~visit.Index, ref maximumT);
+                continue;
+            }
+            var a = children + 2 * visit.Index;
+            var b = a + 1;
+            var meetsA = test.Meets(a, maximumT, out var tA);
+            var meetsB = test.Meets(b, maximumT, out var tB);
+            var nearIsA = tA <= tB;
+            var far = nearIsA ? new PendingVisit { Index = b->Index, T = tB } : new PendingVisit { Index = a->Index, T = tA };
+            var near = nearIsA ? new PendingVisit { Index = a->Index, T = tA } : new PendingVisit { Index = b->Index, T = tB };
+            // Written in any case, counted when met: no branch on a coin toss.
+            stack[count] = far;
+            count += (nearIsA ? meetsB : meetsA) ? 1 : 0;
+            stack[count] = near;
+            count += (nearIsA ? meetsA : meetsB) ? 1 : 0;
+        }
+    }
+}

@@ -1,0 +1,140 @@
+using System;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Trees;
+
+public unsafe partial struct Tree
+{
+    /// <summary>Fits the box of every node to its children, from the leaves up; the shape of the tree and the places of its nodes stay.</summary>
+    public readonly void Refit()
+    {
+        if (LeafCount <= 2)
+            return;
+        if (isDepthFirst)
+            SweepBounds();
+        else
+            RefitByLinks();
+    }
+
+    /// <summary>Fits the box of every node to its children and brings the nodes into depth-first order if they are not. The shape of the tree stays.</summary>
+    public void Refit(BufferPool pool)
+    {
+        ArgumentNullException.ThrowIfNull(pool);
+        if (!IsDepthFirst)
+            SortNodes(pool);
+        if (LeafCount > 2)
+            SweepBounds();
+    }
+
+    /// <summary>In depth-first order all that is below a node comes after it, so one sweep from the end sees children before parents.</summary>
+    readonly void SweepBounds()
+    {
+        var children = Children;
+        var metanodes = Metanodes.Memory;
+        // Every node writes into its parent unasked: that leaves no branch to predict.
+        for (var node = NodeCount - 1; node > 0; --node)
+        {
+            var a = children + 2 * node;
+            BoxMath.StoreBox(children + metanodes[node].ParentSlot,
+                BoxMath.Min(BoxMath.LoadMin(a), BoxMath.LoadMin(a + 1)),
+                BoxMath.Max(BoxMath.LoadMax(a), BoxMath.LoadMax(a + 1)));
+        }
+    }
+
+    /// <summary>Walks the tree in post-order along its links, without a stack and in any order of nodes.</summary>
+    readonly void RefitByLinks()
+    {
+        var children = Children;
+        var node = DescendToFirst(0);
+        while (true)
+        {
+            var slot = Metanodes[node].ParentSlot;
+            if (slot < 0)
+                return;
+            FitSlotToNode(node);
+            var cameFromA = (slot & 1) == 0;
+            node = cameFromA && children[slot + 1].Index >= 0 ? DescendToFirst(children[slot + 1].Index) : slot >> 1;
+        }
+    }
+
+    readonly int DescendToFirst(int node)
+    {
+        var children = Children;
+        while (true)
+        {
+            var a = children[2 * node].Index;
+            var b = children[2 * node + 1].Index;
+            if ((a & b) < 0)
+                return node;
+            node = a >= 0 ? a : b;
+        }
+    }
+
+    /// <summary>Copies the nodes into fresh memory in depth-first order.</summary>
+    void SortNodes(BufferPool pool)
+    {
+        var count = NodeCount;
+        pool.TakeAtLeast<Node>(Nodes.Length, out var sortedNodes);
+        pool.TakeAtLeast<Metanode>(Metanodes.Length, out var sortedMetanodes);
+        var target = (NodeChild*)sortedNodes.Memory;
+        // The place of a node that is still to come holds, in its first index, which node goes there.
+        target[0].Index = 0;
+        sortedMetanodes[0].ParentSlot = -1;
+        for (var node = 0; node < count; ++node)
+        {
+            var source = target[2 * node].Index;
+            sortedNodes[node] = Nodes[source];
+            sortedMetanodes[node].Height = Metanodes[source].Height;
+            var next = node + 1;
+            for (var slot = 2 * node; slot < 2 * node + 2; ++slot)
+            {
+                var index = target[slot].Index;
+                if (index < 0)
+                {
+                    if (target[slot].LeafCount > 0)
+                        Leaves[~index].Slot = slot;
+                    continue;
+                }
+                target[slot].Index = next;
+                target[2 * next].Index = index;
+                sortedMetanodes[next].ParentSlot = slot;
+                next += target[slot].LeafCount - 1;
+            }
+        }
+        pool.Return(ref Nodes);
+        pool.Return(ref Metanodes);
+        Nodes = sortedNodes;
+        Metanodes = sortedMetanodes;
+        isDepthFirst = true;
+    }
+
+    /// <summary>Brings box and leaf count of the child that stands for a node in its parent up to date.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void FitSlotToNode(int node)
+    {
+        var children = Children;
+        var a = children + 2 * node;
+        BoxMath.Store(children + Metanodes[node].ParentSlot,
+            BoxMath.Min(BoxMath.LoadMin(a), BoxMath.LoadMin(a + 1)),
+            BoxMath.Max(BoxMath.LoadMax(a), BoxMath.LoadMax(a + 1)),
+            node, a[0].LeafCount + a[1].LeafCount);
+    }
+
+    /// <summary>Fits the nodes above one whose boxes changed, until one does not change any more.</summary>
+    readonly void RefitAncestors(int node)
+    {
+        var children = Children;
+        for (var slot = Metanodes[node].ParentSlot; slot >= 0; slot = Metanodes[slot >> 1].ParentSlot)
+        {
+            var a = children + 2 * children[slot].Index;
+            var min = BoxMath.Min(BoxMath.LoadMin(a), BoxMath.LoadMin(a + 1));
+            var max = BoxMath.Max(BoxMath.LoadMax(a), BoxMath.LoadMax(a + 1));
+            var same = Vector128.Equals(min, BoxMath.LoadMin(children + slot)) & Vector128.Equals(max, BoxMath.LoadMax(children + slot));
+            if ((same.ExtractMostSignificantBits() & 7) == 7)
+                return;
+            BoxMath.StoreBox(children + slot, min, max);
+        }
+    }
+}
