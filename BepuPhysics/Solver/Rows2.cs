@@ -38,5 +38,5 @@ public struct RowMatrix2(in Symmetric2x2Wide m) : IRowMatrix<RowMatrix2, Rows2>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Rows2 Solve(in RowMatrix2 matrix, in Rows2 rightSide) => new(Symmetric2x2Wide.Invert(RowBlocks.Firm(matrix.M)) * rightSide.V);
+    public static Rows2 Solve(in RowMatrix2 matrix, in Rows2 rightSide) => new(new RowFactor2(matrix.M).Solve(rightSide.V));
 }

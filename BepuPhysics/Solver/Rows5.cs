@@ -45,10 +45,19 @@ public struct RowMatrix5 : IRowMatrix<RowMatrix5, Rows5>
     public Symmetric2x2Wide Angular;
 
     /// <inheritdoc/>
+    // By the Schur complement of the angular block: (L - C^T A^-1 C) x = u - C^T A^-1 v, then y = A^-1 v - A^-1 C x.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows5 Solve(in RowMatrix5 matrix, in Rows5 rightSide)
     {
-        Blocks.Solve(RowBlocks.Firm(matrix.Linear), matrix.Coupling, RowBlocks.Firm(matrix.Angular), rightSide.Linear, rightSide.Angular, out var linear, out var angular);
-        return new(linear, angular);
+        var angular = new RowFactor2(matrix.Angular);
+        // A^-1 C, column by column.
+        var columnX = angular.Solve(new(matrix.Coupling.X.X, matrix.Coupling.Y.X));
+        var columnY = angular.Solve(new(matrix.Coupling.X.Y, matrix.Coupling.Y.Y));
+        var columnZ = angular.Solve(new(matrix.Coupling.X.Z, matrix.Coupling.Y.Z));
+        var reduced = new Matrix2x3Wide(new(columnX.X, columnY.X, columnZ.X), new(columnX.Y, columnY.Y, columnZ.Y));
+        var complement = matrix.Linear - Matrix2x3Wide.TransposeTimesSymmetric(reduced, matrix.Coupling);
+        var x = new RowFactor3(complement, RowFactor3.Trace(matrix.Linear)).Solve(
+            rightSide.Linear - Matrix2x3Wide.TransposeTimes(reduced, rightSide.Angular));
+        return new(x, angular.Solve(rightSide.Angular) - reduced * x);
     }
 }

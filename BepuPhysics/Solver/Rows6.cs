@@ -45,10 +45,15 @@ public struct RowMatrix6 : IRowMatrix<RowMatrix6, Rows6>
     public Symmetric3x3Wide Angular;
 
     /// <inheritdoc/>
+    // By the Schur complement of the angular block: (L - C A^-1 C^T) x = u - C A^-1 v, then y = A^-1 v - A^-1 C^T x.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows6 Solve(in RowMatrix6 matrix, in Rows6 rightSide)
     {
-        Blocks.Solve(RowBlocks.Firm(matrix.Linear), matrix.Coupling, RowBlocks.Firm(matrix.Angular), rightSide.Linear, rightSide.Angular, out var linear, out var angular);
-        return new(linear, angular);
+        var angular = new RowFactor3(matrix.Angular, RowFactor3.Trace(matrix.Angular));
+        // C A^-1, row by row: A is symmetric.
+        var reduced = new Matrix3x3Wide(angular.Solve(matrix.Coupling.X), angular.Solve(matrix.Coupling.Y), angular.Solve(matrix.Coupling.Z));
+        var complement = matrix.Linear - Matrix3x3Wide.TimesTranspose(reduced, matrix.Coupling);
+        var x = new RowFactor3(complement, RowFactor3.Trace(matrix.Linear)).Solve(rightSide.Linear - reduced * rightSide.Angular);
+        return new(x, angular.Solve(rightSide.Angular) - Matrix3x3Wide.TransposeTimes(reduced, x));
     }
 }

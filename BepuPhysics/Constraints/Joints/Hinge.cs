@@ -138,6 +138,18 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
     }
 
     /// <inheritdoc/>
+    public static bool HoldsPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(in HingeGeometry geometry, in Rows5 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    {
+        impulse = impulses.Linear;
+        offsetA = geometry.OffsetA;
+        offsetB = geometry.OffsetB;
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in HingeWide prestep) => prestep.SpringSettings;
 }

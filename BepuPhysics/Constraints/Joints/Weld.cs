@@ -113,6 +113,18 @@ public readonly struct WeldJoint : IJoint<TwoBodies, WeldWide, WeldGeometry, Row
     }
 
     /// <inheritdoc/>
+    public static bool HoldsPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(in WeldGeometry geometry, in Rows6 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    {
+        impulse = impulses.Linear;
+        offsetA = geometry.OffsetA;
+        offsetB = Vector3Wide.Zero;
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in WeldWide prestep) => prestep.SpringSettings;
 }
