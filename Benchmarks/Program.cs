@@ -1,5 +1,5 @@
-using Benchmarks.Compare;
 using BenchmarkDotNet.Running;
+using Benchmarks.Compare;
 
 if (args is ["compare", ..])
     return CompareCommand.Run(args[1..]);

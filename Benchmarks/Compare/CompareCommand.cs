@@ -20,7 +20,10 @@ static class CompareCommand
             Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or a built scene program (.dll).",
             Required = true,
         };
-        var ours = new Option<string?>("--ours") { Description = "Scene program (.dll) to take for ours [default: Demos as built with this program]." };
+        var ours = new Option<string?>("--ours")
+        {
+            Description = "Scene program (.dll) to take for ours [default: Demos as built with this program].",
+        };
         var scenes = List("--scenes", "Built-in scenes or scene files.", "pyramids,great-pyramid,cloth-lattice");
         var threads = List("--threads", "Thread counts.", "1,2");
         var settings = List("--settings", "Iterations x substeps.", "1x4,8x1");

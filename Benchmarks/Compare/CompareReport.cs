@@ -15,8 +15,9 @@ static class CompareReport
     /// <summary>Writes one outcome: a row, its stages, and what the time bought.</summary>
     public static void Write(TextWriter writer, CompareOutcome outcome)
     {
-        writer.WriteLine(FormattableString.Invariant(
-            $"{outcome.SceneName,-16}{outcome.Case.Settings,9}{outcome.Case.Threads,8}{outcome.Lanes,6}{outcome.OurMedian,10:0.000}{outcome.PeerMedian,10:0.000}{outcome.Ratio,11:0.00}  {outcome.LeastRatio:0.00}..{outcome.GreatestRatio:0.00}"));
+        writer.Write($"{outcome.SceneName,-16}{outcome.Case.Settings,9}{outcome.Case.Threads,8}{outcome.Lanes,6}");
+        writer.Write(FormattableString.Invariant($"{outcome.OurMedian,10:0.000}{outcome.PeerMedian,10:0.000}"));
+        writer.WriteLine(FormattableString.Invariant($"{outcome.Ratio,11:0.00}  {outcome.LeastRatio:0.00}..{outcome.GreatestRatio:0.00}"));
         var stages = new StringBuilder();
         for (int i = 0; i < RunFigures.StageNames.Length; ++i)
         {
@@ -27,8 +28,9 @@ static class CompareReport
         if (stages.Length > 0)
             writer.WriteLine($"  stages, ours : peer{stages}");
         RunFigures a = outcome.FirstOfOurs, b = outcome.FirstOfPeer;
-        writer.WriteLine(FormattableString.Invariant(
-            $"  quality, ours : peer  penetration mm {Text(1000 * a.MaximumPenetration, "0.00")} : {Text(1000 * b.MaximumPenetration, "0.00")}  joint rms mm {Text(1000 * a.RmsJointError, "0.00")} : {Text(1000 * b.RmsJointError, "0.00")}  moved {a.Moved} : {b.Moved}"));
+        writer.Write($"  quality, ours : peer  penetration mm {Millimetres(a.MaximumPenetration)} : {Millimetres(b.MaximumPenetration)}");
+        writer.Write($"  joint rms mm {Millimetres(a.RmsJointError)} : {Millimetres(b.RmsJointError)}");
+        writer.WriteLine($"  moved {a.Moved} : {b.Moved}");
         if (!outcome.IsRepeatable)
             writer.WriteLine("  ours ended in different states from the same start");
     }
@@ -71,6 +73,8 @@ static class CompareReport
 
     static string Quote(string value) =>
         value.AsSpan().IndexOfAny(',', '"') < 0 ? value : $"\"{value.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
+
+    static string Millimetres(double? metres) => Text(1000 * metres, "0.00");
 
     static string Text(double? value, string format) =>
         value is double known ? known.ToString(format, System.Globalization.CultureInfo.InvariantCulture) : "-";

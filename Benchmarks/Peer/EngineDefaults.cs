@@ -16,6 +16,8 @@ static class EngineDefaults
 
     public static SpringSettings JointSpring => new(30, 1);
 
+    public const AngularIntegrationMode RotationMode = AngularIntegrationMode.Nonconserving;
+
     /// <summary>
     /// Seconds of the last step, as far as the engine was built with its profiler. It counts the prediction of bounds and the last
     /// integration together, here as "predict"; its narrow phase runs while the broad phase looks for overlaps.

@@ -11,13 +11,14 @@ namespace BepuUtilities.Diagnostics;
 /// sizes of the pieces in which they were added. Not for adversaries.
 /// </summary>
 /// <remarks>
-/// Bytes are collected into little-endian words of eight; each word is mixed by a multiplication and a rotation, the number of bytes
-/// and a final avalanche end it. Like FNV-1a in form, with words for bytes, since whole simulations are hashed after each step.
+/// Bytes are collected into little-endian words of eight; each word is mixed in by two multiplications, each step a bijection; the
+/// number of bytes and a final avalanche end it. Like FNV-1a in form, with words for bytes, since whole simulations are hashed after each step.
 /// </remarks>
 public struct StateHash
 {
     const ulong Basis = 0xCBF29CE484222325;
     const ulong Factor = 0x9E3779B97F4A7C15;
+    const ulong SecondFactor = 0xD6E8FEB86659FD93;
 
     // Stored as the difference from the basis, so that a default instance is a valid, empty hash.
     ulong state;
@@ -66,8 +67,14 @@ public struct StateHash
     /// </summary>
     public void Add<T>(in T value) where T : unmanaged => Add(MemoryMarshal.AsBytes(new ReadOnlySpan<T>(in value)));
 
+    // One multiplication carries a change upwards only: a flipped top bit would stay one bit, and a later word could undo it.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static ulong Mix(ulong hash, ulong word) => BitOperations.RotateLeft((hash ^ word) * Factor, 29) + word;
+    static ulong Mix(ulong hash, ulong word)
+    {
+        var product = (hash ^ word) * Factor;
+        product ^= product >> 32;
+        return BitOperations.RotateLeft(product * SecondFactor, 27);
+    }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static ulong ReadWord(ReadOnlySpan<byte> bytes) => BinaryPrimitives.ReadUInt64LittleEndian(bytes);

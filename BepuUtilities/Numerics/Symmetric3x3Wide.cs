@@ -112,14 +112,14 @@ public partial struct Symmetric3x3Wide : IWide<Symmetric3x3>
     {
         var power = Wide.NormalizingPowerOfTwo(matrix.XX + matrix.YY + matrix.ZZ);
         var m = matrix * power;
-        var xx = m.YY * m.ZZ - m.ZY * m.ZY;
-        var yx = m.ZY * m.ZX - m.ZZ * m.YX;
-        var zx = m.YX * m.ZY - m.ZX * m.YY;
-        var scale = Wide.DivideOrZero(power, xx * m.XX + yx * m.YX + zx * m.ZX);
+
+        // The columns of the adjugate are the cross products of the rows.
+        var column = Vector3Wide.Cross(new(m.YX, m.YY, m.ZY), new(m.ZX, m.ZY, m.ZZ));
+        var scale = Wide.DivideOrZero(power, Vector3Wide.Dot(new(m.XX, m.YX, m.ZX), column));
         return new(
-            xx * scale,
-            yx * scale, (m.ZZ * m.XX - m.ZX * m.ZX) * scale,
-            zx * scale, (m.ZX * m.YX - m.XX * m.ZY) * scale, (m.XX * m.YY - m.YX * m.YX) * scale);
+            column.X * scale,
+            column.Y * scale, (m.XX * m.ZZ - m.ZX * m.ZX) * scale,
+            column.Z * scale, (m.YX * m.ZX - m.XX * m.ZY) * scale, (m.XX * m.YY - m.YX * m.YX) * scale);
     }
 
     /// <summary>Picks <paramref name="a"/> where the mask is set, <paramref name="b"/> elsewhere.</summary>

@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using System.Numerics;
 using Demos.Scenes;
@@ -38,7 +40,8 @@ public class BuiltInSceneTests
     {
         SceneDescription one = SceneLibrary.Load(name, seed: 7), other = SceneLibrary.Load(name, seed: 7);
 
-        Assert.Equal(one.Bodies.ConvertAll(body => (body.Position, body.Orientation)), other.Bodies.ConvertAll(body => (body.Position, body.Orientation)));
+        Assert.Equal(one.Bodies.ConvertAll(body => (body.Position, body.Orientation)),
+            other.Bodies.ConvertAll(body => (body.Position, body.Orientation)));
     }
 
     [Fact]
@@ -97,7 +100,9 @@ public class BuiltInSceneTests
     [Fact]
     public void An_unknown_name_is_refused_and_a_missing_file_is_said_to_be_missing()
     {
-        Assert.Contains("nothing-like-it", Assert.Throws<SceneException>(() => SceneLibrary.Load("nothing-like-it", 1)).Message, System.StringComparison.Ordinal);
-        Assert.Throws<System.IO.FileNotFoundException>(() => SceneLibrary.Load("nothing-like-it.scene", 1));
+        var error = Assert.Throws<SceneException>(() => SceneLibrary.Load("nothing-like-it", 1));
+
+        Assert.Contains("'nothing-like-it'", error.Message, StringComparison.Ordinal);
+        Assert.Throws<FileNotFoundException>(() => SceneLibrary.Load("nothing-like-it.scene", 1));
     }
 }

@@ -15,8 +15,8 @@ public class SceneFileTests
 
         Assert.Equal(("sample", 10, 0.5f, 0.05f, true), (scene.Name, scene.Steps, scene.Friction, scene.Damping, scene.Sleep));
         Assert.Equal(
-            [SceneShapeKind.Box, SceneShapeKind.Sphere, SceneShapeKind.Capsule, SceneShapeKind.Cylinder, SceneShapeKind.Hull, SceneShapeKind.Mesh],
-            scene.Shapes.ConvertAll(shape => shape.Kind));
+            ["box", "sphere", "capsule", "cylinder", "hull", "mesh"],
+            scene.Shapes.ConvertAll(shape => shape.Word));
         Assert.Equal(new Vector3(0.5f, 1, 1.5f), scene.Shapes[0].Size);
         Assert.Equal(new Vector3(0.25f, 0, 0), scene.Shapes[1].Size);
         Assert.Equal(new Vector3(0.25f, 0.5f, 0), scene.Shapes[2].Size);

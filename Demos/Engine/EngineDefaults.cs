@@ -18,8 +18,16 @@ static class EngineDefaults
     /// <summary>Joints as hard as the step allows.</summary>
     public static SpringSettings JointSpring => default;
 
-    /// <summary>Seconds of the stages of the last step. The library does not measure them yet.</summary>
-    public static StageTimes ReadStages(Simulation simulation) => default;
+    /// <summary>How bodies turn: as a rigid body does, the library's default.</summary>
+    public const AngularIntegrationMode RotationMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
+
+    /// <summary>Seconds of the stages of the last step.</summary>
+    public static StageTimes ReadStages(Simulation simulation)
+    {
+        SimulationProfiler profiler = simulation.Profiler;
+        return new StageTimes(null, profiler[simulation.PoseIntegrator], profiler[simulation.BroadPhase], profiler[simulation.NarrowPhase],
+            profiler[SimulationProfiler.Flush], profiler[simulation.Solver], null);
+    }
 
     /// <summary>Colours of the active constraints.</summary>
     public static int? CountBatches(Simulation simulation) => simulation.Solver.ActiveSet.Batches.Count;

@@ -13,7 +13,7 @@ namespace Demos.Running;
 /// <summary>Puts a scene into a simulation, in the order of the scene, so that the same scene always gets the same handles.</summary>
 sealed class SceneBuilder
 {
-    /// <summary>Squared speed under which a body of a scene that sleeps may do so, as the demos of this family of engines have it.</summary>
+    /// <summary>Squared speed, in the engines' own measure, under which a body may fall asleep where the scene allows it.</summary>
     const float SleepThreshold = 0.01f;
 
     readonly SceneDescription scene;

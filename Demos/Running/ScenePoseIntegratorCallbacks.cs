@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics;
 using BepuUtilities;
+using Demos.Engine;
 
 namespace Demos.Running;
 
@@ -12,7 +13,7 @@ struct ScenePoseIntegratorCallbacks(float gravity, float damping) : IPoseIntegra
     Vector<float> gravityTimesDt;
     Vector<float> velocityScale;
 
-    public readonly AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.Nonconserving;
+    public readonly AngularIntegrationMode AngularIntegrationMode => EngineDefaults.RotationMode;
 
     public readonly bool AllowSubstepsForUnconstrainedBodies => false;
 

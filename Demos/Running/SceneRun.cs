@@ -150,16 +150,15 @@ public sealed class SceneRun : IDisposable
     static void Refuse(RunSettings settings)
     {
         Require(settings.Steps is null or > 0, "steps", settings.Steps);
-        Require(float.IsFinite(settings.StepDuration) && settings.StepDuration > 0, "dt", settings.StepDuration);
+        Require(settings.StepDuration is > 0 and <= float.MaxValue, "dt", settings.StepDuration);
         Require(settings.Substeps > 0, "substeps", settings.Substeps);
         Require(settings.Iterations > 0, "iterations", settings.Iterations);
         Require(settings.Threads is > 0 and <= 1024, "threads", settings.Threads);
         Require(settings.HashEvery >= 0, "hash-every", settings.HashEvery);
         Require(settings.Warmup is null or >= 0, "warmup", settings.Warmup);
-        Require(settings.Frequency is null || (float.IsFinite(settings.Frequency.Value) && settings.Frequency > 0), "frequency", settings.Frequency);
-        Require(settings.DampingRatio is null || (float.IsFinite(settings.DampingRatio.Value) && settings.DampingRatio >= 0),
-            "damping-ratio", settings.DampingRatio);
-        Require(settings.DampingRatio is null || settings.Frequency is not null, "damping-ratio without a frequency", settings.DampingRatio);
+        Require(settings.Frequency is null or (> 0 and <= float.MaxValue), "frequency", settings.Frequency);
+        Require(settings.DampingRatio is null or (>= 0 and <= float.MaxValue), "damping-ratio", settings.DampingRatio);
+        Require(settings.DampingRatio is null || settings.Frequency is not null, "damping-ratio without frequency", settings.DampingRatio);
     }
 
     static void Require(bool condition, string setting, object? value)

@@ -14,7 +14,7 @@ sealed class StepClock
     long allBytesAtReset;
     long ownBytesAtReset;
 
-    /// <summary>Bytes that all threads allocated inside steps since <see cref="Reset"/>; nothing that this thread did between them.</summary>
+    /// <summary>Bytes that all threads allocated since <see cref="Reset"/>, less what this thread did between the steps.</summary>
     public long ManagedBytes
     {
         get

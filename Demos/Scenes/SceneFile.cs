@@ -62,8 +62,8 @@ public static class SceneFile
         switch (kind)
         {
             case SceneShapeKind.Box:
-                var halfExtents = new Vector3(tokens.Positive("half width"), tokens.Positive("half height"), tokens.Positive("half length"));
-                return new SceneShape { Kind = kind, Size = halfExtents, Line = line };
+                var box = new Vector3(tokens.Positive("half width"), tokens.Positive("half height"), tokens.Positive("half length"));
+                return new SceneShape { Kind = kind, Size = box, Line = line };
             case SceneShapeKind.Sphere:
                 return new SceneShape { Kind = kind, Size = new Vector3(tokens.Positive("radius"), 0, 0), Line = line };
             case SceneShapeKind.Capsule:

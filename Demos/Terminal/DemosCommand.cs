@@ -77,7 +77,7 @@ public static class DemosCommand
         return result.IsSound ? Finished : Unsound;
     }
 
-    /// <summary>Turns what is wrong with the input into a line on standard error. Anything else is a defect and may show its trace.</summary>
+    /// <summary>Turns what is wrong with the input into a line on standard error. Anything else is a defect and shows its trace.</summary>
     static int Guard(ParseResult parsed, Func<RunReport, int> action)
     {
         InvocationConfiguration configuration = parsed.InvocationConfiguration;

@@ -8,16 +8,16 @@ sealed class RunOptions
 {
     static readonly RunSettings defaults = new();
 
-    readonly Option<int?> steps = new("--steps") { Description = "Steps to run, warm-up included [default: as the scene says]." };
+    readonly Option<int?> steps = Make<int?>("--steps", "Steps to run, warm-up included [default: as the scene says].");
     readonly Option<float> stepDuration = Make("--dt", "Seconds per step.", defaults.StepDuration);
     readonly Option<int> substeps = Make("--substeps", "Substeps per step.", defaults.Substeps);
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are drawn by lot.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
-    readonly Option<int?> warmup = new("--warmup") { Description = "First steps that are not measured [default: 30, at most half of the steps]." };
-    readonly Option<float?> frequency = new("--frequency") { Description = "Frequency in Hz of contacts and joints [default: the engine's]." };
-    readonly Option<float?> dampingRatio = new("--damping-ratio") { Description = "Damping ratio that goes with --frequency [default: 1]." };
+    readonly Option<int?> warmup = Make<int?>("--warmup", "First steps that are not measured [default: 30, at most half of the steps].");
+    readonly Option<float?> frequency = Make<float?>("--frequency", "Frequency in Hz of contacts and joints [default: the engine's].");
+    readonly Option<float?> dampingRatio = Make<float?>("--damping-ratio", "Damping ratio that goes with --frequency [default: 1].");
 
     /// <summary>Lets a command understand the options.</summary>
     public void AddTo(Command command)
@@ -41,6 +41,8 @@ sealed class RunOptions
         Frequency = parsed.GetValue(frequency),
         DampingRatio = parsed.GetValue(dampingRatio),
     };
+
+    static Option<T> Make<T>(string name, string description) => new(name) { Description = description };
 
     static Option<T> Make<T>(string name, string description, T defaultValue) =>
         new(name) { Description = description, DefaultValueFactory = _ => defaultValue };

@@ -54,16 +54,21 @@ sealed class RunReport(TextWriter output)
         yield return ("engine", result.Engine);
         yield return ("scene", result.Scene);
         yield return ("steps", Text($"{result.Steps} of {result.StepDuration * 1000:0.###} ms"));
-        yield return ("solver", Text($"{result.Substeps} substeps x {result.Iterations} iterations"));
+        yield return ("solver", Text($"{result.Iterations} iterations x {result.Substeps} substeps"));
         yield return ("threads, lanes", Text($"{result.Threads}, {result.Lanes}"));
         StepTimes ms = result.Times;
-        yield return ("ms per step", Text($"mean {ms.Mean:0.000}, median {ms.Median:0.000}, p95 {ms.P95:0.000}, p99 {ms.P99:0.000}, max {ms.Max:0.000}"));
-        StageTimes at = result.Stages;
-        if (at != default)
-            yield return ("stages, ms", Text($"sleep {at.Sleep:0.000}, predict {at.Predict:0.000}, broad {at.Broad:0.000}, narrow {at.Narrow:0.000}, flush {at.Flush:0.000}, solve {at.Solve:0.000}, settle {at.Settle:0.000}"));
+        yield return ("ms per step", Text($"median {ms.Median:0.000}, mean {ms.Mean:0.000}"));
+        yield return ("  slow steps", Text($"p95 {ms.P95:0.000}, p99 {ms.P99:0.000}, max {ms.Max:0.000}"));
+        foreach ((string stage, double? time) in Stages(result.Stages))
+        {
+            if (time is double known)
+                yield return ($"  {stage}", Text($"{known:0.000}"));
+        }
         yield return ("bodies", Text($"{result.Bodies} ({result.Awake} awake), {result.Statics} statics"));
-        yield return ("contacts", Text($"{Figure(result.Contacts)} in {Figure(result.Manifolds)} manifolds of {Figure(result.Pairs)} pairs"));
-        yield return ("constraints", Text($"{Figure(result.Constraints)} in {Figure(result.Batches)} batches, {Figure(result.Fallback)} without a colour"));
+        yield return ("contacts", $"{Figure(result.Contacts)} in {Figure(result.Manifolds)} manifolds of {Figure(result.Pairs)} pairs");
+        yield return ("constraints", $"{Figure(result.Constraints)} in {Figure(result.Batches)} batches");
+        if (result.Fallback > 0)
+            yield return ("  without colour", Figure(result.Fallback));
         yield return ("allocated", Text($"{result.ManagedBytes} bytes managed, {result.PoolBytes} bytes pooled"));
         if (result.MaximumPenetration is double depth)
             yield return ("penetration", Text($"{depth * 1000:0.###} mm at most"));
@@ -73,6 +78,12 @@ sealed class RunReport(TextWriter output)
         yield return ("moved", Text($"{result.Moved} by more than 0.5 m, {result.Lost} lost, {result.NotFinite} not finite"));
         yield return ("hash", RunResultJson.HashText(result.Hash));
     }
+
+    static (string Name, double? Milliseconds)[] Stages(StageTimes times) =>
+    [
+        ("sleep", times.Sleep), ("predict", times.Predict), ("broad", times.Broad), ("narrow", times.Narrow), ("flush", times.Flush),
+        ("solve", times.Solve), ("settle", times.Settle),
+    ];
 
     static string Text(FormattableString text) => FormattableString.Invariant(text);
 

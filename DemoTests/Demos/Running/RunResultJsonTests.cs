@@ -32,8 +32,8 @@ public class RunResultJsonTests
             [
                 "engine", "scene", "steps", "dt", "substeps", "iterations", "threads", "lanes", "seed", "ms", "stages", "bodies", "awake",
                 "statics", "pairs", "manifolds", "contacts", "constraints", "batches", "fallback", "managedBytes", "poolBytes",
-                "maxPenetration", "maxJointError", "rmsJointError", "kineticEnergy", "potentialEnergy", "moved", "lost", "notFinite", "hash",
-                "hashes",
+                "maxPenetration", "maxJointError", "rmsJointError", "kineticEnergy", "potentialEnergy", "moved", "lost", "notFinite",
+                "hash", "hashes",
             ],
             root.EnumerateObject().Select(member => member.Name));
         Assert.Equal(["mean", "median", "p95", "p99", "max"], root.GetProperty("ms").EnumerateObject().Select(member => member.Name));

@@ -8,7 +8,8 @@ static class ClothLattice
     const int Width = 128;
     const float Spacing = 1.75f;
 
-    public static BuiltInScene Scene { get; } = new("cloth-lattice", "16,384 spheres linked by 64,770 ball joints, no contacts", _ => Create());
+    public static BuiltInScene Scene { get; } = new(
+        "cloth-lattice", "16,384 spheres linked by 64,770 ball joints, no contacts", _ => Create());
 
     static SceneDescription Create()
     {

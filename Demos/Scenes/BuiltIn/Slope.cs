@@ -5,15 +5,15 @@ namespace Demos.Scenes.BuiltIn;
 
 /// <summary>
 /// Boxes, capsules and spheres on planks, each steeper than the one before. With friction 0.5 a box holds on those whose tangent is
-/// below one half and slides on the others, whatever its size and mass: at the end exactly those on steep planks have moved, and the
-/// spheres and capsules have rolled.
+/// below one half and slides on the others, whatever its size and mass; spheres and capsules roll.
 /// </summary>
 static class Slope
 {
     /// <summary>Tangents of the planks' angles: five that hold a box, three that do not.</summary>
     static readonly double[] tangents = [0.1, 0.25, 0.4, 0.45, 0.48, 0.52, 0.55, 0.7];
 
-    public static BuiltInScene Scene { get; } = new("slope", "boxes on planks about the angle of friction; five of eight hold", _ => Create());
+    public static BuiltInScene Scene { get; } = new(
+        "slope", "boxes on planks about the angle of friction; five of eight hold", _ => Create());
 
     static SceneDescription Create()
     {

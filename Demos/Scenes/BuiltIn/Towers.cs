@@ -2,7 +2,7 @@ using System.Numerics;
 
 namespace Demos.Scenes.BuiltIn;
 
-/// <summary>Towers of single boxes, from 2 to 20 high: what the last impulse of a long chain is worth. They stand, or they do not.</summary>
+/// <summary>Towers of single boxes, from 2 to 20 high: how far a solver carries a weight. They stand, or they do not.</summary>
 static class Towers
 {
     public static BuiltInScene Scene { get; } = new("towers", "towers of 2 to 20 boxes that have to stand", _ => Create());

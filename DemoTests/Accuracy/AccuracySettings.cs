@@ -1,0 +1,45 @@
+using System.Globalization;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Constraints;
+
+namespace DemoTests.Accuracy;
+
+/// <summary>Who may touch whom in a world of the suite.</summary>
+enum ContactScope
+{
+    All,
+    None,
+}
+
+/// <summary>How a world of the suite is simulated.</summary>
+sealed record AccuracySettings
+{
+    public float Dt { get; init; } = 1 / 60f;
+    public int SubstepCount { get; init; } = EngineTraits.DefaultSubstepCount;
+    public int VelocityIterationCount { get; init; } = EngineTraits.DefaultVelocityIterationCount;
+    public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
+    public float Friction { get; init; } = .5f;
+    public float Restitution { get; init; }
+
+    /// <summary>Fastest way out of an overlap, in metres per second.</summary>
+    public float MaximumRecoveryVelocity { get; init; } = 2;
+    public AngularIntegrationMode AngularMode { get; init; } = EngineTraits.DefaultAngularMode;
+
+    /// <summary>Substeps for bodies that touch nothing, too.</summary>
+    public bool SubstepsForFreeBodies { get; init; } = EngineTraits.DefaultSubstepsForFreeBodies;
+    public bool Stiff { get; init; }
+    public ContactScope Contacts { get; init; } = ContactScope.All;
+
+    public float SubstepDuration => Dt / SubstepCount;
+
+    public SpringSettings Spring => Stiff ? EngineTraits.RigidSpring(SubstepDuration) : EngineTraits.DefaultSpring(SubstepDuration);
+
+    /// <summary>Settings of an effort; cases change what they are about.</summary>
+    public static AccuracySettings For(Effort effort) => effort == Effort.Default
+        ? new()
+        : new() { SubstepCount = 16, AngularMode = EngineTraits.AccurateAngularMode, SubstepsForFreeBodies = true, Stiff = true };
+
+    public override string ToString() =>
+        string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(Stiff ? " stiff" : "")}");
+}

@@ -1,0 +1,31 @@
+using BepuPhysics;
+using BepuPhysics.CollisionDetection;
+using BepuPhysics.Constraints;
+
+namespace DemoTests.Accuracy;
+
+/// <summary>
+/// All that the suite knows about this engine beyond the shared surface. With another file of this name it measures another engine.
+/// </summary>
+static class EngineTraits
+{
+    public const int DefaultSubstepCount = 4;
+    public const int DefaultVelocityIterationCount = 1;
+
+    /// <summary>As in the ready-made callbacks.</summary>
+    public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
+
+    /// <summary>Substeps for bodies that touch nothing; as in the ready-made callbacks.</summary>
+    public const bool DefaultSubstepsForFreeBodies = true;
+    public const AngularIntegrationMode AccurateAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
+
+    /// <summary>What a game gets that asks for nothing. Here that is a rigid contact or joint.</summary>
+    public static SpringSettings DefaultSpring(float substepDuration) => default;
+
+    /// <summary>As stiff as the substep allows: the engine chooses.</summary>
+    public static SpringSettings RigidSpring(float substepDuration) => default;
+
+    public static PairMaterialProperties Material(
+        float friction, float restitution, float maximumRecoveryVelocity, SpringSettings spring) =>
+        new(friction, maximumRecoveryVelocity, spring) { Restitution = restitution };
+}

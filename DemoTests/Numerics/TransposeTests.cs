@@ -1,0 +1,118 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using BepuUtilities;
+using Xunit;
+
+namespace DemoTests.Numerics;
+
+/// <summary>Gathers and scatters against their definition, the lane loop.</summary>
+public sealed unsafe class TransposeTests : IDisposable
+{
+    const int RowCount = 64;
+    readonly float* rows = (float*)NativeMemory.AlignedAlloc(RowCount * 16 * sizeof(float), 64);
+    readonly float* copy = (float*)NativeMemory.AlignedAlloc(RowCount * 16 * sizeof(float), 64);
+
+    public void Dispose()
+    {
+        NativeMemory.AlignedFree(rows);
+        NativeMemory.AlignedFree(copy);
+    }
+
+    static Span<float> AsSpan(float* memory) => new(memory, RowCount * 16);
+
+    void Fill(WideSamples samples)
+    {
+        // Raw bits, NaN included: nothing may be lost on the way.
+        foreach (ref var value in AsSpan(rows))
+            value = BitConverter.Int32BitsToSingle(samples.Integer(int.MaxValue));
+        AsSpan(rows).CopyTo(AsSpan(copy));
+    }
+
+    /// <summary>Distinct rows, with every kind of flag among the lanes.</summary>
+    static Vector<int> Indices(WideSamples samples, int rowCount, bool withFlags)
+    {
+        Span<int> all = stackalloc int[rowCount];
+        for (int i = 0; i < rowCount; ++i)
+            all[i] = i;
+        Span<int> lanes = stackalloc int[Vector<int>.Count];
+        for (int lane = 0; lane < lanes.Length; ++lane)
+        {
+            var pick = lane + samples.Integer(rowCount - lane);
+            (all[lane], all[pick]) = (all[pick], all[lane]);
+            lanes[lane] = !withFlags ? all[lane] : samples.Integer(6) switch
+            {
+                0 => -1,
+                1 => all[lane] | int.MinValue,
+                2 => all[lane] | (1 << 30),
+                _ => all[lane],
+            };
+        }
+        return new(lanes);
+    }
+
+    static ReadOnlySpan<byte> Bits(in Rows8 values) => MemoryMarshal.AsBytes(new ReadOnlySpan<Rows8>(in values));
+
+    [Theory]
+    [InlineData(8), InlineData(16)]
+    public void GatherIsTheLaneLoop(int stride)
+    {
+        var samples = new WideSamples(1);
+        for (int i = 0; i < 2000; ++i)
+        {
+            Fill(samples);
+            var indices = Indices(samples, RowCount * 16 / stride, withFlags: true);
+            var fast = Transpose.Gather(rows, stride, indices);
+            var loop = Transpose.GatherByLanes(rows, stride, indices);
+            Assert.True(Bits(fast).SequenceEqual(Bits(loop)));
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                var row = indices[lane] < 0 ? 0 : indices[lane] & ~(1 << 30);
+                for (int k = 0; k < Rows8.Count; ++k)
+                    Assert.Equal(BitConverter.SingleToInt32Bits(rows[row * stride + k]), BitConverter.SingleToInt32Bits(fast[k][lane]));
+            }
+        }
+    }
+
+    [Theory]
+    [InlineData(8), InlineData(16)]
+    public void ScatterIsTheLaneLoop(int stride)
+    {
+        var samples = new WideSamples(2);
+        for (int i = 0; i < 2000; ++i)
+        {
+            Fill(samples);
+            var indices = Indices(samples, RowCount * 16 / stride, withFlags: true);
+            Unsafe.SkipInit(out Rows8 values);
+            for (int k = 0; k < Rows8.Count; ++k)
+                values[k] = samples.Numbers();
+            Transpose.Scatter(values, rows, stride, indices);
+            Transpose.ScatterByLanes(values, copy, stride, indices);
+            Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+        }
+    }
+
+    [Fact]
+    public void ScatterUndoesGather()
+    {
+        var samples = new WideSamples(3);
+        Fill(samples);
+        for (int i = 0; i < 2000; ++i)
+        {
+            var indices = Indices(samples, RowCount, withFlags: true);
+            Transpose.Scatter(Transpose.Gather(rows, 16, indices), rows, 16, indices);
+        }
+        Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+    }
+
+    [Fact]
+    public void FlaggedLanesWriteNothing()
+    {
+        var samples = new WideSamples(4);
+        Fill(samples);
+        foreach (var flag in new[] { -1, int.MinValue, 1 << 30, (1 << 30) | 5, int.MinValue | 7 })
+            Transpose.Scatter(default, rows, 16, new Vector<int>(flag));
+        Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+    }
+}
