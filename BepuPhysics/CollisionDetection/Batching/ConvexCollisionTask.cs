@@ -32,7 +32,10 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
             throw new InvalidOperationException($"The type id of {typeof(TShapeA).Name} ({TShapeA.TypeId}) is greater than that of {typeof(TShapeB).Name} ({TShapeB.TypeId}); name them in the other order.");
     }
 
-    internal override int BatchByteCount => PairBatch.BundleCapacity * sizeof(PairBundle<TShapeWideA, TShapeWideB>);
+    // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
+    // half of those would lie across two.
+    internal override int BatchByteCount =>
+        PairBatch.BundleCapacity * sizeof(PairBundle<TShapeWideA, TShapeWideB>) + sizeof(ConvexManifoldWide<TContacts>);
 
     internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
     {
@@ -67,11 +70,12 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
     internal override void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks)
     {
         var bundles = (PairBundle<TShapeWideA, TShapeWideB>*)batch.Bundles.Memory;
+        ref var wide = ref *(ConvexManifoldWide<TContacts>*)(bundles + PairBatch.BundleCapacity);
         Unsafe.SkipInit(out ConvexContactManifold manifold);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             ref var bundle = ref bundles[start >> BundleIndexing.VectorShift];
-            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, out var wide);
+            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, out wide);
             var laneCount = Math.Min(Vector<float>.Count, batch.Count - start);
             for (int lane = 0; lane < laneCount; ++lane)
             {

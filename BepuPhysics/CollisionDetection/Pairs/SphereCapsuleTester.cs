@@ -20,6 +20,9 @@ public readonly struct SphereCapsuleTester : IPairTester<SphereWide, CapsuleWide
         var axis = QuaternionWide.TransformUnitY(pose.OrientationB);
         var along = Wide.Clamp(-Vector3Wide.Dot(axis, pose.OffsetB), -b.HalfLength, b.HalfLength);
         var offset = -pose.OffsetB - axis * along;
+        // From an inner point of the segment the way is across it. What is left along it is rounding, which counts near the axis.
+        var inner = Vector.LessThan(Vector.Abs(along), b.HalfLength);
+        offset -= axis * Wide.Mask(inner, Vector3Wide.Dot(offset, axis));
         var distance = offset.Length();
         // A centre on the segment leaves by the shortest way, across the axis: any direction across is one.
         manifold.Normal = Vector3Wide.Select(
