@@ -14,12 +14,20 @@ public sealed class BatchingTests
 {
     static readonly Quaternion Turn = Quaternion.Normalize(new(0.1f, -0.3f, 0.2f, 0.9f));
 
-    static PairCase<TShapeA, TShapeB>[] CreateCases<TShapeA, TShapeB>(int count, Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
+    static PairCase<TShapeA, TShapeB>[] CreateCases<TShapeA, TShapeB>(int count,
+        Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
     {
         var random = new PairRandom(77);
         var kinds = Enum.GetValues<PairKind>();
         return [.. Enumerable.Range(0, count).Select(i => PairHarness.Create(ref random, kinds[i % kinds.Length], createA, createB))];
     }
+
+    // Deep ones may leave by another way when they are rounded otherwise.
+    static PairCase<TShapeA, TShapeB>[] CreateShallowCases<TShapeA, TShapeB>(
+        Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB) =>
+        [.. CreateCases(400, createA, createB).Where((_, i) => (PairKind)(i % 8) is PairKind.Apart or PairKind.Touching or PairKind.Shallow)];
+
+    static float Deepest(ConvexContactManifold manifold) => Enumerable.Range(0, manifold.Count).Max(manifold.GetDepth);
 
     static Sphere CreateSphere(PairRandom random) => new(random.Next(0.2, 1));
 
@@ -71,7 +79,7 @@ public sealed class BatchingTests
     static void CheckSwap<TShapeA, TShapeB>(Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
-        var cases = CreateCases(400, createA, createB).Where((_, i) => (PairKind)(i % 8) is PairKind.Apart or PairKind.Touching or PairKind.Shallow).ToArray();
+        var cases = CreateShallowCases(createA, createB);
         var swapped = cases.Select(x => new PairCase<TShapeB, TShapeA>(x.B, x.A, -x.OffsetB, x.OrientationB, x.OrientationA)).ToArray();
         var first = PairHarness.Run(cases, 0.1f);
         var second = PairHarness.Run(swapped, 0.1f);
@@ -83,8 +91,7 @@ public sealed class BatchingTests
             if (first[i].Count == 0)
                 continue;
             Assert.True(Vector3.Distance(first[i].Normal, -second[i].Normal) < 1e-4f);
-            Assert.Equal(
-                Enumerable.Range(0, first[i].Count).Max(first[i].GetDepth), Enumerable.Range(0, second[i].Count).Max(second[i].GetDepth), 1e-5f);
+            Assert.Equal(Deepest(first[i]), Deepest(second[i]), 1e-5f);
             // Two capsules share a stretch that is measured on the first. Places are relative to A, which is the other shape.
             if (typeof(TShapeA) == typeof(TShapeB) && first[i].Count > 1)
                 continue;
@@ -106,7 +113,7 @@ public sealed class BatchingTests
     static void CheckMotion<TShapeA, TShapeB>(Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
-        var cases = CreateCases(400, createA, createB).Where((_, i) => (PairKind)(i % 8) is PairKind.Apart or PairKind.Touching or PairKind.Shallow).ToArray();
+        var cases = CreateShallowCases(createA, createB);
         var moved = cases.Select(x => x with
         {
             OffsetB = Vector3.Transform(x.OffsetB, Turn),
@@ -120,8 +127,7 @@ public sealed class BatchingTests
             if (first[i].Count == 0 || second[i].Count == 0)
                 continue;
             Assert.True(Vector3.Distance(Vector3.Transform(first[i].Normal, Turn), second[i].Normal) < 1e-4f);
-            Assert.Equal(
-                Enumerable.Range(0, first[i].Count).Max(first[i].GetDepth), Enumerable.Range(0, second[i].Count).Max(second[i].GetDepth), 1e-5f);
+            Assert.Equal(Deepest(first[i]), Deepest(second[i]), 1e-5f);
         }
     }
 
@@ -158,7 +164,8 @@ public sealed class BatchingTests
         Assert.ThrowsAny<ArgumentException>(() => batcher.Add(sphere, sphere, default, default, none, 0, new(0)));
         Assert.ThrowsAny<ArgumentException>(() => batcher.Add(sphere, sphere, default, none, none, -1, new(0)));
         Assert.ThrowsAny<ArgumentException>(() => batcher.Add(new Sphere(-1), new Sphere(1), default, none, none, 0, 0));
-        Assert.ThrowsAny<ArgumentException>(() => new CollisionBatcher<ManifoldCollector>(pool, shapes, PairHarness.Registry, float.NaN, new([], [])));
+        Assert.ThrowsAny<ArgumentException>(
+            () => new CollisionBatcher<ManifoldCollector>(pool, shapes, PairHarness.Registry, float.NaN, new([], [])));
         batcher.Dispose();
         shapes.Dispose();
         pool.AssertEmpty();
@@ -166,7 +173,8 @@ public sealed class BatchingTests
 
     readonly struct Counter(int[] counts) : ICollisionCallbacks
     {
-        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
+        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold)
+            where TManifold : unmanaged, IContactManifold<TManifold> =>
             counts[pairId] += manifold.Count;
 
         public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }

@@ -32,13 +32,15 @@ public sealed class ManifoldTests
         var manifold = PairHarness.Run<Box, Box>(new(box, box, new(x, -0.99f, z), Quaternion.Identity, Quaternion.Identity), 0.1f);
         AssertVector(Vector3.UnitY, manifold.Normal);
         // The overlap, with the place halfway between the surfaces.
-        float minX = Math.Max(-0.5f, x - 0.5f), maxX = Math.Min(0.5f, x + 0.5f), minZ = Math.Max(-0.5f, z - 0.5f), maxZ = Math.Min(0.5f, z + 0.5f);
+        float minX = Math.Max(-0.5f, x - 0.5f), maxX = Math.Min(0.5f, x + 0.5f);
+        float minZ = Math.Max(-0.5f, z - 0.5f), maxZ = Math.Min(0.5f, z + 0.5f);
         AssertPlaces(manifold, new(minX, -0.495f, minZ), new(minX, -0.495f, maxZ), new(maxX, -0.495f, minZ), new(maxX, -0.495f, maxZ));
         for (int i = 0; i < manifold.Count; ++i)
             Assert.Equal(0.01f, manifold.GetDepth(i), 1e-6f);
     }
 
-    static void AssertVector(Vector3 expected, Vector3 actual) => Assert.True(Vector3.Distance(expected, actual) < 1e-5f, $"{actual} for {expected}");
+    static void AssertVector(Vector3 expected, Vector3 actual) =>
+        Assert.True(Vector3.Distance(expected, actual) < 1e-5f, $"{actual} for {expected}");
 
     [Theory]
     [InlineData(0.1f, 30)]

@@ -97,7 +97,8 @@ public sealed class PairAccuracyTests(ITestOutputHelper output)
             for (int j = 0; j < manifold.Count; ++j)
                 placeErrors.Add(PlaceError(a, b, manifold, j) / size);
         }
-        output.WriteLine($"{typeof(TShapeA).Name}-{typeof(TShapeB).Name}, relative to size        p50      p99.9      worst   ({depthErrors.Count} pairs, {placeErrors.Count} contacts)");
+        output.WriteLine(
+            $"{typeof(TShapeA).Name}-{typeof(TShapeB).Name}, {depthErrors.Count} pairs with {placeErrors.Count} contacts, p50, p99.9, worst:");
         Print("depth", depthErrors);
         Print("depth along the normal", normalErrors);
         if (axisErrors.Count > 0)

@@ -18,7 +18,8 @@ readonly struct ManifoldCollector(ConvexContactManifold[] manifolds, int[] compl
         ++completions[pairId];
     }
 
-    public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) => throw new NotSupportedException();
+    public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) =>
+        throw new NotSupportedException();
 
     public bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
 }
@@ -28,7 +29,8 @@ static class PairHarness
     public static readonly CollisionTaskRegistry Registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
 
     /// <summary>Tests pairs through a batcher, in a given order.</summary>
-    public static ConvexContactManifold[] Run<TShapeA, TShapeB>(IReadOnlyList<PairCase<TShapeA, TShapeB>> cases, float speculativeMargin, int[]? order = null, int flushInterval = int.MaxValue)
+    public static ConvexContactManifold[] Run<TShapeA, TShapeB>(IReadOnlyList<PairCase<TShapeA, TShapeB>> cases,
+        float speculativeMargin, int[]? order = null, int flushInterval = int.MaxValue)
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
         using var pool = new BufferPool();
@@ -64,7 +66,8 @@ static class PairHarness
     };
 
     /// <summary>Makes a pair that lies in a given way, sizes even in their logarithm with ratios of up to 100.</summary>
-    public static PairCase<TShapeA, TShapeB> Create<TShapeA, TShapeB>(ref PairRandom random, PairKind kind, Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
+    public static PairCase<TShapeA, TShapeB> Create<TShapeA, TShapeB>(ref PairRandom random, PairKind kind,
+        Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
     {
         var a = createA(new(random.NextBits()));
         var b = createB(new(random.NextBits()));

@@ -29,7 +29,8 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
     public ConvexCollisionTask() : base(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}")
     {
         if (TShapeA.TypeId > TShapeB.TypeId)
-            throw new InvalidOperationException($"The type id of {typeof(TShapeA).Name} ({TShapeA.TypeId}) is greater than that of {typeof(TShapeB).Name} ({TShapeB.TypeId}); name them in the other order.");
+            throw new InvalidOperationException(
+                $"Name {typeof(TShapeB).Name} (type id {TShapeB.TypeId}) before {typeof(TShapeA).Name} (type id {TShapeA.TypeId}).");
     }
 
     // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
@@ -88,7 +89,8 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
 
     /// <summary>Takes the contacts that exist out of a lane, in the frame of the caller's A.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane, ref ConvexContactManifold manifold)
+    static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane,
+        ref ConvexContactManifold manifold)
     {
         int count = 0;
         var offsetB = Lanes.Read<Vector3, Vector3Wide>(ref bundle.Pose.OffsetB, lane);

@@ -93,7 +93,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Choose(Vector<int> useX, Vector<int> useY, in Vector3Wide v) => Wide.Select(useX, v.X, Wide.Select(useY, v.Y, v.Z));
+    static Vector<float> Choose(Vector<int> useX, Vector<int> useY, in Vector3Wide v) =>
+        Wide.Select(useX, v.X, Wide.Select(useY, v.Y, v.Z));
 
     /// <summary>What is left of a vector from the box's nearest point.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -156,8 +157,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
 
     /// <summary>Depth of the segment in the box, negative where they are apart, and the axis that shows it, from box to segment.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void FindLeastDepth(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half, Vector<float> size,
-        out Vector<float> depth, out Vector3Wide normal)
+    static void FindLeastDepth(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half,
+        Vector<float> size, out Vector<float> depth, out Vector3Wide normal)
     {
         var absolute = Vector3Wide.Abs(direction);
         var faceDepths = half + absolute * halfLength - Vector3Wide.Abs(center);
@@ -185,7 +186,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void TryEdge(Vector<float> scaledDepth, Vector<float> sineSquared, in Vector3Wide axis, ref Vector<float> depth, ref Vector3Wide normal)
+    static void TryEdge(Vector<float> scaledDepth, Vector<float> sineSquared, in Vector3Wide axis, ref Vector<float> depth,
+        ref Vector3Wide normal)
     {
         var inverse = Vector<float>.One / Vector.SquareRoot(sineSquared);
         var axisDepth = scaledDepth * inverse;
@@ -195,7 +197,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ClipToSlab(Vector<float> position, Vector<float> speed, Vector<float> extent, Vector<int> isFaceAxis, ref Vector<float> start, ref Vector<float> end)
+    static void ClipToSlab(Vector<float> position, Vector<float> speed, Vector<float> extent, Vector<int> isFaceAxis,
+        ref Vector<float> start, ref Vector<float> end)
     {
         // A segment that moves less than the tolerance of the border over its whole length counts as parallel to it.
         var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(BorderTolerance)), speed);

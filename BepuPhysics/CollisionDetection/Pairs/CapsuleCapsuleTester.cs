@@ -99,7 +99,8 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
 
     /// <summary>Writes the contact between a point of A's segment and one of B's that is opposite along the normal.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteContact(in CapsuleWide a, in CapsuleWide b, in Vector3Wide onA, in Vector3Wide onB, in Vector3Wide normal, ref ContactWide contact)
+    static void WriteContact(in CapsuleWide a, in CapsuleWide b, in Vector3Wide onA, in Vector3Wide onB, in Vector3Wide normal,
+        ref ContactWide contact)
     {
         contact.Depth = a.Radius + b.Radius - Vector3Wide.Dot(onA - onB, normal);
         contact.OffsetA = onA + normal * (contact.Depth * new Vector<float>(0.5f) - a.Radius);

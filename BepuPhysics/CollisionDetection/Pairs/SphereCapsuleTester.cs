@@ -5,7 +5,7 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Sphere against capsule: one contact on the line from the sphere's centre to the nearest point of the capsule's segment.</summary>
+/// <summary>Sphere against capsule: one contact on the line from the sphere's centre to the nearest point of the segment.</summary>
 public readonly struct SphereCapsuleTester : IPairTester<SphereWide, CapsuleWide, Few1<ContactWide>>
 {
     /// <inheritdoc/>
@@ -25,8 +25,9 @@ public readonly struct SphereCapsuleTester : IPairTester<SphereWide, CapsuleWide
         offset -= axis * Wide.Mask(inner, Vector3Wide.Dot(offset, axis));
         var distance = offset.Length();
         // A centre on the segment leaves by the shortest way, across the axis: any direction across is one.
+        var across = QuaternionWide.TransformUnitX(pose.OrientationB);
         manifold.Normal = Vector3Wide.Select(
-            Vector.GreaterThan(distance, Vector<float>.Zero), offset * (Vector<float>.One / distance), QuaternionWide.TransformUnitX(pose.OrientationB));
+            Vector.GreaterThan(distance, Vector<float>.Zero), offset * (Vector<float>.One / distance), across);
         manifold.Contacts[0].WriteFromSphere(manifold.Normal, a.Radius, a.Radius + b.Radius - distance, speculativeMargin);
     }
 }
