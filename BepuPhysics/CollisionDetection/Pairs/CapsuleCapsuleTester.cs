@@ -37,10 +37,17 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         var t = pose.OffsetB;
         var radius = a.Radius + b.Radius;
 
+        // A direction across both segments; across the first, and whichever coordinate axis it is far from, where they are parallel.
+        var zero = Vector<float>.Zero;
         var cross = Vector3Wide.Cross(u, v);
         var sineSquared = cross.LengthSquared();
         var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
-        var inverseSine = Vector<float>.One / Vector.SquareRoot(sineSquared);
+        var fromX = new Vector3Wide(zero, u.Z, -u.Y);
+        var fromY = new Vector3Wide(-u.Z, zero, u.X);
+        var acrossFirst = Vector3Wide.Select(Vector.LessThan(Vector.Abs(u.X), Vector.Abs(u.Y)), fromX, fromY);
+        cross = Vector3Wide.Select(parallel, acrossFirst, cross);
+        var inverseSine = Vector<float>.One / cross.Length();
+        cross *= inverseSine;
         var cosine = Vector3Wide.Dot(u, v);
         var tu = Vector3Wide.Dot(t, u);
         var tv = Vector3Wide.Dot(t, v);
@@ -51,7 +58,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         var end = Wide.Min(a.HalfLength, tu + reach);
 
         // Parallel segments are equally near all along that stretch, or nearest at its ends, which have then passed each other.
-        var crossing = Vector3Wide.Dot(Vector3Wide.Cross(t, v), cross) * (inverseSine * inverseSine);
+        var crossing = Vector3Wide.Dot(Vector3Wide.Cross(t, v), cross) * inverseSine;
         var s = Wide.Select(parallel, new Vector<float>(0.5f) * (start + end), crossing);
         s = Wide.Clamp(s, -a.HalfLength, a.HalfLength);
         var onB = Wide.Clamp(s * cosine - tv, -b.HalfLength, b.HalfLength);
@@ -65,8 +72,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         separation -= u * Wide.Mask(innerA, Vector3Wide.Dot(separation, u));
         separation -= v * Wide.Mask(innerB, Vector3Wide.Dot(separation, v));
         var distance = separation.Length();
-        var across = Vector3Wide.Select(parallel, QuaternionWide.TransformUnitX(pose.OrientationA), cross * inverseSine);
-        across = Vector3Wide.Select(Vector.LessThan(Vector3Wide.Dot(across, separation), Vector<float>.Zero), -across, across);
+        var across = Vector3Wide.Select(Vector.LessThan(Vector3Wide.Dot(cross, separation), zero), -cross, cross);
         // Segments that meet are pushed apart across both of them.
         var meeting = Vector.LessThanOrEqual(distance, (radius + a.HalfLength + b.HalfLength) * new Vector<float>(MeetingDistance));
         var useAcross = meeting | (innerA & innerB & Vector.GreaterThan(sineSquared, new Vector<float>(CrossingSineSquared)));
