@@ -64,7 +64,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         Shapes.CheckExists(shapeIndexA, nameof(shapeIndexA));
         Shapes.CheckExists(shapeIndexB, nameof(shapeIndexB));
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
-        Add(shapeIndexA.Type, shapeIndexA.Index, shapeIndexB.Type, shapeIndexB.Index, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
+        Add(shapeIndexA.Type, shapeIndexA.Index, shapeIndexB.Type, shapeIndexB.Index, offsetB, orientationA, orientationB,
+            speculativeMargin, continuation.PairId);
     }
 
     /// <summary>Adds a pair of shapes that move; the two convex shapes of a pair need no velocities.</summary>
@@ -81,7 +82,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <exception cref="ArgumentException">A shape does not exist, or a number is not finite or out of range.</exception>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
     public void Add(TypedIndex shapeIndexA, TypedIndex shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
-        in BodyVelocity velocityA, in BodyVelocity velocityB, float speculativeMargin, float maximumExpansion, in PairContinuation continuation)
+        in BodyVelocity velocityA, in BodyVelocity velocityB, float speculativeMargin, float maximumExpansion,
+        in PairContinuation continuation)
     {
         CheckNotNegative(maximumExpansion, nameof(maximumExpansion));
         Add(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation);
@@ -117,8 +119,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <param name="continuation">What becomes of the result.</param>
     /// <exception cref="ArgumentException">A shape is missing, or a number is not finite or out of range.</exception>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
-    public void AddDirectly(int shapeTypeA, int shapeTypeB, void* shapeA, void* shapeB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
-        float speculativeMargin, in PairContinuation continuation)
+    public void AddDirectly(int shapeTypeA, int shapeTypeB, void* shapeA, void* shapeB, Vector3 offsetB, Quaternion orientationA,
+        Quaternion orientationB, float speculativeMargin, in PairContinuation continuation)
     {
         ArgumentNullException.ThrowIfNull(shapeA);
         ArgumentNullException.ThrowIfNull(shapeB);
@@ -133,8 +135,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
 
     /// <summary>Adds a pair of shapes that exist, with a pose that is known to be sound.</summary>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
-    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
-        float speculativeMargin, int pairId)
+    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, Vector3 offsetB, Quaternion orientationA,
+        Quaternion orientationB, float speculativeMargin, int pairId)
     {
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
         ref var batch = ref GetBatch(task, taskIndex);
@@ -211,7 +213,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static PairInput CreateInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId, bool flipped) => new()
+    static PairInput CreateInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId,
+        bool flipped) => new()
     {
         OffsetB = flipped ? -offsetB : offsetB,
         OrientationA = flipped ? orientationB : orientationA,
@@ -251,5 +254,6 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     }
 
     [DoesNotReturn]
-    static void ThrowExecuting() => throw new InvalidOperationException("Callbacks must not add pairs to the batcher that calls them, nor flush it.");
+    static void ThrowExecuting() =>
+        throw new InvalidOperationException("Callbacks must not add pairs to the batcher that calls them, nor flush it.");
 }

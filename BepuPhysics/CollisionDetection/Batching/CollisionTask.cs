@@ -2,7 +2,11 @@ using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Tests batches of pairs of two shape types. Add one to a registry as <see cref="ConvexCollisionTask{TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester}"/>.</summary>
+/// <summary>Tests batches of pairs of two shape types.</summary>
+/// <remarks>
+/// Tests of one's own are pair testers, in a
+/// <see cref="ConvexCollisionTask{TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester}"/>.
+/// </remarks>
 public abstract unsafe class CollisionTask
 {
     private protected CollisionTask(int shapeTypeIndexA, int shapeTypeIndexB, string description)
@@ -34,5 +38,6 @@ public abstract unsafe class CollisionTask
     internal abstract void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair);
 
     /// <summary>Tests all pairs of a batch, hands the results to the callbacks and empties the batch.</summary>
-    internal abstract void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks) where TCallbacks : struct, ICollisionCallbacks;
+    internal abstract void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks)
+        where TCallbacks : struct, ICollisionCallbacks;
 }

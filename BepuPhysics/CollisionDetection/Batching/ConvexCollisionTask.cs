@@ -29,10 +29,14 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
     public ConvexCollisionTask() : base(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}")
     {
         if (TShapeA.TypeId > TShapeB.TypeId)
-            throw new InvalidOperationException($"The type id of {typeof(TShapeA).Name} ({TShapeA.TypeId}) is greater than that of {typeof(TShapeB).Name} ({TShapeB.TypeId}); name them in the other order.");
+            throw new InvalidOperationException(
+                $"Name {typeof(TShapeB).Name} (type id {TShapeB.TypeId}) before {typeof(TShapeA).Name} (type id {TShapeA.TypeId}).");
     }
 
-    internal override int BatchByteCount => PairBatch.BundleCapacity * sizeof(PairBundle<TShapeWideA, TShapeWideB>);
+    // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
+    // half of those would lie across two.
+    internal override int BatchByteCount =>
+        PairBatch.BundleCapacity * sizeof(PairBundle<TShapeWideA, TShapeWideB>) + sizeof(ConvexManifoldWide<TContacts>);
 
     internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
     {
@@ -67,11 +71,12 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
     internal override void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks)
     {
         var bundles = (PairBundle<TShapeWideA, TShapeWideB>*)batch.Bundles.Memory;
+        ref var wide = ref *(ConvexManifoldWide<TContacts>*)(bundles + PairBatch.BundleCapacity);
         Unsafe.SkipInit(out ConvexContactManifold manifold);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             ref var bundle = ref bundles[start >> BundleIndexing.VectorShift];
-            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, out var wide);
+            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, out wide);
             var laneCount = Math.Min(Vector<float>.Count, batch.Count - start);
             for (int lane = 0; lane < laneCount; ++lane)
             {
@@ -84,7 +89,8 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
 
     /// <summary>Takes the contacts that exist out of a lane, in the frame of the caller's A.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane, ref ConvexContactManifold manifold)
+    static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane,
+        ref ConvexContactManifold manifold)
     {
         int count = 0;
         var offsetB = Lanes.Read<Vector3, Vector3Wide>(ref bundle.Pose.OffsetB, lane);

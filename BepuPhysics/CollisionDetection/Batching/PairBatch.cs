@@ -11,7 +11,7 @@ struct PairBatch
     /// <summary>Number of pairs.</summary>
     public int Count;
 
-    /// <summary>Bundles that a batch holds: enough that dispatching a batch costs little, few enough to stay in the first cache level.</summary>
+    /// <summary>Bundles of a batch: enough that dispatching it costs little, few enough to stay in the first cache level.</summary>
     public const int BundleCapacity = 4;
 
     /// <summary>Pairs that a batch holds.</summary>

@@ -32,16 +32,16 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     public readonly bool Convex => true;
 
     /// <inheritdoc/>
-    public Contact this[int contactIndex]
+    public Contact this[int index]
     {
         readonly get
         {
-            GetContact(contactIndex, out var contact);
+            GetContact(index, out var contact);
             return contact;
         }
         set
         {
-            ref var contact = ref GetConvexContactReference(ref this, contactIndex);
+            ref var contact = ref GetConvexContactReference(ref this, index);
             contact.Offset = value.Offset;
             contact.Depth = value.Depth;
             contact.FeatureId = value.FeatureId;
@@ -50,21 +50,21 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public readonly int GetFeatureId(int contactIndex) => Read(contactIndex).FeatureId;
+    public readonly int GetFeatureId(int index) => Read(index).FeatureId;
 
     /// <inheritdoc/>
-    public readonly float GetDepth(int contactIndex) => Read(contactIndex).Depth;
+    public readonly float GetDepth(int index) => Read(index).Depth;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetNormal(int contactIndex) => Normal;
+    public readonly Vector3 GetNormal(int index) => Normal;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetOffset(int contactIndex) => Read(contactIndex).Offset;
+    public readonly Vector3 GetOffset(int index) => Read(index).Offset;
 
     /// <inheritdoc/>
-    public readonly void GetContact(int contactIndex, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
+    public readonly void GetContact(int index, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
     {
-        ref readonly var contact = ref Read(contactIndex);
+        ref readonly var contact = ref Read(index);
         offset = contact.Offset;
         normal = Normal;
         depth = contact.Depth;
@@ -72,8 +72,8 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public readonly void GetContact(int contactIndex, out Contact contactData) =>
-        GetContact(contactIndex, out contactData.Offset, out contactData.Normal, out contactData.Depth, out contactData.FeatureId);
+    public readonly void GetContact(int index, out Contact contactData) =>
+        GetContact(index, out contactData.Offset, out contactData.Normal, out contactData.Depth, out contactData.FeatureId);
 
     /// <summary>Removes a contact; the last one takes its index.</summary>
     public static void FastRemoveAt(ref ConvexContactManifold manifold, int index)
@@ -84,33 +84,33 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public static ref float GetDepthReference(ref ConvexContactManifold manifold, int contactIndex) =>
-        ref GetConvexContactReference(ref manifold, contactIndex).Depth;
+    public static ref float GetDepthReference(ref ConvexContactManifold manifold, int index) =>
+        ref GetConvexContactReference(ref manifold, index).Depth;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetNormalReference(ref ConvexContactManifold manifold, int contactIndex) => ref manifold.Normal;
+    public static ref Vector3 GetNormalReference(ref ConvexContactManifold manifold, int index) => ref manifold.Normal;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetOffsetReference(ref ConvexContactManifold manifold, int contactIndex) =>
-        ref GetConvexContactReference(ref manifold, contactIndex).Offset;
+    public static ref Vector3 GetOffsetReference(ref ConvexContactManifold manifold, int index) =>
+        ref GetConvexContactReference(ref manifold, index).Offset;
 
     /// <inheritdoc/>
-    public static ref int GetFeatureIdReference(ref ConvexContactManifold manifold, int contactIndex) =>
-        ref GetConvexContactReference(ref manifold, contactIndex).FeatureId;
+    public static ref int GetFeatureIdReference(ref ConvexContactManifold manifold, int index) =>
+        ref GetConvexContactReference(ref manifold, index).FeatureId;
 
     /// <inheritdoc/>
-    public static ref Contact GetNonconvexContactReference(ref ConvexContactManifold manifold, int contactIndex) =>
+    public static ref Contact GetNonconvexContactReference(ref ConvexContactManifold manifold, int index) =>
         throw new InvalidOperationException("The contacts of a convex manifold have no normals of their own.");
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static ref ConvexContact GetConvexContactReference(ref ConvexContactManifold manifold, int contactIndex)
+    public static ref ConvexContact GetConvexContactReference(ref ConvexContactManifold manifold, int index)
     {
-        Check.That((uint)contactIndex < MaximumContactCount);
-        return ref Unsafe.Add(ref manifold.Contact0, contactIndex);
+        Check.That((uint)index < MaximumContactCount);
+        return ref Unsafe.Add(ref manifold.Contact0, index);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     [System.Diagnostics.CodeAnalysis.UnscopedRef]
-    readonly ref readonly ConvexContact Read(int contactIndex) => ref GetConvexContactReference(ref Unsafe.AsRef(in this), contactIndex);
+    readonly ref readonly ConvexContact Read(int index) => ref GetConvexContactReference(ref Unsafe.AsRef(in this), index);
 }

@@ -30,28 +30,28 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     public readonly bool Convex => false;
 
     /// <inheritdoc/>
-    public Contact this[int contactIndex]
+    public Contact this[int index]
     {
-        readonly get => Read(contactIndex);
-        set => GetNonconvexContactReference(ref this, contactIndex) = value;
+        readonly get => Read(index);
+        set => GetNonconvexContactReference(ref this, index) = value;
     }
 
     /// <inheritdoc/>
-    public readonly int GetFeatureId(int contactIndex) => Read(contactIndex).FeatureId;
+    public readonly int GetFeatureId(int index) => Read(index).FeatureId;
 
     /// <inheritdoc/>
-    public readonly float GetDepth(int contactIndex) => Read(contactIndex).Depth;
+    public readonly float GetDepth(int index) => Read(index).Depth;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetNormal(int contactIndex) => Read(contactIndex).Normal;
+    public readonly Vector3 GetNormal(int index) => Read(index).Normal;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetOffset(int contactIndex) => Read(contactIndex).Offset;
+    public readonly Vector3 GetOffset(int index) => Read(index).Offset;
 
     /// <inheritdoc/>
-    public readonly void GetContact(int contactIndex, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
+    public readonly void GetContact(int index, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
     {
-        ref readonly var contact = ref Read(contactIndex);
+        ref readonly var contact = ref Read(index);
         offset = contact.Offset;
         normal = contact.Normal;
         depth = contact.Depth;
@@ -59,7 +59,7 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <inheritdoc/>
-    public readonly void GetContact(int contactIndex, out Contact contactData) => contactData = Read(contactIndex);
+    public readonly void GetContact(int index, out Contact contactData) => contactData = Read(index);
 
     /// <summary>Removes a contact; the last one takes its index.</summary>
     public static void FastRemoveAt(NonconvexContactManifold* manifold, int index)
@@ -70,7 +70,8 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <summary>Adds a contact of a convex part.</summary>
-    public static void Add(NonconvexContactManifold* manifold, ref Vector3 normal, ref ConvexContact convexContact) => Allocate(manifold) = new()
+    public static void Add(NonconvexContactManifold* manifold, ref Vector3 normal, ref ConvexContact convexContact) =>
+        Allocate(manifold) = new()
     {
         Offset = convexContact.Offset,
         Depth = convexContact.Depth,
@@ -88,34 +89,34 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <inheritdoc/>
-    public static ref float GetDepthReference(ref NonconvexContactManifold manifold, int contactIndex) =>
-        ref GetNonconvexContactReference(ref manifold, contactIndex).Depth;
+    public static ref float GetDepthReference(ref NonconvexContactManifold manifold, int index) =>
+        ref GetNonconvexContactReference(ref manifold, index).Depth;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetNormalReference(ref NonconvexContactManifold manifold, int contactIndex) =>
-        ref GetNonconvexContactReference(ref manifold, contactIndex).Normal;
+    public static ref Vector3 GetNormalReference(ref NonconvexContactManifold manifold, int index) =>
+        ref GetNonconvexContactReference(ref manifold, index).Normal;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetOffsetReference(ref NonconvexContactManifold manifold, int contactIndex) =>
-        ref GetNonconvexContactReference(ref manifold, contactIndex).Offset;
+    public static ref Vector3 GetOffsetReference(ref NonconvexContactManifold manifold, int index) =>
+        ref GetNonconvexContactReference(ref manifold, index).Offset;
 
     /// <inheritdoc/>
-    public static ref int GetFeatureIdReference(ref NonconvexContactManifold manifold, int contactIndex) =>
-        ref GetNonconvexContactReference(ref manifold, contactIndex).FeatureId;
+    public static ref int GetFeatureIdReference(ref NonconvexContactManifold manifold, int index) =>
+        ref GetNonconvexContactReference(ref manifold, index).FeatureId;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static ref Contact GetNonconvexContactReference(ref NonconvexContactManifold manifold, int contactIndex)
+    public static ref Contact GetNonconvexContactReference(ref NonconvexContactManifold manifold, int index)
     {
-        Check.That((uint)contactIndex < MaximumContactCount);
-        return ref Unsafe.Add(ref manifold.Contact0, contactIndex);
+        Check.That((uint)index < MaximumContactCount);
+        return ref Unsafe.Add(ref manifold.Contact0, index);
     }
 
     /// <inheritdoc/>
-    public static ref ConvexContact GetConvexContactReference(ref NonconvexContactManifold manifold, int contactIndex) =>
+    public static ref ConvexContact GetConvexContactReference(ref NonconvexContactManifold manifold, int index) =>
         throw new InvalidOperationException("The contacts of a nonconvex manifold have normals of their own.");
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     [System.Diagnostics.CodeAnalysis.UnscopedRef]
-    readonly ref readonly Contact Read(int contactIndex) => ref GetNonconvexContactReference(ref Unsafe.AsRef(in this), contactIndex);
+    readonly ref readonly Contact Read(int index) => ref GetNonconvexContactReference(ref Unsafe.AsRef(in this), index);
 }

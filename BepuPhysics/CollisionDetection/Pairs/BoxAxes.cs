@@ -16,7 +16,8 @@ static class BoxAxes
     // Squared sine below which two edges are parallel: edges at that angle leave each other's line by 1e-6 of their length, and the faces
     // beside them show the depth as well to that.
     const float ParallelSineSquared = 1e-12f;
-    // An edge must beat the faces by this part of the smaller box. Rounding is below it, so faces that rest on each other keep their normal.
+    // An edge must beat the faces by this part of the smaller box. Rounding is below it, so faces that rest on each other keep their
+    // normal.
     const float EdgeTolerance = 1e-5f;
 
     /// <summary>Finds the axis of least depth.</summary>

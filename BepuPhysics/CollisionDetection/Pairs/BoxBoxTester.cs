@@ -18,15 +18,29 @@ namespace BepuPhysics.CollisionDetection;
 // the faces into a rectangle and a parallelogram and finds the corners of their overlap, ContactReduction keeps four.
 // The reference face is always one of A's, whether the normal belongs to it or not: depth is linear over B's face, and measured along the
 // normal. So face contacts and edge contacts are one case, and what turns from the one into the other does so without a jump.
-public readonly struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<ContactWide>>
+public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<ContactWide>>
 {
+    const int CacheLine = 64;
+
+    struct Scratch
+    {
+        public BoxFaces Faces;
+        public ContactCandidates Candidates;
+        public fixed byte Padding[CacheLine];
+    }
+
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in BoxWide a, in BoxWide b, in PairPoseWide pose, Vector<float> speculativeMargin,
         out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        Unsafe.SkipInit(out BoxFaces faces);
+        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write, and which
+        // do would change with the depth of the stack, so the scratch of the test is put at a cache line by hand.
+        Unsafe.SkipInit(out Scratch unaligned);
+        var address = (nint)(&unaligned);
+        ref var scratch = ref *(Scratch*)((address + CacheLine - 1) & -CacheLine);
+        ref var faces = ref scratch.Faces;
         faces.AxesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
         var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
         faces.AxesB = new(faces.AxesA * axesB.X, faces.AxesA * axesB.Y, faces.AxesA * axesB.Z);
@@ -41,9 +55,8 @@ public readonly struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<Contact
             manifold.Contacts[3].Exists = Vector<int>.Zero;
             return;
         }
-        Unsafe.SkipInit(out ContactCandidates candidates);
         faces.Project(a, b);
-        faces.FindCandidates(ref candidates);
-        candidates.Reduce(faces, touching, speculativeMargin, ref manifold);
+        faces.FindCandidates(ref scratch.Candidates);
+        scratch.Candidates.Reduce(faces, touching, speculativeMargin, ref manifold);
     }
 }

@@ -133,8 +133,10 @@ struct BoxFaces
     // Called for (S, T) with the sides t = -1 and t = 1, and turned by a quarter, for (T, -S), with s = 1 and s = -1. The second of two
     // opposite sides runs backwards, so that the four follow each other around the face.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly void AddSides(ref ContactCandidates candidates, int backIndex, int frontIndex, Vector<float> centerX, Vector<float> centerY, Vector<float> centerDepth,
-        Vector<float> alongX, Vector<float> alongY, Vector<float> alongDepth, Vector<float> acrossX, Vector<float> acrossY, Vector<float> acrossDepth)
+    readonly void AddSides(ref ContactCandidates candidates, int backIndex, int frontIndex,
+        Vector<float> centerX, Vector<float> centerY, Vector<float> centerDepth,
+        Vector<float> alongX, Vector<float> alongY, Vector<float> alongDepth,
+        Vector<float> acrossX, Vector<float> acrossY, Vector<float> acrossDepth)
     {
         // A side that moves less than half the border's tolerance across a face's edge counts as parallel to it.
         var floor = Border * new Vector<float>(0.5f);
@@ -149,7 +151,8 @@ struct BoxFaces
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AddSide(ref ContactCandidates candidates, int index, Vector<float> middleX, Vector<float> middleY, Vector<float> middleDepth,
+    static void AddSide(ref ContactCandidates candidates, int index,
+        Vector<float> middleX, Vector<float> middleY, Vector<float> middleDepth,
         Vector<float> alongX, Vector<float> alongY, Vector<float> alongDepth,
         Vector<float> inverseX, Vector<float> inverseY, Vector<float> reachX, Vector<float> reachY)
     {
@@ -166,11 +169,13 @@ struct BoxFaces
         ref var second = ref candidates.At(index + 1);
         second.X = middleX + alongX * end;
         second.Y = middleY + alongY * end;
-        second.Depth = Wide.Select(isOver & Vector.LessThan(end, one), middleDepth + alongDepth * end, new Vector<float>(ContactCandidates.None));
+        var isCutOff = isOver & Vector.LessThan(end, one);
+        second.Depth = Wide.Select(isCutOff, middleDepth + alongDepth * end, new Vector<float>(ContactCandidates.None));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly void AddCorner(ref ContactCandidates candidates, int index, Vector<float> x, Vector<float> y, Vector<float> inverse, Vector<float> limitS, Vector<float> limitT)
+    readonly void AddCorner(ref ContactCandidates candidates, int index, Vector<float> x, Vector<float> y, Vector<float> inverse,
+        Vector<float> limitS, Vector<float> limitT)
     {
         var fromCenterX = x - CenterX;
         var fromCenterY = y - CenterY;

@@ -12,10 +12,11 @@ namespace BepuPhysics.CollisionDetection;
 // Everything happens in the box's frame. A segment that is outside of the box has a nearest point, found exactly; the normal is the
 // direction from there. A segment that meets the box leaves it along one of its six separating axes: a face, or a cross product of the
 // segment with an edge. Both are computed for every lane. Where the nearest features are a face, or two edges, they agree to rounding, and
-// the axis is the better known of the two; only near corners and ends is the distance greater than what any axis shows.
+// the axis is the better known of the two; elsewhere the distance is greater than what any axis shows.
 public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2<ContactWide>>
 {
-    // Part of the size of the pair by which an edge, or the nearest points, must beat the faces: rounding is below it.
+    // Part of the size of the pair by which an edge must beat the faces, and by which the nearest points must lie beside an axis that shows
+    // their distance: rounding is below it.
     const float AxisTolerance = 1e-6f;
     // Squared sine below which a segment is parallel to an edge: a segment at that angle is 1e-6 of its length off.
     const float ParallelSineSquared = 1e-12f;
@@ -41,10 +42,14 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         var nearest = FindNearest(center, direction, a.HalfLength, half);
         var point = center + direction * nearest;
         var outside = Outside(point, half);
+        // Between the box and an inner point of the segment the way is across it. What is left along it is rounding.
+        var inner = Vector.LessThan(Vector.Abs(nearest), a.HalfLength);
+        outside -= direction * Wide.Mask(inner, Vector3Wide.Dot(outside, direction));
         var distance = outside.Length();
         FindLeastDepth(center, direction, a.HalfLength, half, size, out var coreDepth, out var normal);
 
-        var usePoint = Vector.GreaterThan(distance, Wide.Max(-coreDepth, Vector<float>.Zero) + size * new Vector<float>(AxisTolerance));
+        var beyondAxis = outside - normal * Wide.Max(-coreDepth, Vector<float>.Zero);
+        var usePoint = Vector.GreaterThan(beyondAxis.Length(), size * new Vector<float>(AxisTolerance));
         normal = Vector3Wide.Select(usePoint, outside * (Vector<float>.One / distance), normal);
         var pairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
 
@@ -88,7 +93,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Choose(Vector<int> useX, Vector<int> useY, in Vector3Wide v) => Wide.Select(useX, v.X, Wide.Select(useY, v.Y, v.Z));
+    static Vector<float> Choose(Vector<int> useX, Vector<int> useY, in Vector3Wide v) =>
+        Wide.Select(useX, v.X, Wide.Select(useY, v.Y, v.Z));
 
     /// <summary>What is left of a vector from the box's nearest point.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -100,7 +106,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     /// <summary>Place on the segment that is nearest to the box, in the middle of those that are equally near.</summary>
     // The derivative of half the squared distance along the segment never decreases, and is linear between the six places where the segment
     // crosses the planes of the faces. The last crossing where it is not positive and the first where it is not negative enclose the root.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<float> FindNearest(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half)
     {
         var search = new NearestSearch
@@ -150,9 +156,9 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         Vector3Wide.Dot(Outside(center + direction * s, half), direction);
 
     /// <summary>Depth of the segment in the box, negative where they are apart, and the axis that shows it, from box to segment.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void FindLeastDepth(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half, Vector<float> size,
-        out Vector<float> depth, out Vector3Wide normal)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void FindLeastDepth(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half,
+        Vector<float> size, out Vector<float> depth, out Vector3Wide normal)
     {
         var absolute = Vector3Wide.Abs(direction);
         var faceDepths = half + absolute * halfLength - Vector3Wide.Abs(center);
@@ -180,7 +186,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void TryEdge(Vector<float> scaledDepth, Vector<float> sineSquared, in Vector3Wide axis, ref Vector<float> depth, ref Vector3Wide normal)
+    static void TryEdge(Vector<float> scaledDepth, Vector<float> sineSquared, in Vector3Wide axis, ref Vector<float> depth,
+        ref Vector3Wide normal)
     {
         var inverse = Vector<float>.One / Vector.SquareRoot(sineSquared);
         var axisDepth = scaledDepth * inverse;
@@ -190,7 +197,8 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ClipToSlab(Vector<float> position, Vector<float> speed, Vector<float> extent, Vector<int> isFaceAxis, ref Vector<float> start, ref Vector<float> end)
+    static void ClipToSlab(Vector<float> position, Vector<float> speed, Vector<float> extent, Vector<int> isFaceAxis,
+        ref Vector<float> start, ref Vector<float> end)
     {
         // A segment that moves less than the tolerance of the border over its whole length counts as parallel to it.
         var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(BorderTolerance)), speed);

@@ -21,8 +21,8 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
     const float CrossingSineSquared = 1e-4f;
     // Part of the size of the pair below which the distance of the segments is rounding and its direction noise.
     const float MeetingDistance = 1e-6f;
-    // A contact may be where the other segment is this part of the sum of the radii to the side: the distance there differs from the depth
-    // along the normal by the square of it.
+    // A contact may be where the other segment is this part of the smaller radius to the side: the surface is farther there by the square
+    // of it.
     const float SideDeviation = 0.02f;
     // Contacts nearer to each other than this part of the sum of the radii are one.
     const float MinimumContactDistance = 0.2f;
@@ -40,6 +40,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         var cross = Vector3Wide.Cross(u, v);
         var sineSquared = cross.LengthSquared();
         var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
+        var inverseSine = Vector<float>.One / Vector.SquareRoot(sineSquared);
         var cosine = Vector3Wide.Dot(u, v);
         var tu = Vector3Wide.Dot(t, u);
         var tv = Vector3Wide.Dot(t, v);
@@ -50,7 +51,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         var end = Wide.Min(a.HalfLength, tu + reach);
 
         // Parallel segments are equally near all along that stretch, or nearest at its ends, which have then passed each other.
-        var crossing = Vector3Wide.Dot(Vector3Wide.Cross(t, v), cross) / sineSquared;
+        var crossing = Vector3Wide.Dot(Vector3Wide.Cross(t, v), cross) * (inverseSine * inverseSine);
         var s = Wide.Select(parallel, new Vector<float>(0.5f) * (start + end), crossing);
         s = Wide.Clamp(s, -a.HalfLength, a.HalfLength);
         var onB = Wide.Clamp(s * cosine - tv, -b.HalfLength, b.HalfLength);
@@ -64,40 +65,44 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         separation -= u * Wide.Mask(innerA, Vector3Wide.Dot(separation, u));
         separation -= v * Wide.Mask(innerB, Vector3Wide.Dot(separation, v));
         var distance = separation.Length();
-        Vector3Wide.BuildOrthonormalBasis(u, out var acrossA, out _);
-        var across = Vector3Wide.Select(parallel, acrossA, cross * (Vector<float>.One / Vector.SquareRoot(sineSquared)));
+        var across = Vector3Wide.Select(parallel, QuaternionWide.TransformUnitX(pose.OrientationA), cross * inverseSine);
         across = Vector3Wide.Select(Vector.LessThan(Vector3Wide.Dot(across, separation), Vector<float>.Zero), -across, across);
         // Segments that meet are pushed apart across both of them.
         var meeting = Vector.LessThanOrEqual(distance, (radius + a.HalfLength + b.HalfLength) * new Vector<float>(MeetingDistance));
         var useAcross = meeting | (innerA & innerB & Vector.GreaterThan(sineSquared, new Vector<float>(CrossingSineSquared)));
         manifold.Normal = Vector3Wide.Select(useAcross, across, separation * (Vector<float>.One / distance));
 
-        // The second contact: as far along the shared stretch as the segments stay together.
-        var deviation = radius * new Vector<float>(SideDeviation) / Vector.SquareRoot(sineSquared);
+        // Two contacts are at the ends of the stretch that the segments share, seen along the normal, as far as they stay together.
+        // Along that stretch the place on B moves by a constant ratio of that on A.
+        var normalV = Vector3Wide.Dot(manifold.Normal, v);
+        var ratio = (cosine - Vector3Wide.Dot(manifold.Normal, u) * normalV) /
+            Wide.Max(Vector<float>.One - normalV * normalV, new Vector<float>(0.25f));
+        var inverseRatio = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(ratio), new Vector<float>(0.5f)), ratio);
+        reach = b.HalfLength * Vector.Abs(inverseRatio);
+        var middle = s - onB * inverseRatio;
+        var deviation = Wide.Min(a.Radius, b.Radius) * new Vector<float>(SideDeviation) * inverseSine;
         deviation = Wide.Select(parallel, a.HalfLength + a.HalfLength, deviation);
-        start = Wide.Min(s, Wide.Max(start, s - deviation));
-        end = Wide.Max(s, Wide.Min(end, s + deviation));
+        start = Wide.Min(s, Wide.Max(Wide.Max(-a.HalfLength, middle - reach), s - deviation));
+        end = Wide.Max(s, Wide.Min(Wide.Min(a.HalfLength, middle + reach), s + deviation));
         var two = Vector.GreaterThan(end - start, radius * new Vector<float>(MinimumContactDistance));
 
         ref var first = ref manifold.Contacts[0];
-        WriteContact(a, b, u, v, t, cosine, tv, Wide.Select(two, start, s), manifold.Normal, ref first);
+        var place = Wide.Select(two, start, s);
+        WriteContact(a, b, u * place, t + v * (onB + (place - s) * ratio), manifold.Normal, ref first);
         first.FeatureId = Vector<int>.Zero;
         first.Exists = Vector.GreaterThanOrEqual(first.Depth, -speculativeMargin);
         ref var second = ref manifold.Contacts[1];
-        WriteContact(a, b, u, v, t, cosine, tv, end, manifold.Normal, ref second);
+        WriteContact(a, b, u * end, t + v * (onB + (end - s) * ratio), manifold.Normal, ref second);
         second.FeatureId = Vector<int>.One;
         second.Exists = two & Vector.GreaterThanOrEqual(second.Depth, -speculativeMargin);
     }
 
-    /// <summary>Writes the contact between a point of A's segment and the point of B's that is nearest to it.</summary>
+    /// <summary>Writes the contact between a point of A's segment and one of B's that is opposite along the normal.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteContact(in CapsuleWide a, in CapsuleWide b, in Vector3Wide u, in Vector3Wide v, in Vector3Wide t,
-        Vector<float> cosine, Vector<float> tv, Vector<float> s, in Vector3Wide normal, ref ContactWide contact)
+    static void WriteContact(in CapsuleWide a, in CapsuleWide b, in Vector3Wide onA, in Vector3Wide onB, in Vector3Wide normal,
+        ref ContactWide contact)
     {
-        var onB = Wide.Clamp(s * cosine - tv, -b.HalfLength, b.HalfLength);
-        var onA = u * s;
-        var distance = Vector3Wide.Dot(onA - t - v * onB, normal);
-        contact.Depth = a.Radius + b.Radius - distance;
+        contact.Depth = a.Radius + b.Radius - Vector3Wide.Dot(onA - onB, normal);
         contact.OffsetA = onA + normal * (contact.Depth * new Vector<float>(0.5f) - a.Radius);
     }
 }

@@ -62,7 +62,8 @@ struct ContactCandidates
     /// <param name="speculativeMargin">Greatest distance at which a contact exists.</param>
     /// <param name="manifold">The contacts.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Reduce(in BoxFaces faces, Vector<int> touching, Vector<float> speculativeMargin, ref ConvexManifoldWide<Few4<ContactWide>> manifold)
+    public void Reduce(in BoxFaces faces, Vector<int> touching, Vector<float> speculativeMargin,
+        ref ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         var minimumDepth = -speculativeMargin;
         ChooseDeepest(faces, out var deepest);
@@ -131,7 +132,8 @@ struct ContactCandidates
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    readonly void ChooseSides(in Choice deepest, Vector<float> lineX, Vector<float> lineY, Vector<float> minimumDepth, out Choice left, out Choice right)
+    readonly void ChooseSides(in Choice deepest, Vector<float> lineX, Vector<float> lineY, Vector<float> minimumDepth,
+        out Choice left, out Choice right)
     {
         var most = deepest;
         most.Score = Vector<float>.Zero;
@@ -177,7 +179,8 @@ struct ContactCandidates
     {
         // No contact is deeper than the pair; the border's tolerance can make it seem so.
         contact.Depth = Wide.Min(choice.Depth, plane.PairDepth);
-        contact.OffsetA = plane.Middle + plane.AxisX * choice.X + plane.AxisY * choice.Y + plane.Normal * (contact.Depth * new Vector<float>(0.5f));
+        var halfway = contact.Depth * new Vector<float>(0.5f);
+        contact.OffsetA = plane.Middle + plane.AxisX * choice.X + plane.AxisY * choice.Y + plane.Normal * halfway;
         contact.FeatureId = plane.FaceFeature | choice.Index;
         contact.Exists = exists;
     }

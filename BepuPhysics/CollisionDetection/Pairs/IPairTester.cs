@@ -6,8 +6,8 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Finds the contacts of bundles of pairs of two shape types.</summary>
 /// <remarks>
 /// The normal is the direction of least penetration, or of the closest features of shapes that are apart. A contact exists where its depth
-/// is no less than the negated speculative margin; the deepest contact of a pair is as deep as the pair. What a lane returns depends on that
-/// lane's inputs alone; lanes without a pair may hold anything, and their results mean nothing.
+/// is no less than the negated speculative margin; the deepest contact of a pair is as deep as the pair. What a lane returns depends on
+/// that lane's inputs alone; lanes without a pair may hold anything, and their results mean nothing.
 /// </remarks>
 /// <typeparam name="TShapeWideA">Wide form of A's shape.</typeparam>
 /// <typeparam name="TShapeWideB">Wide form of B's shape.</typeparam>

@@ -5,7 +5,7 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Sphere against capsule: one contact on the line from the sphere's centre to the nearest point of the capsule's segment.</summary>
+/// <summary>Sphere against capsule: one contact on the line from the sphere's centre to the nearest point of the segment.</summary>
 public readonly struct SphereCapsuleTester : IPairTester<SphereWide, CapsuleWide, Few1<ContactWide>>
 {
     /// <inheritdoc/>
@@ -20,10 +20,14 @@ public readonly struct SphereCapsuleTester : IPairTester<SphereWide, CapsuleWide
         var axis = QuaternionWide.TransformUnitY(pose.OrientationB);
         var along = Wide.Clamp(-Vector3Wide.Dot(axis, pose.OffsetB), -b.HalfLength, b.HalfLength);
         var offset = -pose.OffsetB - axis * along;
+        // From an inner point of the segment the way is across it. What is left along it is rounding, which counts near the axis.
+        var inner = Vector.LessThan(Vector.Abs(along), b.HalfLength);
+        offset -= axis * Wide.Mask(inner, Vector3Wide.Dot(offset, axis));
         var distance = offset.Length();
         // A centre on the segment leaves by the shortest way, across the axis: any direction across is one.
+        var across = QuaternionWide.TransformUnitX(pose.OrientationB);
         manifold.Normal = Vector3Wide.Select(
-            Vector.GreaterThan(distance, Vector<float>.Zero), offset * (Vector<float>.One / distance), QuaternionWide.TransformUnitX(pose.OrientationB));
+            Vector.GreaterThan(distance, Vector<float>.Zero), offset * (Vector<float>.One / distance), across);
         manifold.Contacts[0].WriteFromSphere(manifold.Normal, a.Radius, a.Radius + b.Radius - distance, speculativeMargin);
     }
 }
