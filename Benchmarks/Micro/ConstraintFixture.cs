@@ -22,7 +22,7 @@ public sealed unsafe class ConstraintFixture : IDisposable
     Buffer<BodyInertia> inertias;
     Buffer<BodyInertia> stiffness;
     Buffer<BodyVelocity> displacements;
-    readonly Substep substep = new(1, 1 / 240f, 1);
+    readonly Substep substep = new(1, 1 / 240f, 1, 1);
 
     /// <summary>Names of the constraint types, in the order of their ids.</summary>
     public static IEnumerable<string> Names

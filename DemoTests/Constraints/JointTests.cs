@@ -17,7 +17,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
 {
     const int Samples = 200;
     const double Step = 1e-5;
-    static readonly Substep Substep = new(0, 1 / 240f, 1);
+    static readonly Substep Substep = new(0, 1 / 240f, 1, 1);
 
     private protected abstract TDescription Describe(JointSamples samples, SpringSettings spring);
 

@@ -56,7 +56,7 @@ public class DistanceLimitTests : JointTests<DistanceLimit, DistanceLimitWide, T
         {
             bodies[1].Linear = new(0, sign * 10, 0);
             probe.Set(0, new(default, default, 0, 1, default), bodies);
-            probe.Solve(new(0, 1 / 240f, 1));
+            probe.Solve(new(0, 1 / 240f, 1, 1));
             Assert.Equal(0, probe.Impulse(0)[0]);
         }
     }

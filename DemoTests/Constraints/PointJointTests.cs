@@ -92,8 +92,8 @@ public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Row
             probe.Set(0, weld, bodies);
             for (int i = 0; i < 60; ++i)
             {
-                probe.WarmStart(new(0, 1 / 240f, 1));
-                probe.Solve(new(0, 1 / 240f, 1));
+                probe.WarmStart(new(0, 1 / 240f, 1, 1));
+                probe.Solve(new(0, 1 / 240f, 1, 1));
             }
             AssertClose(new double[6], probe.RelativeVelocity(0), 1e-3);
         }
@@ -189,8 +189,8 @@ public class OneBodyLinearServoTests :
             probe.Set(0, servo, bodies);
             for (int i = 0; i < 300; ++i)
             {
-                probe.WarmStart(new(0, dt, 1));
-                probe.Solve(new(0, dt, 1));
+                probe.WarmStart(new(0, dt, 1, 1));
+                probe.Solve(new(0, dt, 1, 1));
                 Assert.True(Length(probe.Impulse(0)) <= servo.ServoSettings.MaximumForce * dt * 1.0001);
             }
             if (servo.ServoSettings.MaximumForce > 40 && servo.SpringSettings.AngularFrequency == 0)

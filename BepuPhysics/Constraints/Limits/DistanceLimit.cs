@@ -5,33 +5,24 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the distance between a point of body A and a point of body B in a range.</summary>
-public struct DistanceLimit : ITwoBodyConstraintDescription<DistanceLimit>
+/// <param name="localOffsetA">Anchor in A's frame, m.</param>
+/// <param name="localOffsetB">Anchor in B's frame, m.</param>
+/// <param name="minimumDistance">Least distance, m; not negative.</param>
+/// <param name="maximumDistance">Greatest distance, m; not below the least.</param>
+/// <param name="springSettings">Stiffness of the limits.</param>
+public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float minimumDistance, float maximumDistance, in SpringSettings springSettings) :
+    ITwoBodyConstraintDescription<DistanceLimit>
 {
     /// <summary>Anchor in A's frame, m.</summary>
-    public Vector3 LocalOffsetA;
+    public Vector3 LocalOffsetA = localOffsetA;
     /// <summary>Anchor in B's frame, m.</summary>
-    public Vector3 LocalOffsetB;
+    public Vector3 LocalOffsetB = localOffsetB;
     /// <summary>Least distance, m; 0 for a rope, which keeps only the greatest.</summary>
-    public float MinimumDistance;
+    public float MinimumDistance = minimumDistance;
     /// <summary>Greatest distance, m; not below the least.</summary>
-    public float MaximumDistance;
+    public float MaximumDistance = maximumDistance;
     /// <summary>Stiffness of the limits; the default is rigid.</summary>
-    public SpringSettings SpringSettings;
-
-    /// <summary>Describes a distance limit.</summary>
-    /// <param name="localOffsetA">Anchor in A's frame, m.</param>
-    /// <param name="localOffsetB">Anchor in B's frame, m.</param>
-    /// <param name="minimumDistance">Least distance, m; not negative.</param>
-    /// <param name="maximumDistance">Greatest distance, m; not below the least.</param>
-    /// <param name="springSettings">Stiffness of the limits.</param>
-    public DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float minimumDistance, float maximumDistance, in SpringSettings springSettings)
-    {
-        LocalOffsetA = localOffsetA;
-        LocalOffsetB = localOffsetB;
-        MinimumDistance = minimumDistance;
-        MaximumDistance = maximumDistance;
-        SpringSettings = springSettings;
-    }
+    public SpringSettings SpringSettings = springSettings;
 
     /// <inheritdoc/>
     public static int ConstraintTypeId => ConstraintTypeIds.DistanceLimit;
