@@ -16,6 +16,12 @@ public static partial class DefaultTypes
         RegisterContacts<Few3<ContactPrestepWide>, Few3<Vector<float>>>(solver, 3);
         RegisterContacts<Few4<ContactPrestepWide>, Few4<Vector<float>>>(solver, 4);
         solver.Register<BallSocket>();
+        solver.Register<SwingLimit>();
+        solver.Register<TwistLimit>();
+        solver.Register<Weld>();
+        solver.Register<DistanceLimit>();
+        solver.Register<OneBodyLinearServo>();
+        solver.Register<Hinge>();
     }
 
     static void RegisterContacts<TContacts, TNormals>(Solver solver, int contactCount)

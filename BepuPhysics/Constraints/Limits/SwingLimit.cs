@@ -1,0 +1,128 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>Keeps the angle between an axis of body A and an axis of body B below a maximum.</summary>
+public struct SwingLimit : ITwoBodyConstraintDescription<SwingLimit>
+{
+    /// <summary>Axis in A's frame; unit length.</summary>
+    public Vector3 AxisLocalA;
+    /// <summary>Axis in B's frame; unit length.</summary>
+    public Vector3 AxisLocalB;
+    /// <summary>Cosine of the greatest angle between the axes, -1 to 1.</summary>
+    public float MinimumDot;
+    /// <summary>Stiffness of the limit; the default is rigid.</summary>
+    public SpringSettings SpringSettings;
+
+    /// <summary>Greatest angle between the axes, 0 to pi radians; stored as its cosine.</summary>
+    public float MaximumSwingAngle
+    {
+        readonly get => MathHelper.Acos(MinimumDot);
+        set => MinimumDot = MathHelper.Clamp(MathHelper.Cos(value), -1, 1);
+    }
+
+    /// <inheritdoc/>
+    public static int ConstraintTypeId => ConstraintTypeIds.SwingLimit;
+    /// <inheritdoc/>
+    public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
+        TwoBodies, SwingLimitWide, Rows1, JointConstraint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>>();
+    /// <inheritdoc/>
+    public readonly void Validate()
+    {
+        ConstraintChecks.Unit(AxisLocalA, nameof(AxisLocalA));
+        ConstraintChecks.Unit(AxisLocalB, nameof(AxisLocalB));
+        if (!(MinimumDot >= -1 && MinimumDot <= 1))
+            throw new ArgumentOutOfRangeException(nameof(MinimumDot), MinimumDot, "A cosine must be from -1 to 1.");
+        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+    }
+}
+
+/// <summary>A bundle of <see cref="SwingLimit"/>.</summary>
+public struct SwingLimitWide : IWide<SwingLimit>
+{
+    /// <inheritdoc cref="SwingLimit.AxisLocalA"/>
+    public Vector3Wide AxisLocalA;
+    /// <inheritdoc cref="SwingLimit.AxisLocalB"/>
+    public Vector3Wide AxisLocalB;
+    /// <inheritdoc cref="SwingLimit.MinimumDot"/>
+    public Vector<float> MinimumDot;
+    /// <inheritdoc cref="SwingLimit.SpringSettings"/>
+    public SpringSettingsWide SpringSettings;
+}
+
+/// <summary>The two axes of a swing limit in world axes.</summary>
+public struct SwingLimitGeometry
+{
+    /// <summary>Axis of A crossed with axis of B, made a unit vector.</summary>
+    public Vector3Wide Axis;
+    /// <summary>Sine of the angle between the axes; not negative.</summary>
+    public Vector<float> Sine;
+    /// <summary>Cosine of the angle between the axes.</summary>
+    public Vector<float> Cosine;
+}
+
+/// <summary>Row of <see cref="SwingLimit"/>.</summary>
+// C = maximum angle - angle(a, b) >= 0   the same limit as dot(a, b) >= MinimumDot, but measured in radians: a deviation of the cosine is
+//                                        a quadratic measure near 0 and pi, where a limit in it would be soft or have no slope at all
+// J = [ 0, n^T, 0, -n^T ]   over (vA, wA, vB, wB), with n = a x b / |a x b|
+// K = n (IA^-1 + IB^-1) n
+// Axes that are parallel, either way, have no n of their own: it is a direction at right angles to a, by definition.
+public readonly struct SwingLimitJoint : IJoint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1>
+{
+    // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
+    const float ParallelSine = 1e-6f;
+
+    /// <inheritdoc/>
+    public static RowKind Kind => RowKind.Inequality;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Prepare(in TwoBodies bodies, in SwingLimitWide prestep, out SwingLimitGeometry geometry)
+    {
+        var axisA = bodies.A.Orientation * prestep.AxisLocalA;
+        var axisB = bodies.B.Orientation * prestep.AxisLocalB;
+        var cross = Vector3Wide.Cross(axisA, axisB);
+        geometry.Sine = cross.Length();
+        geometry.Cosine = Vector3Wide.Dot(axisA, axisB);
+        Vector3Wide.BuildOrthonormalBasis(axisA, out var perpendicular, out _);
+        var isParallel = Vector.LessThan(geometry.Sine, new Vector<float>(ParallelSine));
+        geometry.Axis = Vector3Wide.Select(isParallel, perpendicular, cross * (Vector<float>.One / geometry.Sine));
+    }
+
+    /// <inheritdoc/>
+    // The difference of two angles by one arc tangent: of its sine and its cosine, from those of the two.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PositionError(in TwoBodies bodies, in SwingLimitWide prestep, in SwingLimitGeometry geometry, out Rows1 error)
+    {
+        var limitSine = Wide.SquareRootOrZero((Vector<float>.One - prestep.MinimumDot) * (Vector<float>.One + prestep.MinimumDot));
+        error.X = Wide.Atan2(
+            limitSine * geometry.Cosine - prestep.MinimumDot * geometry.Sine,
+            prestep.MinimumDot * geometry.Cosine + limitSine * geometry.Sine);
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void RelativeVelocity(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
+        velocity.X = Vector3Wide.Dot(bodies.A.Angular - bodies.B.Angular, geometry.Axis);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void ApplyImpulse(in SwingLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse)
+    {
+        var angular = geometry.Axis * impulse.X;
+        bodies.A.Angular += bodies.A.InverseInertia * angular;
+        bodies.B.Angular -= bodies.B.InverseInertia * angular;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void InverseEffectiveMass(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
+        inverseMass.X = Symmetric3x3Wide.VectorSandwich(geometry.Axis, bodies.A.InverseInertia + bodies.B.InverseInertia);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static SpringSettingsWide Spring(in SwingLimitWide prestep) => prestep.SpringSettings;
+}

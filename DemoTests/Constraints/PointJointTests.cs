@@ -1,0 +1,202 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+using Xunit;
+
+namespace DemoTests.Constraints;
+
+public class BallSocketTests : JointTests<BallSocket, BallSocketWide, TwoBodies, BallSocketGeometry, Rows3, RowMatrix3, BallSocketJoint>
+{
+    private protected override BallSocket Describe(JointSamples samples, SpringSettings spring) =>
+        new() { LocalOffsetA = samples.Vector(1), LocalOffsetB = samples.Vector(1), SpringSettings = spring };
+
+    private protected override double[] Error(BallSocket d, DoublePose[] poses) =>
+        (poses[0].Position + poses[0].ToWorld(d.LocalOffsetA) - poses[1].Position - poses[1].ToWorld(d.LocalOffsetB)).ToArray();
+
+    private protected override void Settle(BallSocket d, SampleBody[] bodies) => Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
+
+    private protected override IEnumerable<(string, BallSocket, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        yield return ("No arms", new(), NewBodies(samples));
+    }
+}
+
+public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>
+{
+    private protected override Weld Describe(JointSamples samples, SpringSettings spring) =>
+        new() { LocalOffset = samples.Vector(1), LocalOrientation = samples.Rotation(), SpringSettings = spring };
+
+    private protected override double[] Error(Weld d, DoublePose[] poses)
+    {
+        var position = poses[0].Position + poses[0].ToWorld(d.LocalOffset) - poses[1].Position;
+        var rotation = (poses[0].Orientation * DoubleRotation.From(d.LocalOrientation) * poses[1].Orientation.Inverse).Vector;
+        return [.. position.ToArray(), .. rotation.ToArray()];
+    }
+
+    private protected override bool IsSmooth(Weld d, DoublePose[] poses) =>
+        (poses[0].Orientation * DoubleRotation.From(d.LocalOrientation) * poses[1].Orientation.Inverse).Vector.Length < 3;
+
+    private protected override void Settle(Weld d, SampleBody[] bodies)
+    {
+        bodies[1].Orientation = Exact.Concatenate(d.LocalOrientation, bodies[0].Orientation);
+        Rotations.JoinAnchors(bodies, d.LocalOffset, default);
+    }
+
+    private protected override IEnumerable<(string, Weld, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        var weld = new Weld { LocalOrientation = Quaternion.Identity };
+        foreach (var axis in new Vector3[] { new(1, 0, 0), new(0, 1, 0), new(0, 0, 1), new(0, 0, -1), samples.Direction() })
+        {
+            var bodies = NewBodies(samples);
+            bodies[0].Orientation = Quaternion.Identity;
+            bodies[1].Orientation = new(axis, 0);
+            yield return ($"Half a turn about {axis}", weld, bodies);
+            bodies = NewBodies(samples);
+            bodies[0].Orientation = Quaternion.Identity;
+            bodies[1].Orientation = new(axis * 1e-30f, -1);
+            yield return ($"No rotation, by the other quaternion, {axis}", weld, bodies);
+        }
+    }
+
+    [Fact]
+    public void HalfATurnIsSeenAsSuch()
+    {
+        var bodies = NewBodies(new(1));
+        bodies[0].Orientation = Quaternion.Identity;
+        bodies[1].Orientation = new(0, 1, 0, 0);
+        var probe = new JointProbe<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>();
+        probe.Set(0, new() { LocalOrientation = Quaternion.Identity }, bodies);
+        AssertClose([0, -Math.PI, 0], probe.PositionError(0)[3..], 1e-6);
+    }
+
+    /// <summary>Bodies that can turn about one axis only are held about this one; the others are not there to be held.</summary>
+    [Fact]
+    public void LockedAxesDoNotLoosenTheFreeOne()
+    {
+        var samples = new JointSamples(5);
+        for (int trial = 0; trial < 50; ++trial)
+        {
+            var rotation = samples.Rotation();
+            var bodies = NewBodies(samples);
+            var weld = new Weld { LocalOrientation = Quaternion.Identity };
+            foreach (ref var body in bodies.AsSpan())
+            {
+                body.Orientation = rotation;
+                body.Position = default;
+                body.InverseInertia = JointSamples.InWorld(new(0, 4, 0), rotation);
+                body.Angular = Exact.Rotate(new(0, samples.Uniform(-3, 3), 0), rotation);
+            }
+            var probe = new JointProbe<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>();
+            probe.Set(0, weld, bodies);
+            for (int i = 0; i < 60; ++i)
+            {
+                probe.WarmStart(new(0, 1 / 240f, 1));
+                probe.Solve(new(0, 1 / 240f, 1));
+            }
+            AssertClose(new double[6], probe.RelativeVelocity(0), 1e-3);
+        }
+    }
+}
+
+public class HingeTests : JointTests<Hinge, HingeWide, TwoBodies, HingeGeometry, Rows5, RowMatrix5, HingeJoint>
+{
+    private protected override Hinge Describe(JointSamples samples, SpringSettings spring) => new()
+    {
+        LocalOffsetA = samples.Vector(1),
+        LocalHingeAxisA = samples.Direction(),
+        LocalOffsetB = samples.Vector(1),
+        LocalHingeAxisB = samples.Direction(),
+        SpringSettings = spring,
+    };
+
+    private protected override double[] Error(Hinge d, DoublePose[] poses)
+    {
+        var position = poses[0].Position + poses[0].ToWorld(d.LocalOffsetA) - poses[1].Position - poses[1].ToWorld(d.LocalOffsetB);
+        var a = poses[0].ToWorld(d.LocalHingeAxisA);
+        var b = poses[1].ToWorld(d.LocalHingeAxisB);
+        var cross = DoubleVector.Cross(b, a);
+        var rotation = cross.Length == 0 ? cross : cross * (Math.Atan2(cross.Length, DoubleVector.Dot(a, b)) / cross.Length);
+        // The rows are coordinates in a frame of A; which one is the joint's choice.
+        Vector3Wide.BuildOrthonormalBasis(Lanes.Broadcast<Vector3, Vector3Wide>(d.LocalHingeAxisA), out var x, out var y);
+        return [.. position.ToArray(),
+            DoubleVector.Dot(poses[0].ToWorld(Lanes.Read<Vector3, Vector3Wide>(ref x, 0)), rotation),
+            DoubleVector.Dot(poses[0].ToWorld(Lanes.Read<Vector3, Vector3Wide>(ref y, 0)), rotation)];
+    }
+
+    private protected override bool IsSmooth(Hinge d, DoublePose[] poses) =>
+        DoubleVector.Dot(poses[0].ToWorld(d.LocalHingeAxisA), poses[1].ToWorld(d.LocalHingeAxisB)) > -0.99;
+
+    private protected override void Settle(Hinge d, SampleBody[] bodies)
+    {
+        Rotations.Align(bodies, d.LocalHingeAxisA, d.LocalHingeAxisB);
+        Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
+    }
+
+    private protected override IEnumerable<(string, Hinge, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        foreach (var axis in new Vector3[] { new(1, 0, 0), new(0, 1, 0), new(0, 0, 1), new(0, 0, -1), samples.Direction() })
+        {
+            var bodies = NewBodies(samples);
+            bodies[0].Orientation = bodies[1].Orientation = Quaternion.Identity;
+            yield return ($"Same axis {axis}", new() { LocalHingeAxisA = axis, LocalHingeAxisB = axis }, bodies);
+            yield return ($"Opposite axes {axis}", new() { LocalHingeAxisA = axis, LocalHingeAxisB = -axis }, bodies);
+        }
+    }
+
+    [Fact]
+    public void OppositeAxesAreHalfATurnApart()
+    {
+        var bodies = NewBodies(new(1));
+        bodies[0].Orientation = bodies[1].Orientation = Quaternion.Identity;
+        var probe = new JointProbe<Hinge, HingeWide, TwoBodies, HingeGeometry, Rows5, RowMatrix5, HingeJoint>();
+        probe.Set(0, new() { LocalHingeAxisA = new(0, 0, 1), LocalHingeAxisB = new(0, 0, -1) }, bodies);
+        AssertClose([Math.PI, 0], probe.PositionError(0)[3..], 1e-6);
+    }
+}
+
+public class OneBodyLinearServoTests :
+    JointTests<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>
+{
+    private protected override OneBodyLinearServo Describe(JointSamples samples, SpringSettings spring) =>
+        new() { LocalOffset = samples.Vector(1), Target = samples.Vector(2), SpringSettings = spring, ServoSettings = ServoSettings.Default };
+
+    private protected override double[] Error(OneBodyLinearServo d, DoublePose[] poses) =>
+        (poses[0].Position + poses[0].ToWorld(d.LocalOffset) - new DoubleVector(d.Target)).ToArray();
+
+    private protected override IEnumerable<(string, OneBodyLinearServo, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        var bodies = NewBodies(samples);
+        yield return ("At its target", new() { Target = bodies[0].Position, ServoSettings = ServoSettings.Default }, bodies);
+        yield return ("At its target, with a base speed", new() { Target = bodies[0].Position, ServoSettings = new(10, 1, 100) }, bodies);
+        yield return ("No force", new() { Target = samples.Vector(1), ServoSettings = new(10, 1, 0) }, bodies);
+        yield return ("No speed", new() { Target = samples.Vector(1), ServoSettings = new(0, 0, 100) }, bodies);
+        yield return ("Infinite force and speed", new() { Target = samples.Vector(1), ServoSettings = new(float.PositiveInfinity, 0, float.PositiveInfinity) }, bodies);
+    }
+
+    [Fact]
+    public void ForceAndSpeedKeepTheirLimits()
+    {
+        var samples = new JointSamples(9);
+        const float dt = 1 / 240f;
+        for (int trial = 0; trial < 200; ++trial)
+        {
+            var bodies = NewBodies(samples);
+            var servo = Describe(samples, samples.Spring());
+            servo.ServoSettings = new(samples.Uniform(0.1f, 3), samples.Uniform(0, 0.1f), samples.Uniform(0.1f, 50));
+            var probe = new JointProbe<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>();
+            probe.Set(0, servo, bodies);
+            for (int i = 0; i < 300; ++i)
+            {
+                probe.WarmStart(new(0, dt, 1));
+                probe.Solve(new(0, dt, 1));
+                Assert.True(Length(probe.Impulse(0)) <= servo.ServoSettings.MaximumForce * dt * 1.0001);
+            }
+            if (servo.ServoSettings.MaximumForce > 40 && servo.SpringSettings.AngularFrequency == 0)
+                Assert.InRange(Length(probe.RelativeVelocity(0)), 0, servo.ServoSettings.MaximumSpeed * 1.01);
+        }
+    }
+
+    static double Length(double[] v) => new DoubleVector(v[0], v[1], v[2]).Length;
+}
