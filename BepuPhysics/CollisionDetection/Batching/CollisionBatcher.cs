@@ -1,0 +1,255 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Collects pairs of shapes, tests them in bundles of one pair of types, and hands the contacts to callbacks.</summary>
+/// <remarks>
+/// Results come in no particular order, during an Add whose batch is full or during <see cref="Flush"/>; the contacts of a pair do not
+/// depend on what else is tested. Used by one thread at a time; any number of batchers may share shapes and registry. Do not copy one
+/// that holds pairs.
+/// </remarks>
+public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks : struct, ICollisionCallbacks
+{
+    /// <summary>Source of the batcher's memory; used by the calling thread only.</summary>
+    public BufferPool Pool;
+    /// <summary>Shapes that pairs refer to.</summary>
+    public Shapes Shapes;
+    /// <summary>Time that velocities are extrapolated over, s.</summary>
+    public float Dt;
+    /// <summary>Receives the results.</summary>
+    public TCallbacks Callbacks;
+
+    readonly CollisionTaskRegistry registry;
+    Buffer<PairBatch> batches;
+    bool executing;
+
+    /// <summary>Creates an empty batcher, which takes no memory yet.</summary>
+    /// <param name="pool">Source of the batcher's memory.</param>
+    /// <param name="shapes">Shapes that pairs refer to.</param>
+    /// <param name="collisionTypeMatrix">Tasks by shape types.</param>
+    /// <param name="dt">Time that velocities are extrapolated over, s.</param>
+    /// <param name="callbacks">Receives the results; copied.</param>
+    public CollisionBatcher(BufferPool pool, Shapes shapes, CollisionTaskRegistry collisionTypeMatrix, float dt, TCallbacks callbacks)
+    {
+        ArgumentNullException.ThrowIfNull(pool);
+        ArgumentNullException.ThrowIfNull(shapes);
+        ArgumentNullException.ThrowIfNull(collisionTypeMatrix);
+        CheckNotNegative(dt, nameof(dt));
+        Pool = pool;
+        Shapes = shapes;
+        Dt = dt;
+        Callbacks = callbacks;
+        registry = collisionTypeMatrix;
+    }
+
+    /// <summary>Adds a pair of shapes.</summary>
+    /// <param name="shapeIndexA">First shape.</param>
+    /// <param name="shapeIndexB">Second shape.</param>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
+    /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
+    /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
+    /// <param name="continuation">What becomes of the result.</param>
+    /// <exception cref="ArgumentException">A shape does not exist, or a number is not finite or out of range.</exception>
+    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    public void Add(TypedIndex shapeIndexA, TypedIndex shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
+        float speculativeMargin, in PairContinuation continuation)
+    {
+        Shapes.CheckExists(shapeIndexA, nameof(shapeIndexA));
+        Shapes.CheckExists(shapeIndexB, nameof(shapeIndexB));
+        CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
+        Add(shapeIndexA.Type, shapeIndexA.Index, shapeIndexB.Type, shapeIndexB.Index, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
+    }
+
+    /// <summary>Adds a pair of shapes that move; the two convex shapes of a pair need no velocities.</summary>
+    /// <param name="shapeIndexA">First shape.</param>
+    /// <param name="shapeIndexB">Second shape.</param>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
+    /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
+    /// <param name="velocityA">Velocity of A.</param>
+    /// <param name="velocityB">Velocity of B.</param>
+    /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
+    /// <param name="maximumExpansion">Greatest distance by which velocities expand the bounds of children, m.</param>
+    /// <param name="continuation">What becomes of the result.</param>
+    /// <exception cref="ArgumentException">A shape does not exist, or a number is not finite or out of range.</exception>
+    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    public void Add(TypedIndex shapeIndexA, TypedIndex shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
+        in BodyVelocity velocityA, in BodyVelocity velocityB, float speculativeMargin, float maximumExpansion, in PairContinuation continuation)
+    {
+        CheckNotNegative(maximumExpansion, nameof(maximumExpansion));
+        Add(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation);
+    }
+
+    /// <summary>Adds a pair of shapes that need not be in <see cref="Shapes"/>; they are copied.</summary>
+    /// <param name="shapeA">First shape.</param>
+    /// <param name="shapeB">Second shape.</param>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
+    /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
+    /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
+    /// <param name="pairId">Id that the callbacks get with the result.</param>
+    /// <exception cref="ArgumentException">A shape is not valid, or a number is not finite or out of range.</exception>
+    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    public void Add<TShapeA, TShapeB>(TShapeA shapeA, TShapeB shapeB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
+        float speculativeMargin, int pairId) where TShapeA : unmanaged, IShape where TShapeB : unmanaged, IShape
+    {
+        shapeA.Validate();
+        shapeB.Validate();
+        AddDirectly(TShapeA.TypeId, TShapeB.TypeId, &shapeA, &shapeB, offsetB, orientationA, orientationB, speculativeMargin, new(pairId));
+    }
+
+    /// <summary>Adds a pair of shapes in memory, which are copied; they are not checked.</summary>
+    /// <param name="shapeTypeA">Type id of the first shape.</param>
+    /// <param name="shapeTypeB">Type id of the second shape.</param>
+    /// <param name="shapeA">First shape.</param>
+    /// <param name="shapeB">Second shape.</param>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
+    /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
+    /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
+    /// <param name="continuation">What becomes of the result.</param>
+    /// <exception cref="ArgumentException">A shape is missing, or a number is not finite or out of range.</exception>
+    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    public void AddDirectly(int shapeTypeA, int shapeTypeB, void* shapeA, void* shapeB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
+        float speculativeMargin, in PairContinuation continuation)
+    {
+        ArgumentNullException.ThrowIfNull(shapeA);
+        ArgumentNullException.ThrowIfNull(shapeB);
+        CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
+        var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
+        ref var batch = ref GetBatch(task, taskIndex);
+        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, flipped);
+        task.Write(ref batch, flipped ? shapeB : shapeA, flipped ? shapeA : shapeB, pair);
+        if (batch.Count == PairBatch.Capacity)
+            Execute(task, ref batch);
+    }
+
+    /// <summary>Adds a pair of shapes that exist, with a pose that is known to be sound.</summary>
+    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
+        float speculativeMargin, int pairId)
+    {
+        var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
+        ref var batch = ref GetBatch(task, taskIndex);
+        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped);
+        if (flipped)
+            (shapeIndexA, shapeIndexB) = (shapeIndexB, shapeIndexA);
+        task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, pair);
+        if (batch.Count == PairBatch.Capacity)
+            Execute(task, ref batch);
+    }
+
+    /// <summary>Tests all pairs that wait, and returns all memory to the pool. The batcher is empty then and may be used again.</summary>
+    public void Flush()
+    {
+        CheckNotExecuting();
+        for (int i = 0; i < batches.Length; ++i)
+        {
+            if (batches[i].Count > 0)
+                Execute(registry[i], ref batches[i]);
+        }
+        Dispose();
+    }
+
+    /// <summary>Returns all memory to the pool; pairs that wait are forgotten. May be called any number of times.</summary>
+    public void Dispose()
+    {
+        for (int i = 0; i < batches.Length; ++i)
+        {
+            if (batches[i].Bundles.Allocated)
+                Pool.Return(ref batches[i].Bundles);
+        }
+        if (batches.Allocated)
+            Pool.Return(ref batches);
+        batches = default;
+    }
+
+    void Execute(CollisionTask task, ref PairBatch batch)
+    {
+        executing = true;
+        try
+        {
+            task.Execute(ref batch, ref Callbacks);
+        }
+        finally
+        {
+            // An exception of a callback loses what is left of the batch, and leaves the batcher usable.
+            batch.Count = 0;
+            executing = false;
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    ref PairBatch GetBatch(CollisionTask task, int taskIndex)
+    {
+        if (taskIndex >= batches.Length || !batches[taskIndex].Bundles.Allocated)
+            TakeBatch(task, taskIndex);
+        CheckNotExecuting();
+        return ref batches[taskIndex];
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void TakeBatch(CollisionTask task, int taskIndex)
+    {
+        CheckNotExecuting();
+        if (taskIndex >= batches.Length)
+        {
+            var previousCount = batches.Length;
+            Pool.ResizeToAtLeast(ref batches, Math.Max(registry.TaskCount, taskIndex + 1), previousCount);
+            for (int i = previousCount; i < batches.Length; ++i)
+                batches[i] = default;
+        }
+        Pool.Take(task.BatchByteCount, out batches[taskIndex].Bundles);
+        batches[taskIndex].Count = 0;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static PairInput CreateInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId, bool flipped) => new()
+    {
+        OffsetB = flipped ? -offsetB : offsetB,
+        OrientationA = flipped ? orientationB : orientationA,
+        OrientationB = flipped ? orientationA : orientationB,
+        SpeculativeMargin = speculativeMargin,
+        PairId = pairId,
+        Flipped = flipped,
+    };
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void CheckNotExecuting()
+    {
+        if (executing)
+            ThrowExecuting();
+    }
+
+    static void CheckInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin)
+    {
+        if (!float.IsFinite(offsetB.X) || !float.IsFinite(offsetB.Y) || !float.IsFinite(offsetB.Z))
+            throw new ArgumentException($"Not finite: {offsetB}", nameof(offsetB));
+        CheckUnit(orientationA, nameof(orientationA));
+        CheckUnit(orientationB, nameof(orientationB));
+        CheckNotNegative(speculativeMargin, nameof(speculativeMargin));
+    }
+
+    static void CheckUnit(Quaternion orientation, string name)
+    {
+        // The negated comparison refuses NaN as well.
+        if (!(MathF.Abs(Exact.Dot(orientation, orientation) - 1) < 1e-3f))
+            throw new ArgumentException($"Not of unit length: {orientation}", name);
+    }
+
+    static void CheckNotNegative(float value, string name)
+    {
+        if (!float.IsFinite(value) || value < 0)
+            throw new ArgumentOutOfRangeException(name, value, "Must be finite, and zero or more.");
+    }
+
+    [DoesNotReturn]
+    static void ThrowExecuting() => throw new InvalidOperationException("Callbacks must not add pairs to the batcher that calls them, nor flush it.");
+}
