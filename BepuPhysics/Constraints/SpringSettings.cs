@@ -14,7 +14,7 @@ public struct SpringSettings
 {
     /// <summary>Frequency of the rigid default, and upper limit of every frequency, times the length of a substep.</summary>
     // 0.125 is stable with one sweep per substep and no relaxation; 0.25 gains energy at mass ratios of 100, and an exactly
-    // straight chain diverges there (Docs/decisions/solver.md).
+    // straight chain diverges there (Docs/decisions/rigid-default.md).
     public const float MaximumCyclesPerSubstep = 0.125f;
 
     /// <summary>Undamped angular frequency, rad/s; 0 for rigid.</summary>
