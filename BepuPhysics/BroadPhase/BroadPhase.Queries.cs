@@ -16,7 +16,8 @@ public sealed unsafe partial class BroadPhase
     /// <param name="pool">Passed on to the callback; a pool of the calling thread.</param>
     /// <param name="rayTester">Receives the collidables on the calling thread; copied in and copied back.</param>
     /// <param name="id">The caller's number for the ray.</param>
-    public void RayCast<TRayTester>(Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id = 0)
+    public void RayCast<TRayTester>(
+        Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id = 0)
         where TRayTester : IBroadPhaseRayTester
     {
         var leafTester = new RayLeafTester<TRayTester> { RayTester = rayTester, Leaves = ActiveLeaves };
@@ -45,7 +46,8 @@ public sealed unsafe partial class BroadPhase
     }
 
     /// <inheritdoc cref="Sweep{TSweepTester}(Vector3, Vector3, Vector3, float, BufferPool, ref TSweepTester)"/>
-    public void Sweep<TSweepTester>(in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
+    public void Sweep<TSweepTester>(
+        in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
         where TSweepTester : IBroadPhaseSweepTester =>
         Sweep(boundingBox.Min, boundingBox.Max, direction, maximumT, pool, ref sweepTester);
 

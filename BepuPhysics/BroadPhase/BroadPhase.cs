@@ -9,7 +9,8 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Bounds of all collidables in two trees: one of those that move, one of those that do not.</summary>
 /// <remarks>
-/// The active tree is fitted anew in each <see cref="Update"/>, since most of its bounds change in each step, and rebuilt a slice at a time. The static tree
+/// The active tree is fitted anew in each <see cref="Update"/>, since most of its bounds change in each step, and rebuilt a slice at a
+/// time. The static tree
 /// costs nothing while nothing happens to it: changes fit it at once, and only many of them in sum lead to a rebuild. Active leaves are
 /// tested against each other and against static ones, static ones never against each other.
 /// <para>
@@ -74,7 +75,8 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Removes a collidable from the active tree. Returns whether another one has taken over its index, and which.</summary>
-    public bool RemoveActiveAt(int index, out CollidableReference movedLeaf) => RemoveAt(index, ref ActiveTree, ref ActiveLeaves, out movedLeaf);
+    public bool RemoveActiveAt(int index, out CollidableReference movedLeaf) =>
+        RemoveAt(index, ref ActiveTree, ref ActiveLeaves, out movedLeaf);
 
     /// <summary>Removes a collidable from the static tree. Returns whether another one has taken over its index, and which.</summary>
     public bool RemoveStaticAt(int index, out CollidableReference movedLeaf)
@@ -95,12 +97,14 @@ public sealed unsafe partial class BroadPhase : IDisposable
         return true;
     }
 
-    /// <summary>Pointers to the bounds of an active leaf, valid until the tree changes. What is written takes effect in the next <see cref="Update"/>.</summary>
+    /// <summary>Pointers to the bounds of an active leaf, valid until the tree changes. What is written takes effect in the next
+    /// <see cref="Update"/>.</summary>
     public void GetActiveBoundsPointers(int index, out Vector3* minPointer, out Vector3* maxPointer) =>
         ActiveTree.GetBoundsPointers(index, out minPointer, out maxPointer);
 
     /// <summary>
-    /// Pointers to the bounds of a static leaf, valid until the tree changes, for reading: the static tree is not fitted in steps, so change
+    /// Pointers to the bounds of a static leaf, valid until the tree changes, for reading: the static tree is not fitted in steps, so
+    /// change
     /// bounds with <see cref="UpdateStaticBounds"/>.
     /// </summary>
     public void GetStaticBoundsPointers(int index, out Vector3* minPointer, out Vector3* maxPointer) =>
@@ -116,7 +120,8 @@ public sealed unsafe partial class BroadPhase : IDisposable
         ++staticChanges;
     }
 
-    /// <summary>Fits the active tree to bounds written since the last call and tidies both trees a little. Once in each step, before overlaps are looked for.</summary>
+    /// <summary>Fits the active tree to bounds written since the last call and tidies both trees a little. Once in each step, before
+    /// overlaps are looked for.</summary>
     /// <remarks>What the trees look like afterwards does not depend on the dispatcher.</remarks>
     public void Update(IThreadDispatcher? threadDispatcher = null)
     {
@@ -132,7 +137,8 @@ public sealed unsafe partial class BroadPhase : IDisposable
         }
         activeAdditions = 0;
 
-        // Insertions and removals keep the static tree fitted and fairly good, so changes may add up; the rebuild costs each of them its share.
+        // Insertions and removals keep the static tree fitted and fairly good, so changes may add up; the rebuild costs each of them its
+        // share.
         if (IsWorthBuilding(staticChanges, StaticTree.LeafCount))
         {
             StaticTree.BinnedBuild(Pool);

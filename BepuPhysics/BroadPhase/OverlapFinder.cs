@@ -7,7 +7,8 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Finds overlaps within the active tree and between it and the static tree, divided among the workers of a dispatcher.</summary>
 /// <remarks>
-/// Pairs within a tree meet in one node each, so ranges of nodes are independent pieces of work. Only nodes with a large part of all leaves are too much for one
+/// Pairs within a tree meet in one node each, so ranges of nodes are independent pieces of work. Only nodes with a large part of all
+/// leaves are too much for one
 /// piece: the caller splits their pairs, and the pair of the two roots, until each piece is small. Which pairs are found does not depend
 /// on the pieces, and neither does the order within a pair.
 /// </remarks>
@@ -43,7 +44,8 @@ static unsafe class OverlapFinder
         where THandler : struct, IBroadPhaseOverlapHandler
     {
         if (activeTree.LeafCount > 1)
-            RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(activeTree, runs, 0, activeTree.NodeCount, int.MaxValue, ref handler, 0);
+            RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(
+                activeTree, runs, 0, activeTree.NodeCount, int.MaxValue, ref handler, 0);
         RunTraversal<THandler, StaticConsumer<THandler>>.FindPairs(activeTree, runs, staticTree, ref handler, 0);
     }
 
@@ -52,7 +54,10 @@ static unsafe class OverlapFinder
         where THandler : struct, IBroadPhaseOverlapHandler
     {
         var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
-        var work = new FindWork<THandler> { Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces };
+        var work = new FindWork<THandler>
+        {
+            Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces
+        };
         try
         {
             StagedWork.Run(ref work, dispatcher);
@@ -87,9 +92,11 @@ static unsafe class OverlapFinder
             }
             var pair = Pieces.Pairs[block];
             if (pair.IsStatic)
-                RunTraversal<THandler, StaticConsumer<THandler>>.FindPairsBelow(ActiveTree, Runs, StaticTree, pair.Children, ref Handler, workerIndex);
+                RunTraversal<THandler, StaticConsumer<THandler>>.FindPairsBelow(
+                    ActiveTree, Runs, StaticTree, pair.Children, ref Handler, workerIndex);
             else
-                RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairsBelow(ActiveTree, Runs, pair.Children, ref Handler, workerIndex);
+                RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairsBelow(
+                    ActiveTree, Runs, pair.Children, ref Handler, workerIndex);
         }
     }
 

@@ -5,14 +5,22 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Impulses of a manifold with the features that they belong to.</summary>
+/// <summary>Impulses of a manifold with the features and places that they belong to.</summary>
 struct ContactImpulses
 {
     public int Count;
     public FeatureIds Features;
     public FourFloats Normals;
+    public FourVectors Offsets;
     public Vector3 Friction;
     public float Twist;
+}
+
+/// <summary>One vector per contact of a manifold.</summary>
+[InlineArray(4)]
+struct FourVectors
+{
+    Vector3 first;
 }
 
 /// <summary>The column of one convex contact constraint in its type batch, for any number of contacts.</summary>
@@ -50,56 +58,88 @@ unsafe readonly ref struct ContactConstraint
         Write(ContactPrestepLayout.MaximumRecovery(contactCount), material.MaximumRecoveryVelocity);
     }
 
+    /// <summary>Reads the impulses and the places of the last step's contacts. To be called before new contacts are written.</summary>
     internal void ReadImpulses(in FeatureIds features, out ContactImpulses result)
     {
+        Unsafe.SkipInit(out result);
         result.Count = contactCount;
         result.Features = features;
-        Unsafe.SkipInit(out result.Normals);
         for (int i = 0; i < contactCount; ++i)
+        {
             result.Normals[i] = impulses[i * Vector<float>.Count];
+            var field = i * ContactPrestepLayout.FloatsPerContact;
+            result.Offsets[i] = new(prestep[field * Vector<float>.Count], prestep[(field + 1) * Vector<float>.Count], prestep[(field + 2) * Vector<float>.Count]);
+        }
         var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
         result.Friction = new(impulses[friction * Vector<float>.Count], impulses[(friction + 1) * Vector<float>.Count], impulses[(friction + 2) * Vector<float>.Count]);
         result.Twist = impulses[(friction + 3) * Vector<float>.Count];
     }
 
     /// <summary>Hands the impulses of the last step's contacts to this step's.</summary>
-    // A contact gets the impulse of the contact with its feature. What belonged to features that are gone is shared by the features
-    // that are new: the load of the patch is the same as a step ago, whatever its contacts are called.
+    // A contact gets the impulse of the contact with its feature. Features are not unique in time: where edges coincide, as between boxes
+    // of one size, a corner is now one box's, now the other's, without anything having moved. So contacts whose feature is new take over
+    // from the nearest contact whose feature is gone, and what is left then is shared by all: the load of the patch is the same as a step
+    // ago, whatever its contacts are called.
     internal void WriteImpulses(in ContactImpulses old, in ConvexContactManifold manifold, ref FeatureIds features)
     {
         ref var contact = ref Unsafe.AsRef(in manifold.Contact0);
         FourFloats normals = default;
-        float left = 0;
-        for (int j = 0; j < old.Count; ++j)
-            left += old.Normals[j];
-        int unmatched = 0;
-        int matchedMask = 0;
+        int given = 0;
+        int received = 0;
         for (int i = 0; i < contactCount; ++i)
         {
-            var feature = Unsafe.Add(ref contact, i).FeatureId;
-            features[i] = feature;
-            bool found = false;
+            features[i] = Unsafe.Add(ref contact, i).FeatureId;
             for (int j = 0; j < old.Count; ++j)
             {
-                if (old.Features[j] != feature || (matchedMask & 1 << j) != 0)
+                if (old.Features[j] != features[i] || (given & 1 << j) != 0)
                     continue;
                 normals[i] = old.Normals[j];
-                left -= old.Normals[j];
-                matchedMask |= 1 << j;
-                found = true;
+                given |= 1 << j;
+                received |= 1 << i;
                 break;
             }
-            if (!found)
-            {
-                normals[i] = -1;
-                ++unmatched;
-            }
         }
-        var share = unmatched > 0 && left > 0 ? left / unmatched : 0;
         for (int i = 0; i < contactCount; ++i)
-            impulses[i * Vector<float>.Count] = normals[i] < 0 ? share : normals[i];
-        // Friction stays in the plane of the contacts; the normal may have turned.
-        var tangential = old.Friction - manifold.Normal * Exact.Dot(old.Friction, manifold.Normal);
+        {
+            if ((received & 1 << i) != 0)
+                continue;
+            var nearest = FindNearest(old, given, Unsafe.Add(ref contact, i).Offset);
+            if (nearest < 0)
+                continue;
+            normals[i] = old.Normals[nearest];
+            given |= 1 << nearest;
+        }
+        float left = 0;
+        for (int j = 0; j < old.Count; ++j)
+        {
+            if ((given & 1 << j) == 0)
+                left += old.Normals[j];
+        }
+        var share = left / contactCount;
+        for (int i = 0; i < contactCount; ++i)
+            impulses[i * Vector<float>.Count] = normals[i] + share;
+        WriteFriction(old, manifold.Normal);
+    }
+
+    static int FindNearest(in ContactImpulses old, int given, Vector3 offset)
+    {
+        int nearest = -1;
+        float least = float.MaxValue;
+        for (int j = 0; j < old.Count; ++j)
+        {
+            var distance = Exact.DistanceSquared(old.Offsets[j], offset);
+            if ((given & 1 << j) != 0 || !(distance < least))
+                continue;
+            least = distance;
+            nearest = j;
+        }
+        return nearest;
+    }
+
+    // Friction stays in the plane of the contacts; the normal may have turned.
+    void WriteFriction(in ContactImpulses old, Vector3 normal)
+    {
+        var tangential = old.Friction - normal * Exact.Dot(old.Friction, normal);
         var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
         impulses[friction * Vector<float>.Count] = tangential.X;
         impulses[(friction + 1) * Vector<float>.Count] = tangential.Y;

@@ -8,14 +8,12 @@ namespace BepuPhysics.Constraints;
 /// <summary>Stiffness and damping of a constraint, independent of the masses that it connects.</summary>
 /// <remarks>
 /// The default, all zero, is rigid: as stiff as the substep allows. A frequency that is given is kept up to that limit,
-/// <see cref="MaximumCyclesPerSubstep"/> periods per substep, beyond which one sweep per substep would add energy.
+/// <see cref="CyclesPerSubstep"/> periods per substep, beyond which the sweeps of a substep would add energy.
 /// </remarks>
 public struct SpringSettings
 {
-    /// <summary>Frequency of the rigid default, and upper limit of every frequency, times the length of a substep.</summary>
-    // 0.125 is stable with one sweep per substep and no relaxation; 0.25 gains energy at mass ratios of 100, and an exactly
-    // straight chain diverges there (Docs/decisions/rigid-default.md).
-    public const float MaximumCyclesPerSubstep = 0.125f;
+    const float CyclesPerIteration = 0.125f;
+    const float MaximumCycles = 0.5f;
 
     /// <summary>Undamped angular frequency, rad/s; 0 for rigid.</summary>
     public float AngularFrequency;
@@ -33,6 +31,13 @@ public struct SpringSettings
         AngularFrequency = frequency * MathF.Tau;
         TwiceDampingRatio = dampingRatio * 2;
     }
+
+    /// <summary>Frequency of the rigid default, and upper limit of every frequency, times the length of a substep.</summary>
+    /// <param name="iterations">Sweeps per substep, at least 1.</param>
+    // 0.125 is stable with one sweep per substep and no relaxation; 0.25 gains energy at mass ratios of 100, and an exactly
+    // straight chain diverges there. Each further sweep moves a load over one more constraint. Beyond half a period per substep
+    // an implicit spring has no stiffness left to gain.
+    public static float CyclesPerSubstep(int iterations) => MathF.Min(CyclesPerIteration * iterations, MaximumCycles);
 
     /// <summary>Undamped frequency, Hz; 0 for rigid.</summary>
     public float Frequency
@@ -70,7 +75,7 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly SoftnessWide ForSubstep(in Substep substep)
     {
-        var stiffest = new Vector<float>(SpringSettings.MaximumCyclesPerSubstep * MathF.Tau);
+        var stiffest = new Vector<float>(substep.StiffestFrequencyDt);
         var given = AngularFrequency * substep.Dt;
         var rigid = Vector.Equals(given, Vector<float>.Zero);
         var frequencyDt = Vector.ConditionalSelect(rigid, stiffest, Wide.Min(given, stiffest));

@@ -55,6 +55,7 @@ public sealed unsafe partial class Solver
         public int Substep;
         public int Batch;
         public int BlockCount;
+        public int Iterations;
         public SolverPoint Point;
         public int Optional;
     }
@@ -144,12 +145,14 @@ public sealed unsafe partial class Solver
     void BuildStages(ref SolveWork work)
     {
         work.Stages = new QuickList<Stage>(64, pool);
+        work.Iterations = IterationsOf(0);
         if (work.Stiffness.Allocated)
             AddSweep(ref work, StageKind.AddStiffness, 0);
         AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
         var bodyBlocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
         for (int substep = 0; substep < substepCount; ++substep)
         {
+            work.Iterations = IterationsOf(substep);
             if (SubstepStarted is not null)
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
             var integration = substep == 0 ? IntegrationStage.First : IntegrationStage.Between;
@@ -157,8 +160,7 @@ public sealed unsafe partial class Solver
             AddOptional(ref work, SolverPoint.AfterIntegration, substep);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
-            var iterations = VelocityIterationScheduler?.Invoke(substep) ?? 0;
-            for (int i = iterations < 1 ? velocityIterationCount : iterations; i > 0; --i)
+            for (int i = work.Iterations; i > 0; --i)
                 AddSweep(ref work, StageKind.Solve, substep);
             AddOptional(ref work, SolverPoint.AfterSolve, substep);
             if (SubstepEnded is not null)
@@ -168,13 +170,19 @@ public sealed unsafe partial class Solver
         AddOptional(ref work, SolverPoint.AfterSubsteps, substepCount - 1);
     }
 
+    int IterationsOf(int substep)
+    {
+        var scheduled = VelocityIterationScheduler?.Invoke(substep) ?? 0;
+        return scheduled < 1 ? velocityIterationCount : scheduled;
+    }
+
     void AddOptional(ref SolveWork work, SolverPoint point, int substep)
     {
         for (int i = 0; i < OptionalStages.Count; ++i)
         {
             var blocks = OptionalStages[i].GetBlockCount(point);
             if (blocks > 0)
-                work.Stages.Add(new() { Kind = StageKind.Optional, Substep = substep, Point = point, Optional = i, BlockCount = blocks }, pool);
+                work.Stages.Add(new() { Kind = StageKind.Optional, Substep = substep, Iterations = work.Iterations, Point = point, Optional = i, BlockCount = blocks }, pool);
         }
     }
 
@@ -185,7 +193,7 @@ public sealed unsafe partial class Solver
             // Where bodies are split, each of their constraints is stable by itself: the fallback batch adds no stiffness.
             if (work.BlocksOfBatch[batch].Count == 0 || (kind == StageKind.AddStiffness && batch == FallbackBatchThreshold))
                 continue;
-            work.Stages.Add(new() { Kind = kind, Substep = substep, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
+            work.Stages.Add(new() { Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
             if (batch == FallbackBatchThreshold)
                 work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
         }
@@ -198,6 +206,8 @@ public sealed unsafe partial class Solver
         public Solver Solver;
         public IPoseIntegrator Integrator;
         public float SubstepDt;
+        // Sweeps of the substep for which stages are being listed.
+        public int Iterations;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
         public Buffer<BodyInertia> Stiffness;
@@ -242,7 +252,7 @@ public sealed unsafe partial class Solver
             }
         }
 
-        readonly Substep SubstepOf(in Stage stage) => new(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1);
+        readonly Substep SubstepOf(in Stage stage) => new(stage.Substep, SubstepDt, stage.Iterations, stage.Substep == 0 ? FirstWarmStartScale : 1);
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {

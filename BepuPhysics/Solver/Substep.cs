@@ -1,3 +1,5 @@
+using System;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>The part of a step that the solver is working on.</summary>
@@ -15,9 +17,17 @@ public readonly struct Substep
     /// </summary>
     public readonly float WarmStartScale;
 
+    /// <summary>Greatest angular frequency times the length of the substep at which its sweeps are stable.</summary>
+    public readonly float StiffestFrequencyDt;
+
     /// <summary>Describes a substep.</summary>
-    public Substep(int index, float dt, float warmStartScale)
+    /// <param name="index">Index within the step, from 0.</param>
+    /// <param name="dt">Length, s.</param>
+    /// <param name="iterations">Sweeps over the constraints.</param>
+    /// <param name="warmStartScale">Ratio of the length to the last substep's.</param>
+    public Substep(int index, float dt, int iterations, float warmStartScale)
     {
+        StiffestFrequencyDt = MathF.Tau * SpringSettings.CyclesPerSubstep(iterations);
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;

@@ -8,10 +8,12 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.Trees;
 
 /// <summary>
-/// Boxes of a tree's leaves in depth-first order, one array for each coordinate: the leaves of every subtree are a run in them, and one box is tested against
+/// Boxes of a tree's leaves in depth-first order, one array for each coordinate: the leaves of every subtree are a run in them, and one
+/// box is tested against
 /// eight neighbours of a run by six comparisons.
 /// </summary>
-/// <remarks>A copy for the time in which overlaps are looked for. Eight at a time on every processor, so nothing depends on the width of vectors.</remarks>
+/// <remarks>A copy for the time in which overlaps are looked for. Eight at a time on every processor, so nothing depends on the width of
+/// vectors.</remarks>
 unsafe struct LeafRuns
 {
     /// <summary>Subtrees with no more leaves than this are tested as runs instead of being descended into.</summary>
@@ -45,7 +47,8 @@ unsafe struct LeafRuns
         pool.Return(ref firstLeaves);
     }
 
-    /// <summary>Place of the first leaf below a node. The node's first child begins there too, its second after all leaves of the first.</summary>
+    /// <summary>Place of the first leaf below a node. The node's first child begins there too, its second after all leaves of the
+    /// first.</summary>
     public readonly int* FirstLeaves => firstLeaves.Memory;
 
     /// <summary>Index in the tree of the leaf at each place.</summary>
@@ -122,14 +125,16 @@ unsafe struct LeafRuns
 
     /// <inheritdoc cref="FindOverlaps(float*, float*, int, int, int)"/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly uint FindOverlaps(NodeChild* query, int first, int count) => FindOverlaps((float*)query, (float*)query + 4, 1, first, count);
+    public readonly uint FindOverlaps(NodeChild* query, int first, int count) =>
+        FindOverlaps((float*)query, (float*)query + 4, 1, first, count);
 
     /// <summary>Bits of the leaves of a run that overlap or touch the leaf at a place.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly uint FindOverlaps(int place, int first, int count) =>
         FindOverlaps(memory.Memory + place, memory.Memory + place + 3 * stride, stride, first, count);
 
-    /// <summary>Writes those of eight values whose bits are set, one after the other and then rubbish up to eight; returns how many are meant.</summary>
+    /// <summary>Writes those of eight values whose bits are set, one after the other and then rubbish up to eight; returns how many are
+    /// meant.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly int Pack(Vector256<int> values, uint mask, int* target)
     {

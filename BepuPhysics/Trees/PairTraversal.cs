@@ -8,10 +8,13 @@ unsafe struct ChildPair
     public NodeChild* A, B;
 }
 
-/// <summary>Finds all pairs of overlapping leaves within a tree or between two, in any order of nodes and without memory beyond the stack.</summary>
+/// <summary>Finds all pairs of overlapping leaves within a tree or between two, in any order of nodes and without memory beyond the
+/// stack.</summary>
 /// <remarks>
-/// Where both sides of a pair are nodes, all four pairs of their children are tested at once, so that each box is loaded once. Pairs within one tree start from
-/// every node alike: its two children, if they overlap. Each step of the stack goes down one level of one tree at least and leaves three entries
+/// Where both sides of a pair are nodes, all four pairs of their children are tested at once, so that each box is loaded once. Pairs
+/// within one tree start from
+/// every node alike: its two children, if they overlap. Each step of the stack goes down one level of one tree at least and leaves three
+/// entries
 /// behind at most, so the stack's size is fixed.
 /// </remarks>
 static unsafe class PairTraversal<THandler, TConsumer> where TConsumer : IPairConsumer<THandler>
@@ -87,7 +90,10 @@ static unsafe class PairTraversal<THandler, TConsumer> where TConsumer : IPairCo
     {
         var stack = stackalloc ChildPair[StackSize];
         var results = stackalloc int[2 * ResultCapacity];
-        var search = new Search { Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler };
+        var search = new Search
+        {
+            Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler
+        };
         for (var node = 0; node < tree.NodeCount; ++node)
         {
             var a = tree.Children + 2 * node;
@@ -102,7 +108,10 @@ static unsafe class PairTraversal<THandler, TConsumer> where TConsumer : IPairCo
     {
         var stack = stackalloc ChildPair[StackSize];
         var results = stackalloc int[2 * ResultCapacity];
-        var search = new Search { Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler };
+        var search = new Search
+        {
+            Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler
+        };
         // The second side of a tree with a single leaf is nothing.
         var sidesA = treeA.LeafCount < 2 ? treeA.LeafCount : 2;
         var sidesB = treeB.LeafCount < 2 ? treeB.LeafCount : 2;

@@ -3,10 +3,13 @@ using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.Trees;
 
-/// <summary>Finds all overlapping pairs within a tree in depth-first order, or between it and another tree, with runs of leaves at the bottom.</summary>
+/// <summary>Finds all overlapping pairs within a tree in depth-first order, or between it and another tree, with runs of leaves at the
+/// bottom.</summary>
 /// <remarks>
-/// Whether two boxes overlap is a coin toss to the branch predictor, and a lost toss costs more than the test. So a descent ends at subtrees of eight leaves, and
-/// from there on nothing branches on a result: which leaves of one run meet the box of the other is packed into a list of tasks, one leaf against one run each;
+/// Whether two boxes overlap is a coin toss to the branch predictor, and a lost toss costs more than the test. So a descent ends at
+/// subtrees of eight leaves, and
+/// from there on nothing branches on a result: which leaves of one run meet the box of the other is packed into a list of tasks, one leaf
+/// against one run each;
 /// tasks are done many at a time, and what they find is packed into the results in the same way.
 /// <para>The stack of a descent holds one entry for each level of both trees, so its size is fixed.</para>
 /// </remarks>
@@ -123,7 +126,8 @@ static unsafe class RunTraversal<THandler, TConsumer> where TConsumer : IPairCon
         }
     }
 
-    /// <summary>Pairs within a tree that meet in one of some nodes; a subtree that is tested as one run belongs to its first node.</summary>
+    /// <summary>Pairs within a tree that meet in one of some nodes; a subtree that is tested as one run belongs to its first
+    /// node.</summary>
     /// <param name="tree">The tree, in depth-first order.</param>
     /// <param name="runs">Its leaves.</param>
     /// <param name="firstNode">First of the nodes.</param>
@@ -131,7 +135,8 @@ static unsafe class RunTraversal<THandler, TConsumer> where TConsumer : IPairCon
     /// <param name="leafLimit">Nodes with more leaves are left out; at least a run.</param>
     /// <param name="handler">Receives the pairs.</param>
     /// <param name="workerIndex">Passed on to the consumer.</param>
-    public static void FindSelfPairs(in Tree tree, in LeafRuns runs, int firstNode, int endNode, int leafLimit, ref THandler handler, int workerIndex)
+    public static void FindSelfPairs(
+        in Tree tree, in LeafRuns runs, int firstNode, int endNode, int leafLimit, ref THandler handler, int workerIndex)
     {
         Scratch scratch;
         var search = new Search { Scratch = &scratch, Runs = runs, WorkerIndex = workerIndex, Handler = ref handler };
@@ -160,7 +165,8 @@ static unsafe class RunTraversal<THandler, TConsumer> where TConsumer : IPairCon
     {
         Scratch scratch;
         var search = new Search { Scratch = &scratch, Runs = runs, WorkerIndex = workerIndex, Handler = ref handler };
-        DescendSelf(tree, new Entry { A = pair.A, B = pair.B, FirstA = GetFirst(tree, runs, pair.A), FirstB = GetFirst(tree, runs, pair.B) }, ref search);
+        var root = new Entry { A = pair.A, B = pair.B, FirstA = GetFirst(tree, runs, pair.A), FirstB = GetFirst(tree, runs, pair.B) };
+        DescendSelf(tree, root, ref search);
         search.Finish();
     }
 
@@ -274,5 +280,6 @@ static unsafe class RunTraversal<THandler, TConsumer> where TConsumer : IPairCon
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static bool Overlap(NodeChild* a, NodeChild* b) => BoxMath.Overlaps(BoxMath.LoadMin(a), BoxMath.LoadMax(a), BoxMath.LoadMin(b), BoxMath.LoadMax(b));
+    static bool Overlap(NodeChild* a, NodeChild* b) =>
+        BoxMath.Overlaps(BoxMath.LoadMin(a), BoxMath.LoadMax(a), BoxMath.LoadMin(b), BoxMath.LoadMax(b));
 }

@@ -10,10 +10,12 @@ namespace BepuPhysics.Trees;
 // four ways at a node is taken until it is a stop; ties go down, and to the side with fewer leaves, which keeps equal boxes balanced.
 public unsafe partial struct Tree
 {
-    /// <summary>Inserts a leaf, rotating nodes on its way where that makes the tree cheaper, and returns its index: the present leaf count.</summary>
+    /// <summary>Inserts a leaf, rotating nodes on its way where that makes the tree cheaper, and returns its index: the present leaf
+    /// count.</summary>
     public int Add(BoundingBox bounds, BufferPool pool) => Insert(bounds, pool, rotates: true);
 
-    /// <summary>Inserts a leaf without rotations and returns its index: the present leaf count. For many leaves that a build or refinement follows.</summary>
+    /// <summary>Inserts a leaf without rotations and returns its index: the present leaf count. For many leaves that a build or refinement
+    /// follows.</summary>
     public int AddWithoutRefinement(BoundingBox bounds, BufferPool pool) => Insert(bounds, pool, rotates: false);
 
     int Insert(BoundingBox bounds, BufferPool pool, bool rotates)
@@ -47,7 +49,8 @@ public unsafe partial struct Tree
         return leafIndex;
     }
 
-    /// <summary>Slot whose content becomes the leaf's sibling, -1 for the whole tree. Counts the leaf in, and grows, every child passed on the way.</summary>
+    /// <summary>Slot whose content becomes the leaf's sibling, -1 for the whole tree. Counts the leaf in, and grows, every child passed on
+    /// the way.</summary>
     readonly int FindSibling(NodeChild* leaf)
     {
         var children = Children;
@@ -58,10 +61,6 @@ public unsafe partial struct Tree
         var rootMin = BoxMath.Min(BoxMath.LoadMin(children), BoxMath.LoadMin(children + 1));
         var rootMax = BoxMath.Max(BoxMath.LoadMax(children), BoxMath.LoadMax(children + 1));
         var rootArea = BoxMath.HalfArea(rootMin, rootMax);
-        // Beside the root: one more node around everything. Below: the root grows to that size anyway.
-        if (rootArea < leafArea)
-            return -1;
-        var aboveRoot = rootArea;
 
         var node = 0;
         while (true)
@@ -74,17 +73,27 @@ public unsafe partial struct Tree
             var downB = b->Index < 0 ? float.PositiveInfinity : stopB - BoxMath.HalfArea(b) + leafArea;
             var bestA = downA <= stopA ? downA : stopA;
             var bestB = downB <= stopB ? downB : stopB;
-            if (node == 0 && aboveRoot < bestA && aboveRoot < bestB)
+            // Beside the root means one more node around everything; on any other way the root only grows to that size, so its own surface
+            // is the difference.
+            if (node == 0 && rootArea < bestA && rootArea < bestB && MayBecomeSibling(0, LeafCount))
                 return -1;
             var takeB = bestB < bestA || (!(bestA < bestB) && b->LeafCount < a->LeafCount);
             var child = takeB ? b : a;
-            if (child->Index < 0 || !(takeB ? downB <= stopB : downA <= stopA))
+            var goesDown = takeB ? downB <= stopB : downA <= stopA;
+            if (child->Index < 0 || (!goesDown && MayBecomeSibling(child->Index, child->LeafCount)))
                 return 2 * node + (takeB ? 1 : 0);
             BoxMath.StoreBox(child, BoxMath.Min(leafMin, BoxMath.LoadMin(child)), BoxMath.Max(leafMax, BoxMath.LoadMax(child)));
             ++child->LeafCount;
             node = child->Index;
         }
     }
+
+    /// <summary>
+    /// Whether a leaf may hang beside a node. Boxes that grow would all hang beside the root and make a list of it, to be rebuilt again
+    /// and again;
+    /// where a node is too high for its size already, the leaf goes further down, where a rebuild is cheap.
+    /// </summary>
+    readonly bool MayBecomeSibling(int node, int leafCount) => Metanodes[node].Height < BalancedHeight(leafCount);
 
     /// <summary>Makes a node of what hangs at a slot and a leaf, and hangs it there.</summary>
     readonly void InsertBeside(int slot, NodeChild* leaf, int newNode)
@@ -120,7 +129,8 @@ public unsafe partial struct Tree
         Metanodes[newNode] = new Metanode { ParentSlot = slot, Height = MeasureHeight(newNode) };
     }
 
-    /// <summary>Brings heights up to date from a new node to the root, rotating on the way; rebuilds where the tree has become too deep.</summary>
+    /// <summary>Brings heights up to date from a new node to the root, rotating on the way; rebuilds where the tree has become too
+    /// deep.</summary>
     void TidyAncestors(int newNode, bool rotates, BufferPool pool)
     {
         isDepthFirst = false;
@@ -136,7 +146,8 @@ public unsafe partial struct Tree
     }
 
     /// <summary>
-    /// Exchanges one child of a node with a child of the other where that shrinks the node in between most. Afterwards the node is no higher
+    /// Exchanges one child of a node with a child of the other where that shrinks the node in between most. Afterwards the node is no
+    /// higher
     /// than before, or than a fairly balanced tree of its size.
     /// </summary>
     readonly void Rotate(int node)
@@ -201,7 +212,8 @@ public unsafe partial struct Tree
     internal static int HalvingHeight(int leafCount) => leafCount <= 1 ? 0 : 32 - BitOperations.LeadingZeroCount((uint)(leafCount - 1));
 
     /// <summary>
-    /// Follows the longest path down from the root to the smallest subtree that is far too deep for its size and rebuilds it. The limits make
+    /// Follows the longest path down from the root to the smallest subtree that is far too deep for its size and rebuilds it. The limits
+    /// make
     /// sure that there is one and that its rebuilding lowers the root: 2 log n + 2 after it against more than 2 log n + 6 before it.
     /// </summary>
     void RebuildTooDeep(BufferPool pool)

@@ -53,7 +53,8 @@ public unsafe partial struct Tree
         isDepthFirst = true;
     }
 
-    /// <summary>Builds the subtree of a node anew out of its leaves, in the places that its nodes have: a tree in depth-first order stays so.</summary>
+    /// <summary>Builds the subtree of a node anew out of its leaves, in the places that its nodes have: a tree in depth-first order stays
+    /// so.</summary>
     readonly void RebuildSubtree(int node, int allowedHeight, BufferPool pool)
     {
         var count = Children[2 * node].LeafCount + Children[2 * node + 1].LeafCount;
@@ -65,7 +66,8 @@ public unsafe partial struct Tree
     }
 
     /// <summary>
-    /// Collects, in depth-first order, the nodes below and including one that have more leaves than a limit, and as items the largest subtrees that have not.
+    /// Collects, in depth-first order, the nodes below and including one that have more leaves than a limit, and as items the largest
+    /// subtrees that have not.
     /// </summary>
     readonly void Gather(int top, int itemLeafLimit, in BuildScratch scratch, out int itemCount, out int highestItem)
     {

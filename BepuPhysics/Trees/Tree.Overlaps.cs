@@ -7,7 +7,8 @@ namespace BepuPhysics.Trees;
 
 public unsafe partial struct Tree
 {
-    /// <summary>Tells which leaves have boxes that overlap or touch a box, until the callback returns false. In no particular order.</summary>
+    /// <summary>Tells which leaves have boxes that overlap or touch a box, until the callback returns false. In no particular
+    /// order.</summary>
     /// <param name="min">Lower corner of the box; no component may be NaN.</param>
     /// <param name="max">Upper corner of the box, nowhere below the lower; infinite components are allowed.</param>
     /// <param name="pool">Not used: the traversal needs no memory. Kept for callers.</param>
@@ -71,7 +72,8 @@ public unsafe partial struct Tree
         var runs = new LeafRuns(this, pool);
         try
         {
-            RunTraversal<TOverlapHandler, SelfConsumer<TOverlapHandler>>.FindSelfPairs(this, runs, 0, NodeCount, int.MaxValue, ref results, 0);
+            RunTraversal<TOverlapHandler, SelfConsumer<TOverlapHandler>>.FindSelfPairs(
+                this, runs, 0, NodeCount, int.MaxValue, ref results, 0);
         }
         finally
         {
@@ -80,7 +82,8 @@ public unsafe partial struct Tree
     }
 
     /// <summary>Tells which leaves of this tree (first) overlap or touch which leaves of another (second), each pair once.</summary>
-    public readonly void GetOverlaps<TOverlapHandler>(ref Tree treeB, ref TOverlapHandler overlapHandler) where TOverlapHandler : IOverlapHandler =>
+    public readonly void GetOverlaps<TOverlapHandler>(ref Tree treeB, ref TOverlapHandler overlapHandler)
+        where TOverlapHandler : IOverlapHandler =>
         PairTraversal<TOverlapHandler, PairConsumer<TOverlapHandler>>.FindPairs(this, treeB, ref overlapHandler, 0);
 
     static void RequireQuery(Vector3 min, Vector3 max)

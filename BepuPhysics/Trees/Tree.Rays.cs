@@ -96,7 +96,8 @@ public unsafe partial struct Tree
         public readonly void Visit(int leafIndex, ref float maximumT) => Tester.TestLeaf(leafIndex, ref maximumT);
     }
 
-    readonly void Traverse<TVisitor>(SlabTest test, ref float maximumT, ref TVisitor visitor) where TVisitor : ILeafVisitor, allows ref struct
+    readonly void Traverse<TVisitor>(SlabTest test, ref float maximumT, ref TVisitor visitor)
+        where TVisitor : ILeafVisitor, allows ref struct
     {
         if (LeafCount == 0)
             return;

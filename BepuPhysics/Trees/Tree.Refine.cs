@@ -3,8 +3,10 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Trees;
 
-// Moving leaves make a tree worse. Rebuilding all of it in every step costs too much, so each call rebuilds a slice: in turn the subtrees of
-// some hundred leaves, and now and then the top, whose items are subtrees several times smaller than those. The two kinds overlap in size, so a leaf can
+// Moving leaves make a tree worse. Rebuilding all of it in every step costs too much, so each call rebuilds a slice: in turn the subtrees
+// of
+// some hundred leaves, and now and then the top, whose items are subtrees several times smaller than those. The two kinds overlap in size,
+// so a leaf can
 // wander through the whole tree. When slices stop to gain anything, most calls do nothing: a scene at rest pays almost nothing.
 public unsafe partial struct Tree
 {
@@ -18,7 +20,8 @@ public unsafe partial struct Tree
     const float WorthwhileGain = 1f / 64;
 
     /// <summary>
-    /// Rebuilds a small part of the tree, another one in each call, so that the whole tree stays good while its leaves move. The boxes must fit (call a refit first).
+    /// Rebuilds a small part of the tree, another one in each call, so that the whole tree stays good while its leaves move. The boxes
+    /// must fit (call a refit first).
     /// Leaves the nodes in depth-first order. What is done depends on the tree and the calls before alone.
     /// </summary>
     public void Refine(BufferPool pool)
@@ -43,13 +46,17 @@ public unsafe partial struct Tree
         else
             gain = RefineNextSubtrees(subtreeLimit, pool);
 
-        slicesWithoutGain = gain >= WorthwhileGain ? 0 : slicesWithoutGain < PatientSlices << MaximumSkipPower ? slicesWithoutGain + 1 : slicesWithoutGain;
+        if (gain >= WorthwhileGain)
+            slicesWithoutGain = 0;
+        else if (slicesWithoutGain < PatientSlices * MaximumSkipPower)
+            ++slicesWithoutGain;
         callsToSkip = (1 << slicesWithoutGain / PatientSlices) - 1;
     }
 
     static int Clamp(int value, int low, int high) => value < low ? low : value > high ? high : value;
 
-    /// <summary>Rebuilds the largest subtrees within a limit, from where the last call stopped, until half the limit is used up. Returns the best relative gain.</summary>
+    /// <summary>Rebuilds the largest subtrees within a limit, from where the last call stopped, until half the limit is used up. Returns
+    /// the best relative gain.</summary>
     float RefineNextSubtrees(int limit, BufferPool pool)
     {
         var best = 0f;
@@ -69,7 +76,8 @@ public unsafe partial struct Tree
         return best;
     }
 
-    /// <summary>The largest subtree within a limit that holds a node, or the node after it in order where the node itself is above the limit.</summary>
+    /// <summary>The largest subtree within a limit that holds a node, or the node after it in order where the node itself is above the
+    /// limit.</summary>
     readonly int FindSubtree(int position, int limit, out int count, out int depth)
     {
         var node = 0;
@@ -101,7 +109,8 @@ public unsafe partial struct Tree
         return RelativeGain(before, MeasureCost(scratch.NodeIndices, itemCount - 1));
     }
 
-    /// <summary>Rebuilds all nodes with more leaves than a limit over the subtrees that have no more, and returns by which part their cost fell.</summary>
+    /// <summary>Rebuilds all nodes with more leaves than a limit over the subtrees that have no more, and returns by which part their cost
+    /// fell.</summary>
     float RefineTop(int itemLimit, BufferPool pool)
     {
         using var scratch = new BuildScratch(LeafCount, pool);
@@ -133,7 +142,8 @@ public unsafe partial struct Tree
         return cost;
     }
 
-    /// <summary>Summed surface of the boxes of all nodes relative to the root's: about how many nodes a random small query visits. Zero for fewer than three leaves.</summary>
+    /// <summary>Summed surface of the boxes of all nodes relative to the root's: about how many nodes a random small query visits. Zero
+    /// for fewer than three leaves.</summary>
     public readonly float MeasureRelativeCost()
     {
         var children = Children;

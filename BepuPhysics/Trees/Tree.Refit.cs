@@ -7,7 +7,8 @@ namespace BepuPhysics.Trees;
 
 public unsafe partial struct Tree
 {
-    /// <summary>Fits the box of every node to its children, from the leaves up; the shape of the tree and the places of its nodes stay.</summary>
+    /// <summary>Fits the box of every node to its children, from the leaves up; the shape of the tree and the places of its nodes
+    /// stay.</summary>
     public readonly void Refit()
     {
         if (LeafCount <= 2)
@@ -18,7 +19,8 @@ public unsafe partial struct Tree
             RefitByLinks();
     }
 
-    /// <summary>Fits the box of every node to its children and brings the nodes into depth-first order if they are not. The shape of the tree stays.</summary>
+    /// <summary>Fits the box of every node to its children and brings the nodes into depth-first order if they are not. The shape of the
+    /// tree stays.</summary>
     public void Refit(BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
@@ -28,7 +30,8 @@ public unsafe partial struct Tree
             SweepBounds();
     }
 
-    /// <summary>In depth-first order all that is below a node comes after it, so one sweep from the end sees children before parents.</summary>
+    /// <summary>In depth-first order all that is below a node comes after it, so one sweep from the end sees children before
+    /// parents.</summary>
     readonly void SweepBounds()
     {
         var children = Children;

@@ -11,7 +11,8 @@ public unsafe partial struct Tree
     /// <exception cref="PhysicsInvariantException">Something does not hold; the message says what and where.</exception>
     public readonly void Validate() => Validate(tightBounds: true);
 
-    /// <summary>As <see cref="Validate()"/>; without tight bounds the boxes need not fit, as between writing through bounds pointers and the refit.</summary>
+    /// <summary>As <see cref="Validate()"/>; without tight bounds the boxes need not fit, as between writing through bounds pointers and
+    /// the refit.</summary>
     public readonly void Validate(bool tightBounds)
     {
         Require(LeafCount >= 0 && LeafCount <= Leaves.Length, "leaf count", LeafCount);
@@ -63,7 +64,8 @@ public unsafe partial struct Tree
         }
         Require(child.Index < NodeCount && Metanodes[child.Index].ParentSlot == slot, "node at slot", slot);
         ref var node = ref Nodes[child.Index];
-        Require(node.A.LeafCount >= 1 && node.B.LeafCount >= 1 && node.A.LeafCount + node.B.LeafCount == child.LeafCount, "leaf count at slot", slot);
+        Require(node.A.LeafCount >= 1 && node.B.LeafCount >= 1, "empty side below slot", slot);
+        Require(node.A.LeafCount + node.B.LeafCount == child.LeafCount, "leaf count at slot", slot);
         if (tightBounds)
         {
             Require(child.Min == Lower(node.A.Min, node.B.Min), "lower corner at slot", slot);

@@ -15,7 +15,8 @@ namespace BepuPhysics.Trees;
 /// A node holds the boxes of its two children, so a tree of n leaves has n - 1 nodes (one, half filled, for a single leaf). Leaves are
 /// numbered 0 to n - 1 without holes: a removal moves the last leaf into the hole and says so.
 /// <para>
-/// Order: after a build, and after <see cref="Refit(BufferPool)"/>, nodes lie in depth-first order. Then the subtree of node i with k leaves is
+/// Order: after a build, and after <see cref="Refit(BufferPool)"/>, nodes lie in depth-first order. Then the subtree of node i with k
+/// leaves is
 /// exactly the nodes [i, i + k - 1), parents come before their children (a refit is one sweep from the end), and a part of the tree can be
 /// rebuilt in place. Insertions and removals give up the order; nothing but speed depends on it.
 /// </para>
@@ -28,7 +29,8 @@ namespace BepuPhysics.Trees;
 /// What a tree looks like depends on the calls that made it alone: not on threads, vector width or processor. Its boxes must be finite.
 /// Queries only read and may run on many threads at once; changes need the tree for themselves.
 /// </para>
-/// The tree owns memory of the pool that it was given: use one pool for it throughout and call <see cref="Dispose"/> with that pool. The tree is a value: a
+/// The tree owns memory of the pool that it was given: use one pool for it throughout and call <see cref="Dispose"/> with that pool. The
+/// tree is a value: a
 /// copy shares its memory.
 /// </remarks>
 public unsafe partial struct Tree
@@ -36,7 +38,8 @@ public unsafe partial struct Tree
     /// <summary>No way from the root to a leaf has more edges than this.</summary>
     public const int MaximumHeight = 64;
 
-    /// <summary>No tree holds more leaves than this: the bound under which every overlong path has a subtree that halving makes lower.</summary>
+    /// <summary>No tree holds more leaves than this: the bound under which every overlong path has a subtree that halving makes
+    /// lower.</summary>
     public const int MaximumLeafCount = 1 << 28;
 
     // A depth-first traversal leaves at most one entry behind at each level.
@@ -135,7 +138,8 @@ public unsafe partial struct Tree
         callsToSkip = 0;
     }
 
-    /// <summary>Gives the memory back to the pool that it came from and leaves an empty tree behind. Calling it twice does no harm.</summary>
+    /// <summary>Gives the memory back to the pool that it came from and leaves an empty tree behind. Calling it twice does no
+    /// harm.</summary>
     public void Dispose(BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
@@ -148,7 +152,8 @@ public unsafe partial struct Tree
         this = default;
     }
 
-    /// <summary>Pointers to the box of a leaf, valid until the tree changes. After writing through them call a refit before the next query.</summary>
+    /// <summary>Pointers to the box of a leaf, valid until the tree changes. After writing through them call a refit before the next
+    /// query.</summary>
     public readonly void GetBoundsPointers(int leafIndex, out Vector3* minPointer, out Vector3* maxPointer)
     {
         RequireLeaf(leafIndex);
@@ -165,7 +170,8 @@ public unsafe partial struct Tree
         return new BoundingBox(child->Min, child->Max);
     }
 
-    /// <summary>Gives a leaf another box and fits all nodes above it; costs the depth of the leaf. Does not change the shape of the tree.</summary>
+    /// <summary>Gives a leaf another box and fits all nodes above it; costs the depth of the leaf. Does not change the shape of the
+    /// tree.</summary>
     public readonly void UpdateBounds(int leafIndex, Vector3 min, Vector3 max)
     {
         RequireLeaf(leafIndex);

@@ -4,13 +4,15 @@ namespace BepuPhysics.Trees;
 
 /// <summary>
 /// Builds a subtree over items, leaves or whole subtrees, top down: the split of each node is the cheapest of those between bins along the
-/// longest axis of the items' centres (all splits in sorted order for few items), by the surface area heuristic: area times leaves on the left plus
+/// longest axis of the items' centres (all splits in sorted order for few items), by the surface area heuristic: area times leaves on the
+/// left plus
 /// the same on the right. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
 /// </summary>
 /// <remarks>
 /// Where no split is better than another (equal centres, overflowing areas), and where the height allowed leaves no choice, the items are
 /// halved. A halved tree of n items has height ceil(log2 n), so any allowed height from there on is kept.
-/// Partitions go back and forth between two arrays without a branch on the item: each item is written to both ends, and only one end moves on.
+/// Partitions go back and forth between two arrays without a branch on the item: each item is written to both ends, and only one end moves
+/// on.
 /// </remarks>
 unsafe ref struct TreeBuilder
 {
@@ -38,8 +40,10 @@ unsafe ref struct TreeBuilder
     /// <param name="items">The items, at least two; left in another order.</param>
     /// <param name="spare">Room for as many items.</param>
     /// <param name="count">Number of items.</param>
-    /// <param name="nodeIndices">Places for the nodes, one less than there are items; used in depth-first order, the first for the top.</param>
-    /// <param name="allowedHeight">Height that the tree over the items, counted as leaves, must not exceed; at least ceil(log2 count).</param>
+    /// <param name="nodeIndices">Places for the nodes, one less than there are items; used in depth-first order, the first for the
+    /// top.</param>
+    /// <param name="allowedHeight">Height that the tree over the items, counted as leaves, must not exceed; at least ceil(log2
+    /// count).</param>
     public static int Build(in Tree tree, NodeChild* items, NodeChild* spare, int count, int* nodeIndices, int allowedHeight)
     {
         Bins bins;
@@ -74,8 +78,9 @@ unsafe ref struct TreeBuilder
         }
         var source = moved ? spare : items;
         var other = moved ? items : spare;
-        var heightA = BuildChild(source, other, leftCount, 2 * node, order + 1, allowedHeight - 1);
-        var heightB = BuildChild(source + leftCount, other + leftCount, count - leftCount, 2 * node + 1, order + leftCount, allowedHeight - 1);
+        --allowedHeight;
+        var heightA = BuildChild(source, other, leftCount, 2 * node, order + 1, allowedHeight);
+        var heightB = BuildChild(source + leftCount, other + leftCount, count - leftCount, 2 * node + 1, order + leftCount, allowedHeight);
         var height = 1 + (heightA > heightB ? heightA : heightB);
         metanodes[node].Height = height;
         return height;
@@ -171,7 +176,8 @@ unsafe ref struct TreeBuilder
         return best.LeftCount > 0 ? best.LeftCount : count >> 1;
     }
 
-    /// <summary>Partitions the items into the spare array and returns how many went to the left; zero, and nothing written, when no split is any good.</summary>
+    /// <summary>Partitions the items into the spare array and returns how many went to the left; zero, and nothing written, when no split
+    /// is any good.</summary>
     readonly int BinAndSplit(NodeChild* items, NodeChild* spare, int count)
     {
         var axis = GetLongestAxis(items, count, out var lowest, out var extent);

@@ -69,16 +69,18 @@ public partial struct QuickDictionary<TKey, TValue, TComparer>
         var capacity = pool.GetCapacityForCount<TKey>(newSize);
         if (Keys.Allocated && capacity == Keys.Length)
             return;
+        // The keys last: should memory run out in between, the others still have room for as many as the keys can be.
         var tableSize = ProbingTable.GetTableSize(capacity, TablePowerOffset);
-        pool.ResizeToAtLeast(ref Keys, newSize, Count);
+        if (Table.Length != tableSize)
+        {
+            pool.Resize(ref Table, tableSize, 0);
+            TableMask = tableSize - 1;
+            Table.Clear(0, tableSize);
+            ProbingTable.Build(Table, TableMask, Keys, Count, ref EqualityComparer);
+        }
         // As many values as keys: a small key leaves its block room for many more than were asked for.
         pool.ResizeToAtLeast(ref Values, capacity, Count);
-        if (Table.Length == tableSize)
-            return;
-        pool.Resize(ref Table, tableSize, 0);
-        TableMask = tableSize - 1;
-        Table.Clear(0, tableSize);
-        ProbingTable.Build(Table, TableMask, Keys, Count, ref EqualityComparer);
+        pool.ResizeToAtLeast(ref Keys, newSize, Count);
     }
 
     /// <summary>Gives back the room that the elements do not need.</summary>

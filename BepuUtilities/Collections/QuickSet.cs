@@ -76,14 +76,16 @@ public struct QuickSet<T, TComparer> where T : unmanaged where TComparer : IEqua
         var capacity = pool.GetCapacityForCount<T>(newSize);
         if (Span.Allocated && capacity == Span.Length)
             return;
+        // The table first: should memory run out in between, it still has room for all elements that the span can hold.
         var tableSize = ProbingTable.GetTableSize(capacity, TablePowerOffset);
+        if (Table.Length != tableSize)
+        {
+            pool.Resize(ref Table, tableSize, 0);
+            TableMask = tableSize - 1;
+            Table.Clear(0, tableSize);
+            ProbingTable.Build(Table, TableMask, Span, Count, ref EqualityComparer);
+        }
         pool.ResizeToAtLeast(ref Span, newSize, Count);
-        if (Table.Length == tableSize)
-            return;
-        pool.Resize(ref Table, tableSize, 0);
-        TableMask = tableSize - 1;
-        Table.Clear(0, tableSize);
-        ProbingTable.Build(Table, TableMask, Span, Count, ref EqualityComparer);
     }
 
     /// <summary>Gives back the room that the elements do not need.</summary>

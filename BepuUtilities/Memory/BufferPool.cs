@@ -154,9 +154,10 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     void Resize<T>(ref Buffer<T> buffer, int targetSize, int copyCount, bool exact) where T : unmanaged
     {
-        var power = GetPower<T>(targetSize);
+        ArgumentOutOfRangeException.ThrowIfNegative(targetSize);
         ArgumentOutOfRangeException.ThrowIfNegative(copyCount);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(copyCount, Math.Min(buffer.Length, targetSize));
+        var power = GetPower<T>(targetSize);
         var length = exact ? targetSize : GetCapacity<T>(power);
         if (!buffer.Allocated)
         {

@@ -83,7 +83,7 @@ public struct IdPool
         ArgumentNullException.ThrowIfNull(pool);
         ArgumentOutOfRangeException.ThrowIfNegative(count);
         count = Math.Max(count, availableIdCount);
-        if (BufferPool.GetCapacityForCount<int>(count) != AvailableIds.Length)
+        if (!AvailableIds.Allocated || pool.GetCapacityForCount<int>(count) != AvailableIds.Length)
             pool.ResizeToAtLeast(ref AvailableIds, count, availableIdCount);
     }
 

@@ -27,7 +27,7 @@ sealed record AccuracySettings
     public AngularIntegrationMode AngularMode { get; init; } = EngineTraits.DefaultAngularMode;
 
     /// <summary>Substeps for bodies that touch nothing, too.</summary>
-    public bool SubstepsForFreeBodies { get; init; }
+    public bool SubstepsForFreeBodies { get; init; } = EngineTraits.DefaultSubstepsForFreeBodies;
     public bool Stiff { get; init; }
     public ContactScope Contacts { get; init; } = ContactScope.All;
 

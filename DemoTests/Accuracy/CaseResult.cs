@@ -29,7 +29,8 @@ sealed class CaseResult(string id, string scene, object settings)
     {
         output.WriteLine(Row(enforce));
         AccuracyReport.Add(Row(enforce));
-        Assert.Null(Failure(enforce));
+        string? failure = Failure(enforce);
+        Assert.True(failure is null, failure);
     }
 
     public string Row(bool enforce)

@@ -11,7 +11,12 @@ static class EngineTraits
 {
     public const int DefaultSubstepCount = 4;
     public const int DefaultVelocityIterationCount = 1;
-    public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.Nonconserving;
+
+    /// <summary>As in the ready-made callbacks.</summary>
+    public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
+
+    /// <summary>Substeps for bodies that touch nothing; as in the ready-made callbacks.</summary>
+    public const bool DefaultSubstepsForFreeBodies = true;
     public const AngularIntegrationMode AccurateAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
     /// <summary>What a game gets that asks for nothing. Here that is a rigid contact or joint.</summary>

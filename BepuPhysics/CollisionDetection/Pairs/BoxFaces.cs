@@ -108,8 +108,8 @@ struct BoxFaces
 
     /// <summary>Finds the corners of the overlap of the two faces, twelve at most, of which eight at most exist.</summary>
     // Around B's face: of each side, the part that is over A's face. Its start is a corner of the overlap, and its end is one where it was
-    // cut off; where it was not, it is the start of the next side. Then A's corners that are under B's face, inside of its border: those
-    // on the border are corners of B's, or cuts, as well.
+    // cut off; where it was not, it is the start of the next side. Then A's corners that are under B's face; those near its border
+    // may be corners of B's, or cuts, as well.
     [MethodImpl(MethodImplOptions.NoInlining)]
     public readonly void FindCandidates(ref ContactCandidates candidates)
     {
@@ -118,8 +118,11 @@ struct BoxFaces
         AddSides(ref candidates, 2, 6, CenterX, CenterY, CenterDepth, EdgeTX, EdgeTY, EdgeTDepth, -EdgeSX, -EdgeSY, -EdgeSDepth);
 
         var inverse = one / (EdgeSX * EdgeTY - EdgeSY * EdgeTX);
-        var limitS = (HalfS - Border - Border) / HalfS;
-        var limitT = (HalfT - Border - Border) / HalfT;
+        // A side that lies outside of A's face by more than the border is not over it, so a corner that is inside by as much has to be
+        // found here; from half the border on it is, twice rather than not at all.
+        var half = Border * new Vector<float>(0.5f);
+        var limitS = (HalfS - half) / HalfS;
+        var limitT = (HalfT - half) / HalfT;
         AddCorner(ref candidates, 8, -HalfX, -HalfY, inverse, limitS, limitT);
         AddCorner(ref candidates, 9, HalfX, -HalfY, inverse, limitS, limitT);
         AddCorner(ref candidates, 10, HalfX, HalfY, inverse, limitS, limitT);
