@@ -40,9 +40,15 @@ public struct BodySet
     public Buffer<BodyInertia> LocalInertias;
     /// <summary>Inverse inertia of each body in world axes; valid while the solver runs.</summary>
     internal Buffer<BodyInertia> WorldInertias;
-    /// <summary>Translation and rotation of each body since collision detection; valid while the solver runs.</summary>
+    /// <summary>
+    /// Translation and rotation of each body since collision detection. Between steps the translation is what was too small to change the
+    /// position: the part of the last step that rounding left over.
+    /// </summary>
     internal Buffer<BodyVelocity> Displacements;
-    /// <summary>Position of each body (w unused) when the step began, to which its whole translation is added once.</summary>
+    /// <summary>
+    /// Position of each body (w unused) when the step began, to which its whole translation is added once. Between steps: the position
+    /// that the last step wrote, by which a position that was written since is recognised.
+    /// </summary>
     internal Buffer<Vector4> StartPositions;
     /// <summary>Shape and collision settings of each body.</summary>
     public Buffer<Collidable> Collidables;
@@ -88,6 +94,8 @@ public struct BodySet
             IndexToHandle[index] = IndexToHandle[last];
             MotionStates[index] = MotionStates[last];
             LocalInertias[index] = LocalInertias[last];
+            Displacements[index] = Displacements[last];
+            StartPositions[index] = StartPositions[last];
             Collidables[index] = Collidables[last];
             Activity[index] = Activity[last];
             Constraints[index] = Constraints[last];
@@ -97,6 +105,7 @@ public struct BodySet
         LocalInertias[last] = default;
         WorldInertias[last] = default;
         Displacements[last] = default;
+        StartPositions[last] = default;
         Collidables[last] = default;
         Activity[last] = default;
         Constraints[last] = default;

@@ -78,7 +78,7 @@ public struct SpringSettingsWide : IWide<SpringSettings>
         var stiffest = new Vector<float>(substep.StiffestFrequencyDt);
         var given = AngularFrequency * substep.Dt;
         var rigid = Vector.Equals(given, Vector<float>.Zero);
-        var frequencyDt = Vector.ConditionalSelect(rigid, stiffest, Wide.Min(given, stiffest));
+        var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(substep.RigidFrequencyDt), Wide.Min(given, stiffest));
         var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(2), TwiceDampingRatio);
         var product = frequencyDt * sum;
         SoftnessWide softness;

@@ -101,6 +101,7 @@ static class FreeRotation
         }
         RotateV(rateV * innerDt, ref momentum, ref spin);
         RotateU(rateU * innerDt * half, ref momentum, ref spin);
+        momentum *= Ratio(length, momentum.Length());
 
         var inPrincipal = Cycle(new Vector3Wide(spin.X, spin.Y, spin.Z), middleY, middleX);
         spin = new(inPrincipal.X, inPrincipal.Y, inPrincipal.Z, spin.W);

@@ -12,7 +12,8 @@ namespace BepuPhysics;
 // the callbacks change the velocity for the next substep, and the inverse inertia is turned to the new orientation.
 //
 // The translations of a step's substeps are summed and added once: far from the origin a substep's translation may be too small to change
-// a position at all. Positions within the step are the position at its beginning plus that sum, rounded once.
+// a position at all. Positions within the step are the position at its beginning plus that sum, rounded once. What that rounding leaves
+// over at the end of the step is where the next sum begins, so that it does not add up from step to step.
 sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
 {
     const int FloatsPerRow = 8;
@@ -50,6 +51,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 MovePoses(ref set, motions, displacements, indices, kinematic, wideDt, localInertia, ref pose, ref velocity);
             if (stage == IntegrationStage.Last)
             {
+                End(ref set, displacements, indices, pose.Position);
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
                 continue;
@@ -105,15 +107,37 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             Vector.Equals(i.ZX, zero) & Vector.Equals(i.ZY, zero) & Vector.Equals(i.ZZ, zero);
     }
 
+    // A position that is not what the last step wrote was written since: nothing is left over from the step before.
     static void Begin(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide position)
     {
-        Rows8 none = default;
-        Transpose.Scatter(none, displacements, FloatsPerRow, indices);
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-        {
-            if (indices[lane] >= 0)
-                set.StartPositions[indices[lane]] = new(position.X[lane], position.Y[lane], position.Z[lane], 0);
-        }
+        ReadPositions(ref set, indices, out var written);
+        var kept = Vector.Equals(written.X, position.X) & Vector.Equals(written.Y, position.Y) & Vector.Equals(written.Z, position.Z);
+        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        Rows8 start = default;
+        start.R0 = Wide.Mask(kept, row.R0);
+        start.R1 = Wide.Mask(kept, row.R1);
+        start.R2 = Wide.Mask(kept, row.R2);
+        Transpose.Scatter(start, displacements, FloatsPerRow, indices);
+        WritePositions(ref set, indices, position);
+    }
+
+    // Exact by Dekker's two-sum, whichever of the two is larger: what a + b lost by rounding to sum.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> LeftOver(Vector<float> a, Vector<float> b, Vector<float> sum)
+    {
+        var second = sum - a;
+        return (a - (sum - second)) + (b - second);
+    }
+
+    static void End(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide position)
+    {
+        ReadPositions(ref set, indices, out var start);
+        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        row.R0 = LeftOver(start.X, row.R0, position.X);
+        row.R1 = LeftOver(start.Y, row.R1, position.Y);
+        row.R2 = LeftOver(start.Z, row.R2, position.Z);
+        Transpose.Scatter(row, displacements, FloatsPerRow, indices);
+        WritePositions(ref set, indices, position);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -130,7 +154,8 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         row.R6 = rotation.Z;
         Transpose.Scatter(row, displacements, FloatsPerRow, indices);
 
-        pose.Position = ReadStartPositions(ref set, indices) + translation;
+        ReadPositions(ref set, indices, out var start);
+        pose.Position = start + translation;
         var inverseInertia = localInertia.InverseInertiaTensor;
         switch (callbacks.AngularIntegrationMode)
         {
@@ -157,15 +182,23 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide ReadStartPositions(ref BodySet set, Vector<int> indices)
+    static void ReadPositions(ref BodySet set, Vector<int> indices, out Vector3Wide positions)
     {
-        Unsafe.SkipInit(out Vector3Wide positions);
+        Unsafe.SkipInit(out positions);
         for (int lane = 0; lane < Vector<int>.Count; ++lane)
         {
             ref var start = ref set.StartPositions[Math.Max(indices[lane], 0)];
             Lanes.Write(new Vector3(start.X, start.Y, start.Z), ref positions, lane);
         }
-        return positions;
+    }
+
+    static void WritePositions(ref BodySet set, Vector<int> indices, in Vector3Wide positions)
+    {
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+        {
+            if (indices[lane] >= 0)
+                set.StartPositions[indices[lane]] = new(positions.X[lane], positions.Y[lane], positions.Z[lane], 0);
+        }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -29,6 +29,7 @@ public interface IRowMatrix<TMatrix, TRows> where TMatrix : unmanaged where TRow
 }
 
 /// <summary>One row; also the 1 x 1 matrix over it.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct Rows1(Vector<float> x) : IRows<Rows1>, IRowMatrix<Rows1, Rows1>
 {
     /// <summary>The row.</summary>
@@ -59,6 +60,7 @@ public struct Rows1(Vector<float> x) : IRows<Rows1>, IRowMatrix<Rows1, Rows1>
 }
 
 /// <summary>Three rows.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct Rows3(in Vector3Wide v) : IRows<Rows3>
 {
     /// <summary>The rows.</summary>
@@ -87,6 +89,7 @@ public struct Rows3(in Vector3Wide v) : IRows<Rows3>
 }
 
 /// <summary>A symmetric 3 x 3 matrix over three rows.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct RowMatrix3(in Symmetric3x3Wide m) : IRowMatrix<RowMatrix3, Rows3>
 {
     /// <summary>The matrix.</summary>

@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Two rows.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct Rows2(in Vector2Wide v) : IRows<Rows2>
 {
     /// <summary>The rows.</summary>
@@ -31,6 +32,7 @@ public struct Rows2(in Vector2Wide v) : IRows<Rows2>
 }
 
 /// <summary>A symmetric 2 x 2 matrix over two rows.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct RowMatrix2(in Symmetric2x2Wide m) : IRowMatrix<RowMatrix2, Rows2>
 {
     /// <summary>The matrix.</summary>

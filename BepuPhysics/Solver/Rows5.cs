@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Three linear rows and two angular ones.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct Rows5(in Vector3Wide linear, in Vector2Wide angular) : IRows<Rows5>
 {
     /// <summary>The linear rows.</summary>
@@ -46,7 +47,8 @@ public struct RowMatrix5 : IRowMatrix<RowMatrix5, Rows5>
 
     /// <inheritdoc/>
     // By the Schur complement of the angular block: (L - C^T A^-1 C) x = u - C^T A^-1 v, then y = A^-1 v - A^-1 C x.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own: with it, a joint's kernel has more locals than the JIT tracks, and the rest would live in memory.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static Rows5 Solve(in RowMatrix5 matrix, in Rows5 rightSide)
     {
         var angular = new RowFactor2(matrix.Angular);

@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Three linear rows and three angular ones.</summary>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public struct Rows6(in Vector3Wide linear, in Vector3Wide angular) : IRows<Rows6>
 {
     /// <summary>The linear rows.</summary>
@@ -46,7 +47,8 @@ public struct RowMatrix6 : IRowMatrix<RowMatrix6, Rows6>
 
     /// <inheritdoc/>
     // By the Schur complement of the angular block: (L - C A^-1 C^T) x = u - C A^-1 v, then y = A^-1 v - A^-1 C^T x.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own: with it, a joint's kernel has more locals than the JIT tracks, and the rest would live in memory.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static Rows6 Solve(in RowMatrix6 matrix, in Rows6 rightSide)
     {
         var angular = new RowFactor3(matrix.Angular, RowFactor3.Trace(matrix.Angular));

@@ -26,7 +26,13 @@ public sealed unsafe partial class Solver
     /// <summary>Split bodies per block.</summary>
     const int SplitBodiesPerBlock = 64;
 
+    /// <summary>Part by which the length that sets the stiffness of rigid constraints may fall from one step to the next.</summary>
+    const float StiffeningPerStep = 0.05f;
+
     float previousSubstepDt;
+    // Longest substep of late. The depth at which a load rests goes with the square of the substep: if rigid constraints stiffened at once
+    // when a step is short, a stack would be shot up by the depth that the long step before had let it sink.
+    float steadySubstepDt;
 
     /// <summary>Stages that run between the others where a scene asks for them, in this order.</summary>
     internal List<ISolverStage> OptionalStages { get; } = [];
@@ -82,6 +88,7 @@ public sealed unsafe partial class Solver
         var substepDt = dt / substepCount;
         var scale = previousSubstepDt > 0 ? substepDt / previousSubstepDt : 1;
         previousSubstepDt = substepDt;
+        steadySubstepDt = MathF.Max(substepDt, steadySubstepDt * (1 - StiffeningPerStep));
 
         var work = new SolveWork
         {
@@ -252,7 +259,8 @@ public sealed unsafe partial class Solver
             }
         }
 
-        readonly Substep SubstepOf(in Stage stage) => new(stage.Substep, SubstepDt, stage.Iterations, stage.Substep == 0 ? FirstWarmStartScale : 1);
+        readonly Substep SubstepOf(in Stage stage) => 
+            new(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1, stage.Iterations, Solver.steadySubstepDt);
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {

@@ -155,6 +155,7 @@ public sealed unsafe partial class Solver
             HandleToConstraint[i].SetIndex = -1;
         HandlePool.Clear();
         previousSubstepDt = 0;
+        steadySubstepDt = 0;
     }
 
     void DisposeBatch(ref ConstraintBatch batch)

@@ -17,17 +17,21 @@ public readonly struct Substep
     /// </summary>
     public readonly float WarmStartScale;
 
+    /// <summary>Angular frequency of rigid constraints times the length of the substep; at most <see cref="StiffestFrequencyDt"/>.</summary>
+    public readonly float RigidFrequencyDt;
     /// <summary>Greatest angular frequency times the length of the substep at which its sweeps are stable.</summary>
     public readonly float StiffestFrequencyDt;
 
     /// <summary>Describes a substep.</summary>
     /// <param name="index">Index within the step, from 0.</param>
     /// <param name="dt">Length, s.</param>
-    /// <param name="iterations">Sweeps over the constraints.</param>
     /// <param name="warmStartScale">Ratio of the length to the last substep's.</param>
-    public Substep(int index, float dt, int iterations, float warmStartScale)
+    /// <param name="iterations">Sweeps over the constraints.</param>
+    /// <param name="steadyDt">Length of the longest substep of late, s, where that is more than <paramref name="dt"/>.</param>
+    public Substep(int index, float dt, float warmStartScale = 1, int iterations = 1, float steadyDt = 0)
     {
         StiffestFrequencyDt = MathF.Tau * SpringSettings.CyclesPerSubstep(iterations);
+        RigidFrequencyDt = StiffestFrequencyDt * (dt / MathF.Max(dt, steadyDt));
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;

@@ -54,7 +54,8 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own: inlined into the loop, it and the gathers are more than the JIT's inliner takes.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Solve(ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
         var softness = prestep.Material.SpringSettings.ForSubstep(substep);

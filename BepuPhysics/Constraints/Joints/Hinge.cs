@@ -56,8 +56,10 @@ public struct HingeGeometry
     public Vector3Wide OffsetA;
     /// <summary>From the centre of B to its anchor.</summary>
     public Vector3Wide OffsetB;
-    /// <summary>Two directions fixed to A, at right angles to its axis and to each other.</summary>
-    public Matrix2x3Wide Tangents;
+    /// <summary>A direction fixed to A, at right angles to its axis.</summary>
+    public Vector3Wide TangentX;
+    /// <summary>The direction fixed to A that completes the first and the axis to a right-handed frame.</summary>
+    public Vector3Wide TangentY;
 }
 
 /// <summary>Rows of <see cref="Hinge"/>.</summary>
@@ -78,11 +80,10 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
     {
         // The tangents are built in A's frame: built in the world they would jump somewhere as the axis turns, and the impulses with them.
         Vector3Wide.BuildOrthonormalBasis(prestep.LocalHingeAxisA, out var tangentX, out var tangentY);
-        var rotationA = Matrix3x3Wide.FromQuaternion(bodies.A.Orientation);
-        geometry.OffsetA = Matrix3x3Wide.TransposeTimes(rotationA, prestep.LocalOffsetA);
+        geometry.OffsetA = bodies.A.Orientation * prestep.LocalOffsetA;
         geometry.OffsetB = bodies.B.Orientation * prestep.LocalOffsetB;
-        geometry.Tangents.X = Matrix3x3Wide.TransposeTimes(rotationA, tangentX);
-        geometry.Tangents.Y = Matrix3x3Wide.TransposeTimes(rotationA, tangentY);
+        geometry.TangentX = bodies.A.Orientation * tangentX;
+        geometry.TangentY = bodies.A.Orientation * tangentY;
     }
 
     /// <inheritdoc/>
@@ -93,14 +94,15 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
         error.Linear = (bodies.A.Position - bodies.B.Position) + (geometry.OffsetA - geometry.OffsetB);
         // b in the frame (tx, ty, a) has the coordinates (x, y, z), so b x a = tx y - ty x, and the angle is that of (z, |x, y|).
         var axisB = bodies.B.Orientation * prestep.LocalHingeAxisB;
-        var inPlane = geometry.Tangents * axisB;
-        var sine = inPlane.Length();
-        var cosine = Vector3Wide.Dot(Vector3Wide.Cross(geometry.Tangents.X, geometry.Tangents.Y), axisB);
-        var angle = Wide.Atan2(sine, cosine);
+        var x = Vector3Wide.Dot(geometry.TangentX, axisB);
+        var y = Vector3Wide.Dot(geometry.TangentY, axisB);
+        var z = Vector3Wide.Dot(Vector3Wide.Cross(geometry.TangentX, geometry.TangentY), axisB);
+        var sine = Vector.SquareRoot(x * x + y * y);
+        var angle = Wide.Atan2(sine, z);
         var aligned = Vector.Equals(sine, Vector<float>.Zero);
         var scale = Wide.DivideOrZero(angle, sine);
-        error.Angular.X = Wide.Select(aligned, angle, inPlane.Y * scale);
-        error.Angular.Y = -inPlane.X * scale;
+        error.Angular.X = Wide.Select(aligned, angle, y * scale);
+        error.Angular.Y = -x * scale;
     }
 
     /// <inheritdoc/>
@@ -109,14 +111,16 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
     {
         velocity.Linear = bodies.A.Linear - bodies.B.Linear +
             Vector3Wide.Cross(bodies.A.Angular, geometry.OffsetA) - Vector3Wide.Cross(bodies.B.Angular, geometry.OffsetB);
-        velocity.Angular = geometry.Tangents * (bodies.A.Angular - bodies.B.Angular);
+        var angular = bodies.A.Angular - bodies.B.Angular;
+        velocity.Angular.X = Vector3Wide.Dot(geometry.TangentX, angular);
+        velocity.Angular.Y = Vector3Wide.Dot(geometry.TangentY, angular);
     }
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void ApplyImpulse(in HingeGeometry geometry, ref TwoBodies bodies, in Rows5 impulse)
     {
-        var angular = Matrix2x3Wide.TransposeTimes(geometry.Tangents, impulse.Angular);
+        var angular = geometry.TangentX * impulse.Angular.X + geometry.TangentY * impulse.Angular.Y;
         bodies.A.Linear += impulse.Linear * bodies.A.InverseMass;
         bodies.A.Angular += bodies.A.InverseInertia * (Vector3Wide.Cross(geometry.OffsetA, impulse.Linear) + angular);
         bodies.B.Linear -= impulse.Linear * bodies.B.InverseMass;
@@ -124,17 +128,22 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
     }
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own: with it, the kernel has more locals than the JIT tracks. What it reads and writes is in memory anyway.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void InverseEffectiveMass(in HingeGeometry geometry, in TwoBodies bodies, out RowMatrix5 inverseMass)
     {
         inverseMass.Linear = Symmetric3x3Wide.AddDiagonal(
             Symmetric3x3Wide.SkewSandwich(geometry.OffsetA, bodies.A.InverseInertia) + Symmetric3x3Wide.SkewSandwich(geometry.OffsetB, bodies.B.InverseInertia),
             bodies.A.InverseMass + bodies.B.InverseMass);
-        var responseA = geometry.Tangents * bodies.A.InverseInertia;
-        var responseB = geometry.Tangents * bodies.B.InverseInertia;
-        inverseMass.Coupling.X = Vector3Wide.Cross(responseA.X, geometry.OffsetA) + Vector3Wide.Cross(responseB.X, geometry.OffsetB);
-        inverseMass.Coupling.Y = Vector3Wide.Cross(responseA.Y, geometry.OffsetA) + Vector3Wide.Cross(responseB.Y, geometry.OffsetB);
-        inverseMass.Angular = Matrix2x3Wide.TimesTranspose(responseA + responseB, geometry.Tangents);
+        var responseAX = bodies.A.InverseInertia * geometry.TangentX;
+        var responseBX = bodies.B.InverseInertia * geometry.TangentX;
+        inverseMass.Coupling.X = Vector3Wide.Cross(responseAX, geometry.OffsetA) + Vector3Wide.Cross(responseBX, geometry.OffsetB);
+        inverseMass.Angular.XX = Vector3Wide.Dot(responseAX + responseBX, geometry.TangentX);
+        inverseMass.Angular.YX = Vector3Wide.Dot(responseAX + responseBX, geometry.TangentY);
+        var responseAY = bodies.A.InverseInertia * geometry.TangentY;
+        var responseBY = bodies.B.InverseInertia * geometry.TangentY;
+        inverseMass.Coupling.Y = Vector3Wide.Cross(responseAY, geometry.OffsetA) + Vector3Wide.Cross(responseBY, geometry.OffsetB);
+        inverseMass.Angular.YY = Vector3Wide.Dot(responseAY + responseBY, geometry.TangentY);
     }
 
     /// <inheritdoc/>
