@@ -18,7 +18,10 @@ static partial class SourceText
     public static IEnumerable<string> DeclaredTypes(string text) =>
         TypeDeclaration().Matches(Code(text)).Select(match => match.Groups["name"].Value).Distinct();
 
-    /// <summary>Names that a file uses and that may be types: identifiers that are no member of something.</summary>
+    /// <summary>
+    /// Names that a file uses and that may be types: identifiers that are no member of something, not assigned to and not called, unless
+    /// to make a new one.
+    /// </summary>
     public static IEnumerable<string> UsedNames(string text) =>
         Name().Matches(Code(text)).Select(match => match.Value).Distinct();
 
@@ -31,6 +34,6 @@ static partial class SourceText
     [GeneratedRegex(@"^(?:[a-z]+\s+)*(?:class|struct|interface|enum|record|delegate\s+[\w<>\[\]?]+)\s+(?<name>[A-Z]\w*)", RegexOptions.Multiline)]
     private static partial Regex TypeDeclaration();
 
-    [GeneratedRegex(@"(?<![\w.])[A-Z]\w+(?!\w)")]
+    [GeneratedRegex(@"(?<=\bnew )[A-Z]\w+|(?<![\w.])[A-Z]\w+\b(?!\s*(?:\(|=[^=>]))")]
     private static partial Regex Name();
 }

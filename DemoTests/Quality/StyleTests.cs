@@ -12,11 +12,9 @@ public class StyleTests(ITestOutputHelper output)
     const int AimedLines = 400;
     const int MostLines = 500;
     const int AimedWidth = 140;
-    // Beyond this a line is no longer a matter of taste.
     const int MostWidth = 160;
-
-    // Lines that were there when the limit was set; a list that only gets shorter.
-    static readonly Dictionary<string, int> wideLinesAllowed = WideLines.Allowed;
+    // Lines above the limit that were there when it was set. The number only goes down.
+    const int WideLinesLeft = 60;
 
     static readonly string[] projects = ["BepuUtilities", "BepuPhysics", "Demos", "DemoTests", "Benchmarks"];
 
@@ -42,6 +40,7 @@ public class StyleTests(ITestOutputHelper output)
     public void Lines_fit_beside_another_window()
     {
         List<string> tooWide = [];
+        int count = 0;
         foreach (var file in Files)
         {
             var widths = RepositoryFiles.Read(file).Split('\n').Select(line => line.TrimEnd().Length).ToArray();
@@ -49,10 +48,11 @@ public class StyleTests(ITestOutputHelper output)
             var aboveLimit = widths.Count(width => width > MostWidth);
             if (aboveAim > 0)
                 output.WriteLine($"{file}: {aboveAim} lines above {AimedWidth}");
-            if (aboveLimit > wideLinesAllowed.GetValueOrDefault(file))
+            count += aboveLimit;
+            if (aboveLimit > 0)
                 tooWide.Add($"{file}: {aboveLimit} lines above {MostWidth}");
         }
-        Assert.True(tooWide.Count == 0, string.Join('\n', tooWide));
+        Assert.True(count <= WideLinesLeft, $"{count} lines above {MostWidth}, {WideLinesLeft} allowed:\n{string.Join('\n', tooWide)}");
     }
 
     [Fact]
