@@ -19,7 +19,8 @@ static class DocSamples
     public static void HelloWorld()
     {
         using var pool = new BufferPool();
-        using var simulation = Simulation.Create(pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        using var simulation = Simulation.Create(
+            pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
 
         var floor = simulation.Shapes.Add(new Box(100, 1, 100));
         simulation.Statics.Add(new StaticDescription(new Vector3(0, -0.5f, 0), floor));
@@ -118,9 +119,11 @@ struct IceCallbacks : INarrowPhaseCallbacks
 
     public readonly void Initialize(Simulation simulation) { }
 
-    public readonly bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) => true;
+    public readonly bool AllowContactGeneration(
+        int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) => true;
 
-    public readonly bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
+    public readonly bool ConfigureContactManifold<TManifold>(
+        int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         var onIce = pair.B.Mobility == CollidableMobility.Static && pair.B.StaticHandle.Value == Ice.Value;
@@ -130,7 +133,8 @@ struct IceCallbacks : INarrowPhaseCallbacks
 
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 
-    public readonly bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
+    public readonly bool ConfigureContactManifold(
+        int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
 
     public readonly void Dispose() { }
 }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Numerics;
+using System.Text.RegularExpressions;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
@@ -37,7 +38,8 @@ public sealed class DocSamplesTests : IDisposable
     static string[] Lines(string text) => [.. text.Split('\n').Select(line => line.Trim()).Where(line => line.Length > 0)];
 
     // A using directive, not a using declaration of a variable.
-    static bool IsUsing(string line) => line.StartsWith("using ", StringComparison.Ordinal) && !line.Contains('=', StringComparison.Ordinal);
+    static bool IsUsing(string line) =>
+        line.StartsWith("using ", StringComparison.Ordinal) && !line.Contains('=', StringComparison.Ordinal);
 
     static bool Contains(string[] lines, string[] part)
     {
@@ -56,7 +58,9 @@ public sealed class DocSamplesTests : IDisposable
         foreach (var page in DocPages.All)
         {
             var folder = Path.GetDirectoryName(RepositoryFiles.PathOf(page))!;
-            broken.AddRange(DocPages.FileLinks(page).Where(link => !Path.Exists(Path.Combine(folder, link))).Select(link => $"{page}: {link}"));
+            broken.AddRange(DocPages.FileLinks(page)
+                .Where(link => !Path.Exists(Path.Combine(folder, link)))
+                .Select(link => $"{page}: {link}"));
         }
         Assert.Empty(broken);
     }
@@ -69,11 +73,8 @@ public sealed class DocSamplesTests : IDisposable
         {
             foreach (var file in RepositoryFiles.Find(folder, "*.cs"))
             {
-                foreach (System.Text.RegularExpressions.Match match in System.Text.RegularExpressions.Regex.Matches(RepositoryFiles.Read(file), @"Docs/[\w/]+\.md"))
-                {
-                    if (!File.Exists(RepositoryFiles.PathOf(match.Value)))
-                        missing.Add($"{file}: {match.Value}");
-                }
+                missing.AddRange(Regex.Matches(RepositoryFiles.Read(file), @"Docs/[\w/]+\.md").Select(match => match.Value)
+                    .Where(page => !File.Exists(RepositoryFiles.PathOf(page))).Select(page => $"{file}: {page}"));
             }
         }
         Assert.Empty(missing);
@@ -91,7 +92,8 @@ public sealed class DocSamplesTests : IDisposable
     {
         using var simulation = Simulation.Create(pool, callbacks, new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
         AddFloor(simulation);
-        var handle = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(0, 1.5f, 0), 1, simulation.Shapes, new Sphere(0.5f)));
+        var handle = simulation.Bodies.Add(
+            BodyDescription.CreateConvexDynamic(new Vector3(0, 1.5f, 0), 1, simulation.Shapes, new Sphere(0.5f)));
         bool hit = false;
         float height = 0;
         for (int i = 0; i < 90; ++i)
@@ -114,7 +116,8 @@ public sealed class DocSamplesTests : IDisposable
 
     float SlidingSpeed(bool onIce)
     {
-        using var simulation = Simulation.Create(pool, new IceCallbacks { Ice = new StaticHandle(onIce ? 0 : 99) }, new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        var callbacks = new IceCallbacks { Ice = new StaticHandle(onIce ? 0 : 99) };
+        using var simulation = Simulation.Create(pool, callbacks, new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
         AddFloor(simulation);
         var handle = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(
             new Vector3(0, 0.5f, 0), new BodyVelocity(new Vector3(1, 0, 0)), 1, simulation.Shapes, new Box(1, 1, 1)));
@@ -180,7 +183,8 @@ public sealed class DocSamplesTests : IDisposable
     [Fact]
     public void The_pair_of_the_recipe_keeps_spheres_apart()
     {
-        using var simulation = Simulation.Create(pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        using var simulation = Simulation.Create(
+            pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
         DocSamples.RegisterPair(simulation);
         simulation.Statics.Add(new StaticDescription(Vector3.Zero, simulation.Shapes.Add(new Sphere(1))));
         var body = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(0, 2.1f, 0), 1, simulation.Shapes, new Sphere(1)));

@@ -42,7 +42,8 @@ public class LayeringTests
         var files = LibraryFiles("BepuPhysics").ToDictionary(file => file, RepositoryFiles.Read);
         var used = files.SelectMany(file => SourceText.UsedNames(file.Value).Select(name => (LayerOf(file.Key), name))).ToHashSet();
         var layerOfType = FindTypes(files);
-        Assert.Empty(exceptions.Where(e => !used.Contains((e.Layer, e.Type)) || !layerOfType.TryGetValue(e.Type, out var other) || Allows(e.Layer, other)));
+        Assert.Empty(exceptions.Where(e =>
+            !used.Contains((e.Layer, e.Type)) || !layerOfType.TryGetValue(e.Type, out var other) || Allows(e.Layer, other)));
     }
 
     [Theory, InlineData("BepuPhysics"), InlineData("BepuUtilities")]
@@ -108,7 +109,8 @@ public class LayeringTests
     // Rows of the table whose head has these cells.
     static IEnumerable<string[]> ReadTable(params string[] head)
     {
-        var rows = DocPages.TableRows(Page).SkipWhile(row => !row.SequenceEqual(head)).Skip(2).TakeWhile(row => row.Length == head.Length).ToArray();
+        var rows = DocPages.TableRows(Page).SkipWhile(row => !row.SequenceEqual(head)).Skip(2)
+            .TakeWhile(row => row.Length == head.Length).ToArray();
         Assert.True(rows.Length > 0, $"{Page} has no table of {string.Join(", ", head)}.");
         // Tables of as many columns may follow: each begins with a head and a rule.
         var rule = Array.FindIndex(rows, row => row[0].StartsWith("--", StringComparison.Ordinal));

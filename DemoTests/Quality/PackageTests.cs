@@ -31,7 +31,8 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         Assert.Equal("README.md", Find("readme")?.Value);
         Assert.False(string.IsNullOrWhiteSpace(Find("description")?.Value));
         // Nothing outside the framework but the sister library.
-        var dependencies = metadata.Descendants().Where(element => element.Name.LocalName == "dependency").Select(element => element.Attribute("id")!.Value);
+        var dependencies = metadata.Descendants().Where(element => element.Name.LocalName == "dependency")
+            .Select(element => element.Attribute("id")!.Value);
         Assert.Equal(id == "Tootbird.BepuPhysics" ? ["Tootbird.BepuUtilities"] : [], dependencies);
     }
 

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.Linq;
 using System.Reflection;
 using System.Runtime.CompilerServices;
@@ -9,7 +10,8 @@ namespace DemoTests.Quality;
 /// <summary>Writes the public surface of an assembly as text: a line per type and member, in order.</summary>
 static class PublicApi
 {
-    const BindingFlags Declared = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.Instance | BindingFlags.DeclaredOnly;
+    const BindingFlags Declared =
+        BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.Instance | BindingFlags.DeclaredOnly;
 
     /// <summary>Lines of all public types.</summary>
     public static IEnumerable<string> Describe(Assembly assembly)
@@ -25,7 +27,8 @@ static class PublicApi
     static string Kind(Type type) =>
         type.IsEnum ? "enum" : type.IsInterface ? "interface" : typeof(Delegate).IsAssignableFrom(type) ? "delegate" :
         type.IsValueType ? (type.IsDefined(typeof(IsReadOnlyAttribute), false) ? "readonly struct" : "struct") :
-        type is { IsAbstract: true, IsSealed: true } ? "static class" : type.IsAbstract ? "abstract class" : type.IsSealed ? "sealed class" : "class";
+        type is { IsAbstract: true, IsSealed: true } ? "static class" :
+        type.IsAbstract ? "abstract class" : type.IsSealed ? "sealed class" : "class";
 
     static IEnumerable<string> Members(Type type)
     {
@@ -35,7 +38,8 @@ static class PublicApi
         var members = type.GetInterfaces().Where(contract => contract.IsVisible).Select(contract => $": {Name(contract)}");
         members = members.Concat(type.GetFields(Declared).Where(field => IsVisible(field.Attributes)).Select(Describe));
         members = members.Concat(type.GetConstructors(Declared).Where(IsVisible).Select(constructor => $"ctor({Parameters(constructor)})"));
-        return members.Concat(type.GetMethods(Declared).Where(method => IsVisible(method) && !IsWrittenByCompiler(method)).Select(Describe));
+        return members.Concat(type.GetMethods(Declared)
+            .Where(method => IsVisible(method) && !IsWrittenByCompiler(method)).Select(Describe));
     }
 
     static bool IsVisible(FieldAttributes attributes) =>
@@ -44,11 +48,12 @@ static class PublicApi
     // Explicit implementations of an interface are private and have a dot in their names.
     static bool IsVisible(MethodBase method) => method.IsPublic || method.IsFamily || method.IsFamilyOrAssembly;
 
-    static bool IsWrittenByCompiler(MethodInfo method) => method.IsDefined(typeof(CompilerGeneratedAttribute), false) && !method.IsSpecialName;
+    static bool IsWrittenByCompiler(MethodInfo method) =>
+        method.IsDefined(typeof(CompilerGeneratedAttribute), false) && !method.IsSpecialName;
 
     static string Describe(FieldInfo field) => field switch
     {
-        { IsLiteral: true } => string.Create(null, $"const {Name(field.FieldType)} {field.Name} = {Convert.ToString(field.GetRawConstantValue(), System.Globalization.CultureInfo.InvariantCulture)}"),
+        { IsLiteral: true } => $"const {Name(field.FieldType)} {field.Name} = {Text(field.GetRawConstantValue())}",
         { IsStatic: true } => $"static {Name(field.FieldType)} {field.Name}",
         { IsInitOnly: true } => $"readonly {Name(field.FieldType)} {field.Name}",
         _ => $"{Name(field.FieldType)} {field.Name}",
@@ -69,8 +74,11 @@ static class PublicApi
     {
         var passing = !parameter.ParameterType.IsByRef ? "" : parameter.IsOut ? "out " : parameter.IsIn ? "in " : "ref ";
         var type = parameter.ParameterType.IsByRef ? Name(parameter.ParameterType.GetElementType()!) : Name(parameter.ParameterType);
-        return $"{passing}{type} {parameter.Name}{(parameter.IsOptional ? " = " + (parameter.RawDefaultValue is null ? "default" : Convert.ToString(parameter.RawDefaultValue, System.Globalization.CultureInfo.InvariantCulture)) : "")}";
+        var standard = parameter.IsOptional ? $" = {Text(parameter.RawDefaultValue)}" : "";
+        return $"{passing}{type} {parameter.Name}{standard}";
     }
+
+    static string? Text(object? value) => value is null ? "default" : Convert.ToString(value, CultureInfo.InvariantCulture);
 
     static string Constrained(Type parameter)
     {
@@ -84,7 +92,8 @@ static class PublicApi
     static string FullName(Type type)
     {
         var prefix = type.IsNested ? FullName(type.DeclaringType!) + "." : type.Namespace + ".";
-        var own = type.IsGenericTypeDefinition ? type.GetGenericArguments().Skip(type.DeclaringType?.GetGenericArguments().Length ?? 0).ToArray() : [];
+        var outer = type.DeclaringType?.GetGenericArguments().Length ?? 0;
+        var own = type.IsGenericTypeDefinition ? type.GetGenericArguments().Skip(outer).ToArray() : [];
         return prefix + Bare(type.Name) + (own.Length > 0 ? $"<{string.Join(", ", own.Select(Constrained))}>" : "");
     }
 

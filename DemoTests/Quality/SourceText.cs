@@ -25,13 +25,17 @@ static partial class SourceText
     public static IEnumerable<string> UsedNames(string text) =>
         Name().Matches(Code(text)).Select(match => match.Value).Distinct();
 
-    [GeneratedRegex(@"//[^\n]*|/\*.*?\*/|""""""(?s:.*?)""""""|@""(?:[^""]|"""")*""|""(?:\\.|[^""\\\n])*""|^using\s[^(=;]*;", RegexOptions.Multiline | RegexOptions.Singleline)]
+    [GeneratedRegex(
+        @"//[^\n]*|/\*.*?\*/|""""""(?s:.*?)""""""|@""(?:[^""]|"""")*""|""(?:\\.|[^""\\\n])*""|^using\s[^(=;]*;",
+        RegexOptions.Multiline | RegexOptions.Singleline)]
     private static partial Regex Noise();
 
     [GeneratedRegex(@"^namespace\s+(?<name>[\w.]+)\s*;", RegexOptions.Multiline)]
     private static partial Regex NamespaceDeclaration();
 
-    [GeneratedRegex(@"^(?:[a-z]+\s+)*(?:class|struct|interface|enum|record|delegate\s+[\w<>\[\]?]+)\s+(?<name>[A-Z]\w*)", RegexOptions.Multiline)]
+    [GeneratedRegex(
+        @"^(?:[a-z]+\s+)*(?:class|struct|interface|enum|record|delegate\s+[\w<>\[\]?]+)\s+(?<name>[A-Z]\w*)",
+        RegexOptions.Multiline)]
     private static partial Regex TypeDeclaration();
 
     [GeneratedRegex(@"(?<=\bnew )[A-Z]\w+|(?<![\w.])[A-Z]\w+\b(?!\s*(?:\(|=[^=>]))")]
