@@ -7,6 +7,9 @@ namespace BepuPhysics;
 // The step. DefaultTimestepper calls these stages in order; Docs/Timestep.md says what each reads and writes.
 public sealed partial class Simulation
 {
+    // A second is far beyond what any step can simulate; this bounds what the numbers can bear.
+    const float MaximumDt = 1e6f;
+
     /// <summary>Advances the simulation.</summary>
     /// <param name="dt">Time to advance by, s; above 0. May change from step to step.</param>
     /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
@@ -51,7 +54,7 @@ public sealed partial class Simulation
 
     static void CheckDt(float dt)
     {
-        if (!(dt > 0 && float.IsFinite(dt)))
-            throw new ArgumentOutOfRangeException(nameof(dt), dt, "The time of a step must be finite and above 0.");
+        if (!(dt > 0 && dt <= MaximumDt))
+            throw new ArgumentOutOfRangeException(nameof(dt), dt, $"The time of a step must be above 0 and at most {MaximumDt} s.");
     }
 }

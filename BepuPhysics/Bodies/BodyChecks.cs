@@ -11,6 +11,8 @@ static class BodyChecks
     internal const float MaximumPosition = 1e12f;
     /// <summary>Greatest component of a velocity, m/s or rad/s.</summary>
     internal const float MaximumVelocity = 1e12f;
+    /// <summary>Greatest component of an impulse, N s, or of the arm at which it acts, m.</summary>
+    const float MaximumImpulse = 1e15f;
     /// <summary>Greatest inverse mass and least mass; the reciprocal bounds the other end.</summary>
     internal const float MaximumInverseMass = 1e15f;
     const float MinimumInverseMass = 1e-15f;
@@ -63,7 +65,7 @@ static class BodyChecks
             throw new ArgumentException("The sleep threshold must not be NaN.", nameof(activity));
     }
 
-    internal static void Vector(Vector3 value, string name) => Bounded(value, float.MaxValue, name);
+    internal static void Vector(Vector3 value, string name) => Bounded(value, MaximumImpulse, name);
 
     static void Bounded(Vector3 value, float maximum, string name)
     {

@@ -46,7 +46,7 @@ public struct BodySet
     /// </summary>
     internal Buffer<BodyVelocity> Displacements;
     /// <summary>
-    /// Position of each body (w unused) when the step began, to which its whole translation is added once. Between steps: the position
+    /// Position of each body when the step began, to which its whole translation is added once. Between steps: the position
     /// that the last step wrote, by which a position that was written since is recognised.
     /// </summary>
     internal Buffer<Vector4> StartPositions;

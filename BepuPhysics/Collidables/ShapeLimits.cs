@@ -23,6 +23,9 @@ static class ShapeLimits
             throw new ArgumentOutOfRangeException(field, size, $"{field} of a {shape} must be from {MinimumSize} to {MaximumSize} m.");
     }
 
+    /// <summary>Least and greatest mass of a body, kg.</summary>
+    public const float MinimumMass = 1e-15f, MaximumMass = 1e15f;
+
     /// <summary>Refuses a half length outside zero and the upper limit; NaN is outside.</summary>
     public static void CheckSizeOrZero(float size, string shape, string field)
     {
@@ -42,8 +45,8 @@ static class ShapeLimits
         };
         ref var tensor = ref inertia.InverseInertiaTensor;
         var isInRange = float.IsNormal(inverseMass) && float.IsNormal(tensor.XX) && float.IsNormal(tensor.YY) && float.IsNormal(tensor.ZZ);
-        if (!(mass > 0) || !isInRange)
-            throw new ArgumentOutOfRangeException(nameof(mass), mass, "A mass must be positive, and its inverse a normal number.");
+        if (!(mass >= MinimumMass && mass <= MaximumMass) || !isInRange)
+            throw new ArgumentOutOfRangeException(nameof(mass), mass, $"A mass must be from {MinimumMass} to {MaximumMass} kg.");
         return inertia;
     }
 }

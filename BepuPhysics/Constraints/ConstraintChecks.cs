@@ -10,11 +10,13 @@ static class ConstraintChecks
     /// <summary>Longest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
     // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find a vector never normalised.
     const float UnitTolerance = 1e-2f;
+    /// <summary>Greatest length of an offset, m: squares and products with velocities must stay finite in float.</summary>
+    const float MaximumLength = 1e12f;
 
     internal static void Finite(Vector3 value, string name)
     {
-        if (!float.IsFinite(value.X) || !float.IsFinite(value.Y) || !float.IsFinite(value.Z))
-            throw new ArgumentException($"{name} must be finite, not {value}.", name);
+        if (!(MathF.Abs(value.X) <= MaximumLength && MathF.Abs(value.Y) <= MaximumLength && MathF.Abs(value.Z) <= MaximumLength))
+            throw new ArgumentException($"{name} must be finite and at most {MaximumLength} in each component, not {value}.", name);
     }
 
     internal static void Finite(float value, string name)

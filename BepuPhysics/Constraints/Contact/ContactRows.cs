@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuUtilities;
 
@@ -74,6 +75,42 @@ unsafe readonly ref struct ContactRows
         ref var velocityB = ref set.MotionStates[b].Velocity;
         velocityB.Linear -= normal * (change * other.InverseMass);
         velocityB.Angular += other.InverseInertiaTensor * (angularB * change);
+    }
+
+    /// <summary>Whether the contact is with a static.</summary>
+    internal bool HasOneBody => b < 0;
+
+    /// <summary>Kinetic energy of A, J; of its rotation only where it can turn about every axis.</summary>
+    internal float KineticEnergyOfA() => EnergyProduct(set.MotionStates[a].Velocity, set.MotionStates[a].Velocity) * 0.5f;
+
+    /// <summary>Takes back as much of the impulses that were just applied as leaves A with no more than a kinetic energy.</summary>
+    // With the part x of the change of velocity d taken back, the energy is E(v) - x <v, d> + x^2 <d, d> / 2: the smaller root.
+    internal void LimitEnergyOfA(float maximum, in FourFloats normalImpulses)
+    {
+        ref var inertia = ref set.WorldInertias[a];
+        BodyVelocity change = default;
+        for (int i = 0; i < contactCount; ++i)
+        {
+            change.Linear += normal * (normalImpulses[i] * inertia.InverseMass);
+            change.Angular += inertia.InverseInertiaTensor * (Exact.Cross(Arm(i), normal) * normalImpulses[i]);
+        }
+        ref var velocity = ref set.MotionStates[a].Velocity;
+        var excess = EnergyProduct(velocity, velocity) * 0.5f - maximum;
+        var along = EnergyProduct(velocity, change);
+        var square = EnergyProduct(change, change);
+        if (!(excess > 0) || !(along > 0) || !(square > 0))
+            return;
+        var part = MathHelper.Min(1, (along - MathF.Sqrt(MathHelper.Max(0, along * along - 2 * square * excess))) / square);
+        velocity.Linear -= change.Linear * part;
+        velocity.Angular -= change.Angular * part;
+    }
+
+    // The product of two velocities with the mass of A between them: twice the kinetic energy, for one and the same.
+    float EnergyProduct(in BodyVelocity x, in BodyVelocity y)
+    {
+        ref var inertia = ref set.WorldInertias[a];
+        var linear = inertia.InverseMass > 0 ? Exact.Dot(x.Linear, y.Linear) / inertia.InverseMass : 0;
+        return linear + Exact.Dot(x.Angular, Symmetric3x3.Invert(inertia.InverseInertiaTensor) * y.Angular);
     }
 
     float Along(int contact, in BodyVelocity motionA, in BodyVelocity motionB)

@@ -13,7 +13,9 @@ namespace BepuPhysics.Constraints.Contact;
 // within a substep it happened to fall.
 //
 // After the last substep each contact that was hit gets the velocity -e times its speed of impact, by sequential impulses over the hit
-// contacts alone. Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
+// contacts alone. The corners of a box do not hit at the same instant: the first to stop turns the box about itself, and the next hits the
+// faster for it. To give each its own speed of impact back would give that energy twice; so a body that bounces off the world ends
+// with no more kinetic energy than it had before the first of its impacts. Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
 sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     const int PairsPerBlock = 64;
@@ -37,6 +39,9 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         // Normal velocity at the instant of impact; 0 where there was none.
         public FourFloats Impact;
         public FourFloats Impulse;
+        // Kinetic energy of A before the first impact.
+        public float Energy;
+        public bool Hit;
     }
 
     /// <summary>Watches a contact constraint in the coming step.</summary>
@@ -87,6 +92,8 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             pair.Current[i] = rows.NormalVelocity(i);
             pair.Gap[i] = rows.Gap(i);
         }
+        if (!pair.Hit)
+            pair.Energy = rows.KineticEnergyOfA();
     }
 
     static void NoteImpacts(ref BouncingPair pair, in ContactRows rows, in Substep substep)
@@ -97,6 +104,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
                 continue;
             var part = MathHelper.Clamp(pair.Gap[i] / (-pair.Current[i] * substep.Dt), 0, 1);
             pair.Impact[i] = pair.Previous[i] + (pair.Current[i] - pair.Previous[i]) * part;
+            pair.Hit = true;
         }
     }
 
@@ -116,6 +124,18 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
                         rows.Push(j, -pair.Coefficient * pair.Impact[j], ref pair.Impulse[j]);
                 }
             }
+        }
+        LimitEnergy();
+    }
+
+    void LimitEnergy()
+    {
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            ref var pair = ref pairs[i];
+            var rows = new ContactRows(solver, bodies, pair.Constraint, pair.ContactCount);
+            if (pair.Hit && rows.HasOneBody)
+                rows.LimitEnergyOfA(pair.Energy, pair.Impulse);
         }
     }
 

@@ -28,8 +28,7 @@ public struct TwistLimit : ITwoBodyConstraintDescription<TwistLimit>
     {
         ConstraintChecks.Unit(LocalBasisA, nameof(LocalBasisA));
         ConstraintChecks.Unit(LocalBasisB, nameof(LocalBasisB));
-        ConstraintChecks.Finite(MinimumAngle, nameof(MinimumAngle));
-        ConstraintChecks.Finite(MaximumAngle, nameof(MaximumAngle));
+        ConstraintChecks.Order(MinimumAngle, MaximumAngle, nameof(MinimumAngle), nameof(MaximumAngle));
         ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
     }
 }
