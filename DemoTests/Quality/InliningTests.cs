@@ -3,7 +3,6 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using BepuUtilities.Memory;
 using Xunit;
 

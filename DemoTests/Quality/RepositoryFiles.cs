@@ -29,7 +29,7 @@ static class RepositoryFiles
     /// <summary>Content of a file of the repository.</summary>
     public static string Read(string relativePath) => File.ReadAllText(PathOf(relativePath));
 
-    /// <summary>Files below a folder, by path relative to the repository, with slashes, in order; none of what builds leave behind.</summary>
+    /// <summary>Files below a folder, by path relative to the repository, with slashes, in order; not what builds leave behind.</summary>
     public static IReadOnlyList<string> Find(string folder, string pattern) =>
         [.. Directory.EnumerateFiles(PathOf(folder), pattern, SearchOption.AllDirectories)
             .Select(path => Path.GetRelativePath(Root, path).Replace('\\', '/'))
