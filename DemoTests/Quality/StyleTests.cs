@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Xunit;
+using Xunit.Abstractions;
+
+namespace DemoTests.Quality;
+
+/// <summary>Sizes that keep files readable. Aims are reported, limits are kept.</summary>
+public class StyleTests(ITestOutputHelper output)
+{
+    const int AimedLines = 400;
+    const int MostLines = 500;
+    const int AimedWidth = 140;
+    const int MostWidth = 160;
+    // Lines above the limit that were there when it was set. The number only goes down.
+    const int WideLinesLeft = 70;
+
+    static readonly string[] projects = ["BepuUtilities", "BepuPhysics", "Demos", "DemoTests", "Benchmarks"];
+
+    static IEnumerable<string> Files => projects.SelectMany(project => RepositoryFiles.Find(project, "*.cs"))
+        .Where(file => !file.EndsWith(".g.cs", StringComparison.Ordinal));
+
+    [Fact]
+    public void Files_are_short()
+    {
+        List<string> tooLong = [];
+        foreach (var file in Files)
+        {
+            var count = RepositoryFiles.Read(file).TrimEnd().Split('\n').Length;
+            if (count > AimedLines)
+                output.WriteLine($"{file}: {count} lines, aimed at {AimedLines}");
+            if (count > MostLines)
+                tooLong.Add($"{file}: {count} lines");
+        }
+        Assert.Empty(tooLong);
+    }
+
+    [Fact]
+    public void Lines_fit_beside_another_window()
+    {
+        List<string> tooWide = [];
+        int count = 0;
+        foreach (var file in Files)
+        {
+            var widths = RepositoryFiles.Read(file).Split('\n').Select(line => line.TrimEnd().Length).ToArray();
+            var aboveAim = widths.Count(width => width > AimedWidth);
+            var aboveLimit = widths.Count(width => width > MostWidth);
+            if (aboveAim > 0)
+                output.WriteLine($"{file}: {aboveAim} lines above {AimedWidth}");
+            count += aboveLimit;
+            if (aboveLimit > 0)
+                tooWide.Add($"{file}: {aboveLimit} lines above {MostWidth}");
+        }
+        Assert.True(count <= WideLinesLeft, $"{count} lines above {MostWidth}, {WideLinesLeft} allowed:\n{string.Join('\n', tooWide)}");
+    }
+
+    [Fact]
+    public void Sources_do_not_use_what_the_style_leaves_out()
+    {
+        List<string> found = [];
+        foreach (var file in Files)
+        {
+            var lines = RepositoryFiles.Read(file).Split('\n').Select(line => line.TrimStart());
+            foreach (var line in lines)
+            {
+                if (line.StartsWith("#region", StringComparison.Ordinal) || line.StartsWith("global using", StringComparison.Ordinal) ||
+                    (line.StartsWith("#if", StringComparison.Ordinal) && !file.Contains("/Diagnostics/", StringComparison.Ordinal)))
+                    found.Add($"{file}: {line}");
+            }
+        }
+        Assert.Empty(found);
+    }
+}

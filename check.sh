@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# The whole CI as one local command: everything that a change must pass. Needs the .NET SDK and nothing else.
+#
+#   ./check.sh            all steps
+#   ./check.sh --format   the layout of the sources too
+#
+# SCENES=FOLDER runs the .scene files of a folder besides the built-in scenes; without it, and with a scene generator beside the
+# repository, those that it writes are run. The last line is "N passed, N failed": tests, scenes and steps, taken from their results.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
+
+export DOTNET_CLI_TELEMETRY_OPTOUT=1 DOTNET_NOLOGO=1 CI=true
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+passed=0
+failed=0
+failures=()
+
+pass() { passed=$((passed + 1)); }
+
+fail() {
+    failed=$((failed + 1))
+    failures+=("$1")
+    echo "FAILED: $1"
+}
+
+# step NAME COMMAND...: one result, with its time; the output is shown where it fails.
+step() {
+    local name="$1" start=$SECONDS log="$work/step.log"
+    shift
+    if "$@" > "$log" 2>&1; then
+        pass
+        printf '%-44s passed  %4d s\n' "$name" $((SECONDS - start))
+        return 0
+    fi
+    tail -n 80 "$log"
+    fail "$name"
+    printf '%-44s FAILED  %4d s\n' "$name" $((SECONDS - start))
+    return 1
+}
+
+finish() {
+    if ((failed > 0)); then
+        echo
+        printf 'failed: %s\n' "${failures[@]}"
+    fi
+    echo
+    printf 'time: %d s\n' "$SECONDS"
+    printf '%d passed, %d failed\n' "$passed" "$failed"
+    exit $((failed > 0))
+}
+
+# Warnings are errors in every project.
+build() { dotnet build -c Release -warnaserror; }
+
+pack() {
+    local project extension
+    for project in BepuUtilities BepuPhysics; do
+        dotnet pack "$project" -c Release --no-build --output "$work/packages" || return 1
+        for extension in nupkg snupkg; do
+            compgen -G "$work/packages/Tootbird.$project.[0-9]*.$extension" || { echo "no $extension of $project"; return 1; }
+        done
+    done
+}
+
+# Reads a counter of a test report.
+counter() { grep -o '<Counters [^>]*' "$work/tests/tests.trx" | grep -o " $1=\"[0-9]*\"" | grep -o '[0-9]*' | head -n 1; }
+
+# The tests, by the command of the readme. Each test is a result.
+run_tests() {
+    local start=$SECONDS log="$work/tests.log" status good bad
+    PHYSICS_PACKAGES="$work/packages" dotnet test -c Release --no-build --logger "trx;LogFileName=tests.trx" --results-directory "$work/tests" \
+        --blame-hang-timeout 8m --blame-hang-dump-type none > "$log" 2>&1
+    status=$?
+    if [[ ! -f "$work/tests/tests.trx" ]]; then
+        tail -n 80 "$log"
+        fail "tests: no report"
+        return
+    fi
+    good=$(counter passed)
+    bad=$(($(counter failed) + $(counter error) + $(counter timeout) + $(counter aborted)))
+    passed=$((passed + good))
+    failed=$((failed + bad))
+    if ((bad > 0)); then
+        grep -vE '^\s+at |^\[xUnit' "$log" | tail -n 200
+        failures+=("$bad tests")
+    elif ((status != 0)); then
+        tail -n 80 "$log"
+        fail "tests: exit status $status"
+    elif ((good == 0)); then
+        fail "tests: none ran"
+    fi
+    printf '%-44s %d passed, %d failed  %4d s\n' "tests" "$good" "$bad" $((SECONDS - start))
+}
+
+demos() { dotnet artifacts/bin/Demos/release/Demos.dll "$@"; }
+
+# A scene file may need a shape that there is not yet: then it must be refused with status 1 and a message that names the shape.
+scene_file() {
+    local status word
+    demos run "$1" --steps 20 2> "$work/refusal"
+    status=$?
+    cat "$work/refusal"
+    ((status == 0)) && return 0
+    ((status == 1)) || return 1
+    word=$(grep -oE "'(cylinder|hull|mesh|compound)' .*not supported" "$work/refusal" | grep -oE '[a-z]+' | head -n 1)
+    [[ -n "$word" ]] || return 1
+    # A compound is no word of the format but a body of several or displaced shapes.
+    [[ "$word" == compound ]] || grep -qE "^[[:space:]]*$word[[:space:]]" "$1"
+}
+
+run_scenes() {
+    local name file folder="${SCENES:-}"
+    demos list > "$work/list" || { fail "list of scenes"; return; }
+    [[ -s "$work/list" ]] || fail "list of scenes is empty"
+    for name in $(awk '{ print $1 }' "$work/list"); do
+        step "scene $name" demos run "$name" --steps 20
+    done
+    if [[ -z "$folder" && -f ../shared/tools/make-scenes ]] && command -v python3 > "$work/which"; then
+        folder="$work/scenes"
+        step "make scenes" python3 ../shared/tools/make-scenes "$folder" || return
+    fi
+    [[ -n "$folder" ]] || return
+    for file in "$folder"/*.scene; do
+        [[ -f "$file" ]] && step "scene $(basename "$file")" scene_file "$file"
+    done
+}
+
+# Every benchmark once, in this process: whether it runs, not how fast it is.
+run_benchmarks() {
+    local benchmarks=artifacts/bin/Benchmarks/release/Benchmarks.dll count
+    dotnet "$benchmarks" --list flat > "$work/benchmarks" 2>&1
+    count=$(grep -cE '^[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)+(\(|$)' "$work/benchmarks")
+    if ((count == 0)); then
+        echo "benchmarks: there are none"
+        return
+    fi
+    step "benchmarks, dry ($count)" dry_run "$benchmarks"
+}
+
+dry_run() {
+    local log="$work/dry.log"
+    dotnet "$1" --filter '*' --job Dry --inProcess --artifacts "$work/benchmarks-artifacts" > "$log" 2>&1
+    local status=$?
+    cat "$log"
+    ((status == 0)) && grep -qE 'executed benchmarks: [1-9]' "$log" && ! grep -qE 'Benchmarks with issues|There are not any results' "$log"
+}
+
+step "build" build || finish
+step "pack" pack
+run_tests
+run_scenes
+run_benchmarks
+[[ "${1:-}" == --format ]] && step "format" dotnet format --verify-no-changes --no-restore
+finish
