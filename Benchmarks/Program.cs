@@ -1,7 +1,16 @@
 using BenchmarkDotNet.Running;
 using Benchmarks.Compare;
+using Benchmarks.Smoke;
 
-if (args is ["compare", ..])
-    return CompareCommand.Run(args[1..]);
-BenchmarkSwitcher.FromAssembly(typeof(CompareCommand).Assembly).Run(args);
-return 0;
+return args switch
+{
+    ["compare", ..] => CompareCommand.Run(args[1..]),
+    ["smoke"] => SmokeCommand.Run(),
+    _ => Measure(args),
+};
+
+static int Measure(string[] arguments)
+{
+    BenchmarkSwitcher.FromAssembly(typeof(CompareCommand).Assembly).Run(arguments);
+    return 0;
+}

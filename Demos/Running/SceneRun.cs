@@ -134,6 +134,9 @@ public sealed class SceneRun : IDisposable
         };
     }
 
+    /// <summary>Takes one step and measures nothing, for those who measure it themselves.</summary>
+    public void Step() => simulation.Timestep(settings.StepDuration, dispatcher);
+
     /// <summary>Where a body is turned to now. Bodies count in the scene's order, statics left out.</summary>
     public Quaternion Orientation(int bodyIndex) => built[bodyIndex].Pose.Orientation;
 
