@@ -76,11 +76,8 @@ public sealed unsafe class Statics
             for (int i = previous; i < HandleToIndex.Length; ++i)
                 HandleToIndex[i] = -1;
         }
-        if (Count == StaticsBuffer.Length)
-        {
-            pool.ResizeToAtLeast(ref StaticsBuffer, Count * 2, Count);
-            pool.ResizeToAtLeast(ref IndexToHandle, Count * 2, Count);
-        }
+        if (Count == Capacity)
+            EnsureCapacity(Count * 2);
         var index = Count++;
         HandleToIndex[handle.Value] = index;
         IndexToHandle[index] = handle;
@@ -165,10 +162,13 @@ public sealed unsafe class Statics
         UpdateBoundsAt(HandleToIndex[handle.Value]);
     }
 
+    // A pool may lend more than was asked for, and not to both alike.
+    int Capacity => Math.Min(StaticsBuffer.Length, IndexToHandle.Length);
+
     /// <summary>Makes room for statics.</summary>
     public void EnsureCapacity(int capacity)
     {
-        if (capacity <= StaticsBuffer.Length)
+        if (capacity <= Capacity)
             return;
         pool.ResizeToAtLeast(ref StaticsBuffer, capacity, Count);
         pool.ResizeToAtLeast(ref IndexToHandle, capacity, Count);
