@@ -76,11 +76,8 @@ public sealed unsafe partial class Statics
             for (int i = previous; i < HandleToIndex.Length; ++i)
                 HandleToIndex[i] = -1;
         }
-        if (Count == StaticsBuffer.Length)
-        {
-            pool.ResizeToAtLeast(ref StaticsBuffer, Count * 2, Count);
-            pool.ResizeToAtLeast(ref IndexToHandle, Count * 2, Count);
-        }
+        if (Count == Capacity)
+            Resize(Count * 2);
         var index = Count++;
         HandleToIndex[handle.Value] = index;
         IndexToHandle[index] = handle;
@@ -168,8 +165,15 @@ public sealed unsafe partial class Statics
     /// <summary>Makes room for statics.</summary>
     public void EnsureCapacity(int capacity)
     {
-        if (capacity <= StaticsBuffer.Length)
-            return;
+        if (capacity > Capacity)
+            Resize(capacity);
+    }
+
+    // The pool rounds each buffer up by its own element size, so their lengths differ.
+    int Capacity => Math.Min(StaticsBuffer.Length, IndexToHandle.Length);
+
+    void Resize(int capacity)
+    {
         pool.ResizeToAtLeast(ref StaticsBuffer, capacity, Count);
         pool.ResizeToAtLeast(ref IndexToHandle, capacity, Count);
     }
