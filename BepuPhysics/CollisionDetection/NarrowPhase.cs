@@ -40,7 +40,11 @@ public abstract partial class NarrowPhase
     internal abstract void Flush();
     internal abstract void DisposeCallbacks();
 
-    internal void Clear() => Pairs.Clear();
+    internal void Clear()
+    {
+        Pairs.Clear();
+        Restitution.BeginStep();
+    }
 
     internal void Dispose()
     {
@@ -78,5 +82,6 @@ public abstract partial class NarrowPhase
         var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Value]);
         if (index >= 0 && Pairs.Pairs.Values[index].Constraint == handle)
             Pairs.RemoveAt(index);
+        Restitution.Forget(handle);
     }
 }
