@@ -333,9 +333,8 @@ public sealed unsafe partial class Bodies
         if (collidable.BroadPhaseIndex < 0)
             return;
         shapes.UpdateBounds(ActiveSet.MotionStates[index].Pose, collidable.Shape, out var bounds);
-        broadPhase.GetActiveBoundsPointers(collidable.BroadPhaseIndex, out var min, out var max);
-        *min = bounds.Min;
-        *max = bounds.Max;
+        // The whole tree at once: a query may come before the next step fits it.
+        broadPhase.UpdateActiveBounds(collidable.BroadPhaseIndex, bounds.Min, bounds.Max);
     }
 
     internal void GetBoundsPointers(int index, out Vector3* min, out Vector3* max) =>

@@ -6,7 +6,7 @@ using BepuUtilities.Memory;
 namespace BepuPhysics;
 
 /// <summary>All statics of a simulation: collidables that never move by themselves.</summary>
-public sealed unsafe class Statics
+public sealed unsafe partial class Statics
 {
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;

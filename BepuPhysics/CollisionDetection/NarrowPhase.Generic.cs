@@ -15,6 +15,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     TCallbacks callbacks;
     Worker[] workers = [];
     QuickList<PairKey> order;
+    // Number of pairs that all workers tested in the last step.
+    int testedPairCount;
 
     internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
         : base(simulation, collisionTaskRegistry, initialPairCapacity) => this.callbacks = callbacks;
@@ -90,14 +92,24 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             ref var worker = ref workers[i];
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i));
-            worker.TestedPairs = new QuickList<CollidablePair>(256, worker.Pool);
+            // Who tests how many is up to chance. Each has room for all, or a worker's memory would grow whenever it is luckier than ever.
+            worker.TestedPairs = new QuickList<CollidablePair>(Math.Max(256, testedPairCount), worker.Pool);
             worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
             worker.Bouncing = default;
         }
-        var handler = new Overlaps(this, Simulation.BroadPhase);
-        Simulation.BroadPhase.FindOverlaps(ref handler, dispatcher);
-        var flush = new FlushWork { NarrowPhase = this, WorkerCount = count };
-        StagedWork.Run(ref flush, dispatcher);
+        try
+        {
+            var handler = new Overlaps(this, Simulation.BroadPhase);
+            Simulation.BroadPhase.FindOverlaps(ref handler, dispatcher);
+            var flush = new FlushWork { NarrowPhase = this, WorkerCount = count };
+            StagedWork.Run(ref flush, dispatcher);
+        }
+        catch
+        {
+            // Callbacks are the game's and may throw: the step is lost, the memory is not.
+            ReleaseWorkers();
+            throw;
+        }
     }
 
     // Tests what is left in the batchers of all workers.
@@ -189,6 +201,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     internal override void Flush()
     {
+        testedPairCount = 0;
+        for (int i = 0; i < workers.Length; ++i)
+            testedPairCount += workers[i].TestedPairs.Count;
         RemoveUnseenPairs();
         order = new QuickList<PairKey>(64, Pool);
         for (int i = 0; i < workers.Length; ++i)
@@ -201,6 +216,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
         WatchBouncingPairs();
         order.Dispose(Pool);
+        ReleaseWorkers();
+    }
+
+    void ReleaseWorkers()
+    {
         for (int i = 0; i < workers.Length; ++i)
             Release(ref workers[i]);
     }

@@ -11,7 +11,7 @@ namespace BepuPhysics.CollisionDetection;
 // worker finds it: that is most pairs of a scene at rest, and the order does not matter. All other changes (new pairs, pairs whose number
 // of contacts changed, pairs that parted) are noted, sorted by the handles of the pair, and made on one thread after the workers have
 // ended, so that handles, batches and with them every bit of the result do not depend on threads.
-public abstract class NarrowPhase
+public abstract partial class NarrowPhase
 {
     private protected readonly Simulation Simulation;
     private protected readonly BufferPool Pool;
@@ -40,7 +40,11 @@ public abstract class NarrowPhase
     internal abstract void Flush();
     internal abstract void DisposeCallbacks();
 
-    internal void Clear() => Pairs.Clear();
+    internal void Clear()
+    {
+        Pairs.Clear();
+        Restitution.BeginStep();
+    }
 
     internal void Dispose()
     {
@@ -78,5 +82,6 @@ public abstract class NarrowPhase
         var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Value]);
         if (index >= 0 && Pairs.Pairs.Values[index].Constraint == handle)
             Pairs.RemoveAt(index);
+        Restitution.Forget(handle);
     }
 }

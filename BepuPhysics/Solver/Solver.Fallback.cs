@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
@@ -13,8 +14,10 @@ public sealed unsafe partial class Solver
     {
         // Number of split bodies.
         public int BodyCount;
-        // Number of parts by index in the active set, as a float.
-        public Buffer<float> Counts;
+        // Number of parts by index in the active set.
+        public Buffer<int> Counts;
+        // Share of its body's mass that each part has; 1 for kinematic bodies and unused lanes.
+        public Buffer<float> Shares;
         // Velocity of each part, type batch after type batch, constraint after constraint, slot after slot.
         public Buffer<BodyVelocity> Parts;
         // Where the parts of each type batch begin.
@@ -25,24 +28,24 @@ public sealed unsafe partial class Solver
         public QuickList<int> StartOfBody;
         public Buffer<int> PartsOfBody;
 
-        public readonly SplitBodies For(int typeBatch) => new(Counts.Memory, Parts.Memory + StartOfTypeBatch[typeBatch]);
+        public readonly SplitBodies For(int typeBatch) => new(Shares.Memory + StartOfTypeBatch[typeBatch], Parts.Memory + StartOfTypeBatch[typeBatch]);
 
-        // The velocity of a body is the mean of its parts, summed in the order of the constraints.
+        // The velocity of a body is the mean of its parts by mass, summed in the order of the constraints. What changed is summed, since the
+        // parts started from that velocity: so a body that nothing pushes keeps every bit of it.
         public readonly void Join(ref BodySet set, int start, int end)
         {
             for (int i = start; i < end; ++i)
             {
+                ref var velocity = ref set.MotionStates[SplitBodies[i]].Velocity;
                 Vector3 linear = default, angular = default;
                 for (int j = StartOfBody[i]; j < StartOfBody[i + 1]; ++j)
                 {
                     ref var part = ref Parts[PartsOfBody[j]];
-                    linear += part.Linear;
-                    angular += part.Angular;
+                    linear += (part.Linear - velocity.Linear) * Shares[PartsOfBody[j]];
+                    angular += (part.Angular - velocity.Angular) * Shares[PartsOfBody[j]];
                 }
-                var inverseCount = 1 / Counts[SplitBodies[i]];
-                ref var velocity = ref set.MotionStates[SplitBodies[i]].Velocity;
-                velocity.Linear = linear * inverseCount;
-                velocity.Angular = angular * inverseCount;
+                velocity.Linear += linear;
+                velocity.Angular += angular;
             }
         }
 
@@ -51,6 +54,7 @@ public sealed unsafe partial class Solver
             if (!Counts.Allocated)
                 return;
             pool.Return(ref Counts);
+            pool.Return(ref Shares);
             pool.Return(ref Parts);
             pool.Return(ref PartsOfBody);
             StartOfTypeBatch.Dispose(pool);
@@ -76,6 +80,8 @@ public sealed unsafe partial class Solver
         }
         pool.Take(partCount, out split.Parts);
         pool.Take(partCount, out split.PartsOfBody);
+        pool.Take(partCount, out split.Shares);
+        split.Shares.AsSpan().Fill(1);
 
         // Count the parts of each body, give each split body a range, then fill the ranges in the order of the constraints.
         VisitParts(ref split, null);
@@ -90,12 +96,39 @@ public sealed unsafe partial class Solver
             next[i] = start;
             split.SplitBodies.Add(i, pool);
             split.StartOfBody.Add(start, pool);
-            start += (int)split.Counts[i];
+            start += split.Counts[i];
         }
         split.StartOfBody.Add(start, pool);
         split.BodyCount = split.SplitBodies.Count;
         VisitParts(ref split, next.Memory);
         pool.Return(ref next);
+        for (int i = 0; i < split.BodyCount; ++i)
+            Normalize(ref split, split.StartOfBody[i], split.StartOfBody[i + 1]);
+    }
+
+    // Shares of a body add up to one.
+    static void Normalize(ref FallbackParts split, int start, int end)
+    {
+        float sum = 0;
+        for (int i = start; i < end; ++i)
+            sum += split.Shares[split.PartsOfBody[i]];
+        for (int i = start; i < end; ++i)
+            split.Shares[split.PartsOfBody[i]] /= sum;
+    }
+
+    // How much of a body's mass a constraint can make use of: as much as the mass that it moves together with the others'. The ground under a
+    // table needs all of the table's, a cup on it no more than the cup's. With equal shares the ground would hold a table with 300 cups by a
+    // three-hundredth of its mass, and the table would sink through it.
+    float Need(ref TypeBatch typeBatch, TypeProcessor processor, int constraint, int bodyIndex)
+    {
+        // Keeps a part from being so light that its velocity means nothing.
+        const float Least = 1e-3f;
+        ref var inertias = ref bodies.ActiveSet.LocalInertias;
+        float sum = 0;
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+            sum += inertias[processor.BodyReference(ref typeBatch, constraint, slot) & EncodedBody.IndexMask].InverseMass;
+        // Bodies that cannot be moved, only turned, have no mass to compare.
+        return sum > 0 ? MathF.Max(Least, inertias[bodyIndex].InverseMass / sum) : 1;
     }
 
     // Counts the parts of each body, or, with the next free place of each body's range, fills the ranges.
@@ -112,10 +145,14 @@ public sealed unsafe partial class Solver
                     var reference = processor.BodyReference(ref typeBatches[i], constraint, slot);
                     if ((reference & EncodedBody.KinematicFlag) != 0)
                         continue;
+                    var part = split.StartOfTypeBatch[i] + constraint * processor.BodiesPerConstraint + slot;
                     if (next == null)
+                    {
                         ++split.Counts[reference];
+                        split.Shares[part] = Need(ref typeBatches[i], processor, constraint, reference);
+                    }
                     else
-                        split.PartsOfBody[next[reference]++] = split.StartOfTypeBatch[i] + constraint * processor.BodiesPerConstraint + slot;
+                        split.PartsOfBody[next[reference]++] = part;
                 }
             }
         }

@@ -97,16 +97,31 @@ public sealed unsafe partial class Solver
             SubstepDt = substepDt,
             FirstWarmStartScale = scale,
         };
-        TakeStiffness(ref work);
-        work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, work.Stiffness.Memory);
-        BuildBlocks(ref work);
-        BuildStages(ref work);
-        BuildSplitBodies(ref work.Split);
-        integrator.Prepare(substepDt);
-        StagedWork.Run(ref work, dispatcher);
-        work.Blocks.Dispose(pool);
-        work.BlocksOfBatch.Dispose(pool);
-        work.Stages.Dispose(pool);
+        // Callbacks and substep events are the game's and may throw.
+        try
+        {
+            TakeStiffness(ref work);
+            work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, work.Stiffness.Memory);
+            BuildBlocks(ref work);
+            BuildStages(ref work);
+            BuildSplitBodies(ref work.Split);
+            integrator.Prepare(substepDt);
+            StagedWork.Run(ref work, dispatcher);
+        }
+        finally
+        {
+            Release(ref work);
+        }
+    }
+
+    void Release(ref SolveWork work)
+    {
+        if (work.Blocks.Span.Allocated)
+            work.Blocks.Dispose(pool);
+        if (work.BlocksOfBatch.Span.Allocated)
+            work.BlocksOfBatch.Dispose(pool);
+        if (work.Stages.Span.Allocated)
+            work.Stages.Dispose(pool);
         work.Split.Dispose(pool);
         if (work.Stiffness.Allocated)
             pool.Return(ref work.Stiffness);

@@ -100,15 +100,15 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
 
 /// <summary>Bodies of the fallback batch, in which a body may occur any number of times.</summary>
 /// <remarks>
-/// A body that occurs n times is split into n bodies of 1/n of its mass and inertia, one per constraint. All constraints are then
-/// independent and are solved in parallel; afterwards the velocity of the body is the mean of its parts. Since each part has the same
-/// mass, the mean keeps the momentum. Tonge, Benevolenski, Voroshilov: Mass splitting for jitter-free parallel rigid body simulation,
-/// ACM Transactions on Graphics 31(4), 2012.
+/// A body that occurs n times is split into n bodies, one per constraint, that share its mass and inertia. All constraints are then
+/// independent and are solved in parallel; afterwards the velocity of the body is the mean of its parts by mass, which keeps the momentum
+/// whatever the shares are. Tonge, Benevolenski, Voroshilov: Mass splitting for jitter-free parallel rigid body simulation, ACM Transactions
+/// on Graphics 31(4), 2012; there with equal shares.
 /// </remarks>
-unsafe readonly struct SplitBodies(float* counts, BodyVelocity* parts)
+unsafe readonly struct SplitBodies(float* shares, BodyVelocity* parts)
 {
-    /// <summary>Number of parts of every body of the active set, as a float.</summary>
-    internal readonly float* Counts = counts;
+    /// <summary>Share of its body's mass that every part has, in the order of the parts.</summary>
+    internal readonly float* Shares = shares;
     /// <summary>Velocity of every part: slot of a constraint after slot, constraint after constraint.</summary>
     internal readonly BodyVelocity* Parts = parts;
 }

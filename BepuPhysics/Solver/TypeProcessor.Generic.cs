@@ -75,7 +75,7 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         for (int i = startBundle; i < endBundle; ++i)
         {
             Gather(references + i * TBodies.Count, bodies, TConstraint.WarmStartAccess, substep, out var slots);
-            ScaleInverseMass(references + i * TBodies.Count, split, ref slots);
+            ScaleInverseMass(i, split, ref slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
         }
@@ -90,7 +90,7 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         for (int i = startBundle; i < endBundle; ++i)
         {
             Gather(references + i * TBodies.Count, bodies, TConstraint.SolveAccess, substep, out var slots);
-            ScaleInverseMass(references + i * TBodies.Count, split, ref slots);
+            ScaleInverseMass(i, split, ref slots);
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
         }
@@ -115,19 +115,17 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         if (TBodies.Count > 3) bodies.ScatterVelocity(references[3], BodySlots.At(ref slots, 3));
     }
 
-    static void ScaleInverseMass(Vector<int>* references, in SplitBodies split, ref TBodies slots)
+    static void ScaleInverseMass(int bundle, in SplitBodies split, ref TBodies slots)
     {
         for (int slot = 0; slot < TBodies.Count; ++slot)
         {
-            Vector<float> count = default;
+            Vector<float> shares = default;
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
-            {
-                var reference = references[slot][lane];
-                count = count.WithElement(lane, reference < 0 ? 1 : split.Counts[reference & EncodedBody.IndexMask]);
-            }
+                shares = shares.WithElement(lane, split.Shares[(bundle * Vector<float>.Count + lane) * TBodies.Count + slot]);
+            var scale = Vector<float>.One / shares;
             ref var body = ref BodySlots.At(ref slots, slot);
-            body.InverseMass *= count;
-            body.InverseInertia *= count;
+            body.InverseMass *= scale;
+            body.InverseInertia *= scale;
         }
     }
 

@@ -55,6 +55,19 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         substepCount = solver.SubstepCount;
     }
 
+    /// <summary>No longer watches a contact constraint that is removed between collision detection and the solver.</summary>
+    internal void Forget(ConstraintHandle constraint)
+    {
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            if (pairs[i].Constraint != constraint)
+                continue;
+            // The others keep their order, in which they bounce.
+            pairs.RemoveAt(i);
+            return;
+        }
+    }
+
     internal void Dispose() => pairs.Dispose(pool);
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch

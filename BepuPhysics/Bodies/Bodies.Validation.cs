@@ -1,0 +1,79 @@
+using System;
+using System.Numerics;
+using System.Runtime.InteropServices;
+
+namespace BepuPhysics;
+
+public sealed partial class Bodies
+{
+    /// <summary>Handles and places, numbers, leaves of the broad phase, and that listed constraints know their body.</summary>
+    internal void Validate()
+    {
+        int leafCount = 0;
+        for (int setIndex = 0; setIndex < Sets.Length; ++setIndex)
+        {
+            ref var set = ref Sets[setIndex];
+            Invariant.Require(set.Count >= 0 && set.Count <= set.Capacity, "number of bodies in set", setIndex);
+            for (int index = 0; index < set.Count; ++index)
+            {
+                var handle = set.IndexToHandle[index];
+                Invariant.Require(BodyExists(handle), "handle of the body at an index", setIndex, index);
+                var location = HandleToLocation[handle.Value];
+                Invariant.Require(location.SetIndex == setIndex && location.Index == index, "location of body", handle.Value);
+                ValidateNumbers(ref set, index, handle.Value);
+                ValidateCollidable(ref set, index, handle.Value, ref leafCount);
+                ValidateConstraints(ref set, index, handle);
+            }
+            Invariant.Require(IsZeroBehindLast(ref set), "rows behind the last body of set", setIndex);
+        }
+        Invariant.Require(leafCount == broadPhase.ActiveTree.LeafCount, "number of active leaves, bodies have", leafCount);
+        Invariant.Ids(HandlePool, HandleToLocation.Length, "bodies", id => HandleToLocation[id].SetIndex >= 0);
+    }
+
+    static void ValidateNumbers(ref BodySet set, int index, int handle)
+    {
+        ref var motion = ref set.MotionStates[index];
+        Invariant.Finite(motion.Pose.Position, "position of body", handle);
+        Invariant.Finite(motion.Pose.Orientation, "orientation of body", handle);
+        Invariant.Finite(motion.Velocity.Linear, "linear velocity of body", handle);
+        Invariant.Finite(motion.Velocity.Angular, "angular velocity of body", handle);
+        ref var inertia = ref set.LocalInertias[index];
+        ref var tensor = ref inertia.InverseInertiaTensor;
+        Invariant.Finite(new Vector3(tensor.XX, tensor.YY, tensor.ZZ), "inverse inertia of body", handle);
+        Invariant.Finite(new Vector3(tensor.YX, tensor.ZX, tensor.ZY), "inverse inertia of body", handle);
+        Invariant.Require(float.IsFinite(inertia.InverseMass) && inertia.InverseMass >= 0, "inverse mass of body", handle);
+    }
+
+    void ValidateCollidable(ref BodySet set, int index, int handle, ref int leafCount)
+    {
+        ref var collidable = ref set.Collidables[index];
+        if (!collidable.Shape.Exists)
+        {
+            Invariant.Require(collidable.BroadPhaseIndex < 0, "leaf of body without a shape", handle);
+            return;
+        }
+        Invariant.Require(shapes.Exists(collidable.Shape), "shape of body", handle);
+        Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)broadPhase.ActiveTree.LeafCount, "leaf of body", handle);
+        // Also that the leaf knows whether the body is kinematic.
+        Invariant.Require(broadPhase.ActiveLeaves[collidable.BroadPhaseIndex] == ReferenceAt(index), "collidable of the leaf of body", handle);
+        ++leafCount;
+    }
+
+    void ValidateConstraints(ref BodySet set, int index, BodyHandle handle)
+    {
+        ref var constraints = ref set.Constraints[index];
+        for (int i = 0; i < constraints.Count; ++i)
+        {
+            Invariant.Require(solver.ConstraintExists(constraints[i].ConnectingConstraintHandle), "listed constraint of body", handle.Value, i);
+            Invariant.Require(solver.IsBodyOf(constraints[i], index), "body of a listed constraint of body", handle.Value, i);
+        }
+    }
+
+    // Passes over whole bundles read them.
+    static bool IsZeroBehindLast(ref BodySet set)
+    {
+        var motions = MemoryMarshal.AsBytes(set.MotionStates.AsSpan()[set.Count..]);
+        var inertias = MemoryMarshal.AsBytes(set.LocalInertias.AsSpan()[set.Count..]);
+        return motions.IndexOfAnyExcept((byte)0) < 0 && inertias.IndexOfAnyExcept((byte)0) < 0;
+    }
+}

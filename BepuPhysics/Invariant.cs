@@ -1,0 +1,54 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Numerics;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Conditions of <see cref="Simulation.Validate"/>, checked in release builds too. Nothing is formatted unless one fails.</summary>
+static class Invariant
+{
+    internal static void Require([DoesNotReturnIf(false)] bool condition, string what, int where)
+    {
+        if (!condition)
+            throw new PhysicsInvariantException($"Wrong {what} ({where}).");
+    }
+
+    internal static void Require([DoesNotReturnIf(false)] bool condition, string what, int where, int part)
+    {
+        if (!condition)
+            throw new PhysicsInvariantException($"Wrong {what} ({where}, {part}).");
+    }
+
+    internal static void Finite(Vector3 value, string what, int where)
+    {
+        if (!float.IsFinite(value.X) || !float.IsFinite(value.Y) || !float.IsFinite(value.Z))
+            throw new PhysicsInvariantException($"The {what} ({where}) is not finite: {value}.");
+    }
+
+    internal static void Finite(Quaternion value, string what, int where)
+    {
+        if (!float.IsFinite(value.X) || !float.IsFinite(value.Y) || !float.IsFinite(value.Z) || !float.IsFinite(value.W))
+            throw new PhysicsInvariantException($"The {what} ({where}) is not finite: {value}.");
+    }
+
+    /// <summary>Every id below the pool's next one is either free, once, or in use; none beyond is in use.</summary>
+    internal static void Ids(in IdPool ids, int idSpan, string what, Func<int, bool> isInUse)
+    {
+        var issued = ids.HighestPossiblyClaimedId + 1;
+        // Managed memory, so that a failure leaves no pool with a debt.
+        var free = new bool[issued];
+        for (int i = 0; i < ids.AvailableIdCount; ++i)
+        {
+            var id = ids.AvailableIds[i];
+            Require((uint)id < (uint)issued, $"free id of {what}", id);
+            Require(!free[id], $"twice free id of {what}", id);
+            free[id] = true;
+        }
+        for (int id = 0; id < issued; ++id)
+            Require(isInUse(id) != free[id], $"state of the id of {what}", id);
+        for (int id = issued; id < idSpan; ++id)
+            Require(!isInUse(id), $"{what} beyond the ids that were given out", id);
+    }
+}

@@ -1,0 +1,147 @@
+using System;
+using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>A value of a game's own for each body and static, found by handle: friction, team, name of a sound.</summary>
+/// <typeparam name="T">Type of the values.</typeparam>
+/// <remarks>
+/// Two arrays indexed by handle, so that a callback finds a value by one read. They grow only when asked to: allocate or ensure capacity
+/// when a body or static is added, then read and write from any number of threads. A handle that is given out again finds the value of
+/// its predecessor until it is allocated anew.
+/// </remarks>
+public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
+{
+    BufferPool? pool;
+    Simulation? simulation;
+    Buffer<T> bodyData;
+    Buffer<T> staticData;
+
+    /// <summary>Creates properties for a simulation that does not exist yet; call <see cref="Initialize"/> when it does.</summary>
+    /// <param name="pool">Source of the memory; null for the pool of the simulation.</param>
+    public CollidableProperty(BufferPool? pool = null) => this.pool = pool;
+
+    /// <summary>Creates properties for a simulation.</summary>
+    /// <param name="simulation">The simulation whose handles are used.</param>
+    /// <param name="pool">Source of the memory; null for the pool of the simulation.</param>
+    public CollidableProperty(Simulation simulation, BufferPool? pool = null) : this(pool) => Initialize(simulation);
+
+    /// <summary>Makes room for all that a simulation has. To be called once; the narrow phase callbacks' Initialize is a good place.</summary>
+    /// <exception cref="InvalidOperationException">There is a simulation already.</exception>
+    public void Initialize(Simulation simulation)
+    {
+        ArgumentNullException.ThrowIfNull(simulation);
+        if (this.simulation is not null)
+            throw new InvalidOperationException("The properties belong to a simulation already.");
+        this.simulation = simulation;
+        pool ??= simulation.BufferPool;
+        EnsureBodyCapacity(simulation.Bodies.HandlePool.HighestPossiblyClaimedId + 1);
+        EnsureStaticCapacity(simulation.Statics.HandlePool.HighestPossiblyClaimedId + 1);
+    }
+
+    /// <summary>Value of a body.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
+    public ref T this[BodyHandle bodyHandle]
+    {
+        get
+        {
+            if ((uint)bodyHandle.Value >= (uint)bodyData.Length)
+                throw NoValue(nameof(bodyHandle), bodyHandle.Value);
+            return ref bodyData[bodyHandle.Value];
+        }
+    }
+
+    /// <summary>Value of a static.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
+    public ref T this[StaticHandle staticHandle]
+    {
+        get
+        {
+            if ((uint)staticHandle.Value >= (uint)staticData.Length)
+                throw NoValue(nameof(staticHandle), staticHandle.Value);
+            return ref staticData[staticHandle.Value];
+        }
+    }
+
+    /// <summary>Value of a body or static.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
+    public ref T this[CollidableReference collidable] =>
+        ref collidable.Mobility == CollidableMobility.Static ? ref this[new StaticHandle(collidable.RawHandleValue)] : ref this[new BodyHandle(collidable.RawHandleValue)];
+
+    /// <summary>Makes room for a body's value, sets it to its default and returns it; valid until room is made again.</summary>
+    public ref T Allocate(BodyHandle handle)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(handle.Value, nameof(handle));
+        Grow(ref bodyData, handle.Value);
+        ref var value = ref bodyData[handle.Value];
+        value = default;
+        return ref value;
+    }
+
+    /// <summary>Makes room for a static's value, sets it to its default and returns it; valid until room is made again.</summary>
+    public ref T Allocate(StaticHandle handle)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(handle.Value, nameof(handle));
+        Grow(ref staticData, handle.Value);
+        ref var value = ref staticData[handle.Value];
+        value = default;
+        return ref value;
+    }
+
+    /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
+    public ref T Allocate(CollidableReference collidable) =>
+        ref collidable.Mobility == CollidableMobility.Static ? ref Allocate(new StaticHandle(collidable.RawHandleValue)) : ref Allocate(new BodyHandle(collidable.RawHandleValue));
+
+    /// <summary>Makes room for the bodies whose handle values are below a number.</summary>
+    public void EnsureBodyCapacity(int capacity)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(capacity);
+        Resize(ref bodyData, Math.Max(capacity, bodyData.Length));
+    }
+
+    /// <summary>Makes room for the statics whose handle values are below a number.</summary>
+    public void EnsureStaticCapacity(int capacity)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(capacity);
+        Resize(ref staticData, Math.Max(capacity, staticData.Length));
+    }
+
+    /// <summary>Gives back the room that the bodies of the simulation do not need.</summary>
+    public void CompactBodies() => Resize(ref bodyData, CheckedSimulation.Bodies.HandlePool.HighestPossiblyClaimedId + 1);
+
+    /// <summary>Gives back the room that the statics of the simulation do not need.</summary>
+    public void CompactStatics() => Resize(ref staticData, CheckedSimulation.Statics.HandlePool.HighestPossiblyClaimedId + 1);
+
+    /// <summary>Returns all memory to the pool. Calling it twice does no harm.</summary>
+    public void Dispose()
+    {
+        if (bodyData.Allocated)
+            pool!.Return(ref bodyData);
+        if (staticData.Allocated)
+            pool!.Return(ref staticData);
+    }
+
+    Simulation CheckedSimulation => simulation ?? throw new InvalidOperationException("Call Initialize first: the properties belong to no simulation yet.");
+
+    void Grow(ref Buffer<T> data, int index)
+    {
+        if (index >= data.Length)
+            Resize(ref data, Math.Max(index + 1, (int)Math.Min(data.Length * 2L, int.MaxValue)));
+    }
+
+    void Resize(ref Buffer<T> data, int capacity)
+    {
+        if (pool is null)
+            throw new InvalidOperationException("Call Initialize first: there is neither a pool nor a simulation.");
+        capacity = BufferPool.GetCapacityForCount<T>(Math.Max(1, capacity));
+        if (capacity == data.Length)
+            return;
+        var kept = Math.Min(data.Length, capacity);
+        pool.ResizeToAtLeast(ref data, capacity, kept);
+        data.Clear(kept, data.Length - kept);
+    }
+
+    static ArgumentOutOfRangeException NoValue(string name, int handle) =>
+        new(name, handle, "Nothing was allocated for this handle.");
+}

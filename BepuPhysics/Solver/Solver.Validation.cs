@@ -1,0 +1,130 @@
+using System.Numerics;
+using BepuPhysics.Constraints;
+
+namespace BepuPhysics;
+
+public sealed partial class Solver
+{
+    /// <summary>Whether a constraint has, in the slot that a body's list names, the body at an index of the active set.</summary>
+    internal bool IsBodyOf(in BodyConstraintReference constraint, int bodyIndex)
+    {
+        ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+        var processor = Processor(location.TypeId);
+        return (uint)constraint.BodyIndexInConstraint < (uint)processor.BodiesPerConstraint &&
+            (processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint) & EncodedBody.IndexMask) == bodyIndex;
+    }
+
+    /// <summary>Handles and places, bodies of constraints both ways, batches without common bodies, flags, lanes, impulses.</summary>
+    internal void Validate()
+    {
+        int referenceCount = 0;
+        for (int setIndex = 0; setIndex < Sets.Length; ++setIndex)
+        {
+            ref var batches = ref Sets[setIndex].Batches;
+            Invariant.Require(batches.Count <= FallbackBatchThreshold + 1, "number of batches", batches.Count);
+            for (int batchIndex = 0; batchIndex < batches.Count; ++batchIndex)
+                ValidateBatch(setIndex, batchIndex, ref referenceCount);
+        }
+        int listedCount = 0;
+        for (int i = 0; i < bodies.ActiveSet.Count; ++i)
+            listedCount += bodies.ActiveSet.Constraints[i].Count;
+        Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
+        Invariant.Ids(HandlePool, HandleToConstraint.Length, "constraints", id => HandleToConstraint[id].SetIndex >= 0);
+    }
+
+    void ValidateBatch(int setIndex, int batchIndex, ref int referenceCount)
+    {
+        ref var batch = ref Sets[setIndex].Batches[batchIndex];
+        // Handles of dynamic bodies that were found; managed memory, so that a failure leaves no pool with a debt.
+        var found = new bool[bodies.HandlePool.HighestPossiblyClaimedId + 1];
+        for (int typeBatchIndex = 0; typeBatchIndex < batch.TypeBatches.Count; ++typeBatchIndex)
+        {
+            ref var typeBatch = ref batch.TypeBatches[typeBatchIndex];
+            Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && TypeProcessors[typeBatch.TypeId] is not null, "type of type batch", batchIndex, typeBatchIndex);
+            for (int other = 0; other < typeBatchIndex; ++other)
+                Invariant.Require(batch.TypeBatches[other].TypeId != typeBatch.TypeId, "second type batch of a type", batchIndex, typeBatch.TypeId);
+            ValidateCapacity(ref typeBatch, batchIndex);
+            var location = new ConstraintLocation { SetIndex = setIndex, BatchIndex = batchIndex, TypeBatchIndex = typeBatchIndex, TypeId = typeBatch.TypeId };
+            for (int index = 0; index < typeBatch.ConstraintCount; ++index)
+            {
+                location.IndexInTypeBatch = index;
+                ValidateConstraint(ref typeBatch, location, found);
+            }
+            referenceCount += typeBatch.ConstraintCount * Processor(typeBatch.TypeId).BodiesPerConstraint;
+            ValidateUnusedLanes(ref typeBatch, batchIndex);
+        }
+        if (batchIndex == FallbackBatchThreshold)
+            return;
+        for (int handle = 0; handle < found.Length; ++handle)
+            Invariant.Require(batch.DynamicBodies.Contains(handle) == found[handle], "bodies of batch", batchIndex, handle);
+        for (int handle = found.Length; handle < batch.DynamicBodies.Capacity; ++handle)
+            Invariant.Require(!batch.DynamicBodies.Contains(handle), "bodies of batch", batchIndex, handle);
+    }
+
+    void ValidateCapacity(ref TypeBatch typeBatch, int batchIndex)
+    {
+        var processor = Processor(typeBatch.TypeId);
+        var used = typeBatch.BundleCount * Vector<float>.Count;
+        Invariant.Require(
+            typeBatch.IndexToHandle.Length >= used && typeBatch.BodyReferences.Length >= used * processor.BodiesPerConstraint &&
+            typeBatch.Prestep.Length >= used * processor.PrestepFloats && typeBatch.AccumulatedImpulses.Length >= used * processor.ImpulseFloats,
+            "capacity of a type batch", batchIndex, typeBatch.TypeId);
+    }
+
+    void ValidateConstraint(ref TypeBatch typeBatch, in ConstraintLocation location, bool[] found)
+    {
+        var handle = typeBatch.IndexToHandle[location.IndexInTypeBatch];
+        Invariant.Require(ConstraintExists(handle), "handle of a constraint of type", location.TypeId, location.IndexInTypeBatch);
+        ref var known = ref HandleToConstraint[handle.Value];
+        Invariant.Require(
+            known.SetIndex == location.SetIndex && known.BatchIndex == location.BatchIndex && known.TypeBatchIndex == location.TypeBatchIndex &&
+            known.IndexInTypeBatch == location.IndexInTypeBatch && known.TypeId == location.TypeId, "location of constraint", handle.Value);
+        var processor = Processor(location.TypeId);
+        bool anyDynamic = false;
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
+            var bodyIndex = reference & EncodedBody.IndexMask;
+            Invariant.Require(reference >= 0 && bodyIndex < bodies.ActiveSet.Count, "body of constraint", handle.Value, slot);
+            var kinematic = (reference & EncodedBody.KinematicFlag) != 0;
+            Invariant.Require(kinematic == Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]), "kinematic flag of constraint", handle.Value, slot);
+            Invariant.Require(IsListed(bodyIndex, handle, slot), "list of the body of constraint", handle.Value, slot);
+            for (int other = 0; other < slot; ++other)
+            {
+                var otherReference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, other);
+                Invariant.Require((otherReference & EncodedBody.IndexMask) != bodyIndex, "second mention of a body by constraint", handle.Value, slot);
+            }
+            if (kinematic)
+                continue;
+            anyDynamic = true;
+            ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Value];
+            Invariant.Require(!isFound || location.BatchIndex == FallbackBatchThreshold, "second constraint in its batch of the body of constraint", handle.Value, slot);
+            isFound = true;
+        }
+        Invariant.Require(anyDynamic, "constraint without dynamic bodies", handle.Value);
+        for (int i = 0; i < processor.ImpulseFloats; ++i)
+            Invariant.Require(float.IsFinite(processor.Impulse(ref typeBatch, location.IndexInTypeBatch, i)), "impulse of constraint", handle.Value, i);
+    }
+
+    bool IsListed(int bodyIndex, ConstraintHandle handle, int slot)
+    {
+        ref var constraints = ref bodies.ActiveSet.Constraints[bodyIndex];
+        for (int i = 0; i < constraints.Count; ++i)
+        {
+            if (constraints[i].ConnectingConstraintHandle == handle && constraints[i].BodyIndexInConstraint == slot)
+                return true;
+        }
+        return false;
+    }
+
+    // Unused lanes are gathered from and scattered to: only an empty reference keeps them from touching a body.
+    void ValidateUnusedLanes(ref TypeBatch typeBatch, int batchIndex)
+    {
+        var processor = Processor(typeBatch.TypeId);
+        for (int index = typeBatch.ConstraintCount; index < typeBatch.BundleCount * Vector<float>.Count; ++index)
+        {
+            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+                Invariant.Require(processor.BodyReference(ref typeBatch, index, slot) == EncodedBody.Empty, "unused lane of a type batch", batchIndex, typeBatch.TypeId);
+        }
+    }
+}

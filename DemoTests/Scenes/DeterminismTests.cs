@@ -1,0 +1,138 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.Globalization;
+using System.IO;
+using System.Runtime.Intrinsics;
+using System.Text.Json;
+using Demos.Scenes;
+using Xunit;
+using Xunit.Abstractions;
+
+namespace DemoTests.Scenes;
+
+/// <summary>The same bits after every step, for any number of threads and any width of vectors.</summary>
+/// <remarks>The environment variable PHYSICS_FULL_TESTS makes the scenes as large as the runner's.</remarks>
+public sealed class DeterminismTests(ITestOutputHelper output)
+{
+    static bool IsFull => Environment.GetEnvironmentVariable("PHYSICS_FULL_TESTS") is { Length: > 0 };
+
+    [Theory]
+    [InlineData("pyramids", 300)]
+    [InlineData("cloth-lattice", 120)]
+    [InlineData("pile", 300)]
+    public void Threads_do_not_change_a_bit(string name, int steps)
+    {
+        var scene = Scene(name);
+        var expected = Run(scene, 1, steps);
+        foreach (int threads in (ReadOnlySpan<int>)[2, 3, 8])
+            AssertSame(expected, Run(scene, threads, steps), $"{name} with {threads} threads");
+    }
+
+    [Fact]
+    public void A_run_that_is_repeated_gives_the_same_bits()
+    {
+        var scene = Scene("pile");
+        AssertSame(Run(scene, 2, 60), Run(scene, 2, 60), "pile again");
+    }
+
+    [Theory]
+    [InlineData("pyramids", 40, 300)]
+    [InlineData("cloth-lattice", 20, 300)]
+    [InlineData("pile", 300, 300)]
+    [InlineData("newton", 120, 300)]
+    public void Lanes_do_not_change_a_bit(string name, int steps, int fullSteps)
+    {
+        steps = IsFull ? fullSteps : steps;
+        var four = RunChild(name, steps, 128, out int lanes);
+        Assert.Equal(4, lanes);
+        if (Vector256.IsHardwareAccelerated)
+        {
+            AssertSame(four, RunChild(name, steps, 256, out lanes), $"{name} with 8 lanes, against 4,");
+            Assert.Equal(8, lanes);
+        }
+        else
+        {
+            output.WriteLine("Not run with 8 lanes: this processor has no vectors of 256 bits.");
+        }
+        if (Vector512.IsHardwareAccelerated)
+        {
+            AssertSame(four, RunChild(name, steps, 512, out lanes), $"{name} with 16 lanes, against 4,");
+            Assert.Equal(16, lanes);
+        }
+        else
+        {
+            output.WriteLine("Not run with 16 lanes: this processor has no vectors of 512 bits.");
+        }
+    }
+
+    static SceneDescription Scene(string name) => IsFull ? SceneLibrary.Load(name, 1) : name switch
+    {
+        "pyramids" => SmallScenes.Pyramids(count: 5, baseCount: 12),
+        "cloth-lattice" => SmallScenes.Lattice(width: 24),
+        _ => SceneLibrary.Load(name, 1),
+    };
+
+    static List<(int Step, string Hash)> Run(SceneDescription scene, int threads, int steps)
+    {
+        using var world = new SceneWorld(scene, threads);
+        return world.HashSteps(steps).ConvertAll(hash => hash.ToString("x16", CultureInfo.InvariantCulture)).Numbered();
+    }
+
+    static List<(int Step, string Hash)> RunChild(string scene, int steps, int bits, out int lanes)
+    {
+        string json = Path.GetTempFileName();
+        try
+        {
+            var start = new ProcessStartInfo(Environment.GetEnvironmentVariable("DOTNET_HOST_PATH") ?? "dotnet")
+            {
+                RedirectStandardOutput = true,
+                RedirectStandardError = true,
+            };
+            string[] arguments =
+            [
+                Path.Combine(AppContext.BaseDirectory, "Demos.dll"), "run", scene, "--steps", steps.ToString(CultureInfo.InvariantCulture),
+                "--hash-every", "1", "--json", json,
+            ];
+            foreach (string argument in arguments)
+                start.ArgumentList.Add(argument);
+            start.Environment["DOTNET_MaxVectorTBitWidth"] = bits.ToString(CultureInfo.InvariantCulture);
+            using var process = Process.Start(start)!;
+            // Both are read to their ends, so that no full pipe stops the child.
+            var error = process.StandardError.ReadToEndAsync();
+            string messages = process.StandardOutput.ReadToEnd();
+            process.WaitForExit();
+            Assert.True(process.ExitCode == 0, $"{scene} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
+            var root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
+            lanes = root.GetProperty("lanes").GetInt32();
+            var hashes = new List<(int, string)>();
+            foreach (var entry in root.GetProperty("hashes").EnumerateArray())
+                hashes.Add((entry[0].GetInt32(), entry[1].GetString()!));
+            return hashes;
+        }
+        finally
+        {
+            File.Delete(json);
+        }
+    }
+
+    static void AssertSame(List<(int Step, string Hash)> expected, List<(int Step, string Hash)> actual, string what)
+    {
+        Assert.NotEmpty(expected);
+        Assert.Equal(expected.Count, actual.Count);
+        for (int i = 0; i < expected.Count; ++i)
+            Assert.True(expected[i] == actual[i], $"{what} first differs after step {expected[i].Step}: {expected[i].Hash} became {actual[i].Hash}.");
+    }
+}
+
+/// <summary>Numbers the steps of a run from 1.</summary>
+static class NumberedSteps
+{
+    public static List<(int Step, string Hash)> Numbered(this List<string> hashes)
+    {
+        var numbered = new List<(int, string)>(hashes.Count);
+        foreach (string hash in hashes)
+            numbered.Add((numbered.Count + 1, hash));
+        return numbered;
+    }
+}

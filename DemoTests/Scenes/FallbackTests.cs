@@ -1,0 +1,182 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using DemoTests.Accuracy;
+using DemoTests.Support;
+using Xunit;
+
+namespace DemoTests.Scenes;
+
+/// <summary>Bodies with more constraints than there are batches.</summary>
+public class FallbackTests
+{
+    const int ArmCount = 200;
+    const float Radius = 2;
+    static readonly AccuracySettings weightless = new() { Gravity = Vector3.Zero, Contacts = ContactScope.None };
+
+    [Fact]
+    public void A_hub_with_moving_arms_keeps_its_momentum_and_its_joints()
+    {
+        using var world = new TestWorld(weightless);
+        var bodies = AddHub(world, speed: 1);
+        var (linear, angular, scale) = Momentum(world, bodies);
+
+        for (int i = 0; i < 120; ++i)
+        {
+            world.Step();
+            var (nowLinear, nowAngular, _) = Momentum(world, bodies);
+            Assert.True((nowLinear - linear).Length < 1e-4 * scale, $"momentum {nowLinear}, was {linear}, after {i + 1} steps");
+            Assert.True((nowAngular - angular).Length < 5e-3 * scale * Radius, $"angular momentum {nowAngular}, was {angular}, after {i + 1} steps");
+        }
+
+        AssertHasFallback(world);
+        world.Simulation.Validate();
+        Assert.InRange(GreatestError(world, bodies), 0, .1);
+    }
+
+    [Fact]
+    public void A_hub_at_rest_stays_at_rest()
+    {
+        using var world = new TestWorld(weightless);
+        var bodies = AddHub(world, speed: 0);
+
+        world.Step(60);
+
+        AssertHasFallback(world);
+        foreach (var body in bodies)
+            Assert.InRange(world.Bodies[body].Velocity.Linear.Length() + world.Bodies[body].Velocity.Angular.Length(), 0, 1e-4);
+        Assert.InRange(world.Bodies[bodies[0]].Pose.Position.Length(), 0, 1e-5);
+    }
+
+    [Fact]
+    public void Threads_do_not_change_the_hub()
+    {
+        AssertSameForThreads(world => AddHub(world, speed: 1), weightless, 60);
+    }
+
+    [Fact]
+    public void Three_hundred_boxes_rest_on_one()
+    {
+        using var world = new TestWorld();
+        var bodies = AddLoadedTable(world);
+
+        world.Step(180);
+
+        AssertHasFallback(world);
+        world.Simulation.Validate();
+        foreach (var body in bodies)
+        {
+            var velocity = world.Bodies[body].Velocity;
+            Assert.True(velocity.Linear.Length() < .02f && velocity.Angular.Length() < .05f, $"{body} moves with {velocity.Linear}, {velocity.Angular}");
+        }
+        Assert.Equal(1, world.Bodies[bodies[0]].Pose.Position.Y, .02f);
+        for (int i = 1; i < bodies.Count; ++i)
+            Assert.Equal(2.25f, world.Bodies[bodies[i]].Pose.Position.Y, .03f);
+    }
+
+    [Fact]
+    public void Threads_do_not_change_the_loaded_table() => AssertSameForThreads(world => AddLoadedTable(world), new AccuracySettings(), 60);
+
+    [Fact]
+    public void Removing_constraints_empties_the_fallback_batch_and_a_body_can_leave_it()
+    {
+        using var world = new TestWorld(weightless);
+        var bodies = AddHub(world, speed: 1);
+        world.Step(5);
+        for (int i = 1; i < bodies.Count; i += 2)
+        {
+            world.Bodies.Remove(bodies[i]);
+            world.Simulation.Validate();
+        }
+        world.Step(5);
+        world.Bodies[bodies[0]].BecomeKinematic();
+        world.Simulation.Validate();
+        // Joints to a kinematic hub have no dynamic body in common.
+        Assert.Equal(ArmCount / 2, world.Solver.ActiveSet.Batches[0].CountConstraints());
+        world.Step(5);
+        world.Bodies.Remove(bodies[0]);
+        world.Simulation.Validate();
+        Assert.Equal(0, world.Solver.CountConstraints());
+    }
+
+    static void AssertHasFallback(TestWorld world)
+    {
+        ref var batches = ref world.Solver.ActiveSet.Batches;
+        int threshold = world.Solver.FallbackBatchThreshold;
+        Assert.Equal(threshold + 1, batches.Count);
+        Assert.True(batches[threshold].CountConstraints() > ArmCount / 4, $"{batches[threshold].CountConstraints()} of {world.Solver.CountConstraints()}");
+    }
+
+    static void AssertSameForThreads(Action<TestWorld> add, AccuracySettings settings, int steps)
+    {
+        List<ulong>? expected = null;
+        for (int threads = 1; threads <= 3; ++threads)
+        {
+            using var world = new TestWorld(settings, threads);
+            add(world);
+            var hashes = world.HashSteps(steps);
+            expected ??= hashes;
+            Assert.Equal(expected, hashes);
+        }
+    }
+
+    // The hub comes first. Arms lie around it on a spiral, about evenly.
+    static List<BodyHandle> AddHub(TestWorld world, float speed)
+    {
+        var random = new Random(8);
+        var bodies = new List<BodyHandle> { world.AddDynamic(new Sphere(.5f), 20, RigidPose.Identity) };
+        for (int i = 0; i < ArmCount; ++i)
+        {
+            double y = 1 - (2 * i + 1) / (double)ArmCount, r = Math.Sqrt(1 - y * y), turn = i * Math.PI * (3 - Math.Sqrt(5));
+            var direction = new Vector3((float)(r * Math.Cos(turn)), (float)y, (float)(r * Math.Sin(turn)));
+            var velocity = new BodyVelocity(TestWorld.Scatter(random, 2) * speed, TestWorld.Scatter(random, 2) * speed);
+            var arm = world.AddDynamic(new Sphere(.25f), 1 + i % 3, new RigidPose(direction * Radius), velocity);
+            world.Solver.Add(bodies[0], arm, new BallSocket { LocalOffsetA = direction * .5f, LocalOffsetB = direction * (.5f - Radius) });
+            bodies.Add(arm);
+        }
+        return bodies;
+    }
+
+    static List<BodyHandle> AddLoadedTable(TestWorld world)
+    {
+        world.AddStatic(new Box(60, 2, 60), new RigidPose(new Vector3(0, -1, 0)));
+        var bodies = new List<BodyHandle> { world.AddDynamic(new Box(24, 2, 18), 500, new RigidPose(new Vector3(0, 1, 0))) };
+        var box = new Box(.5f, .5f, .5f);
+        for (int i = 0; i < 300; ++i)
+            bodies.Add(world.AddDynamic(box, 1, new RigidPose(new Vector3((i % 20 - 9.5f) * 1.1f, 2.25f, (i / 20 - 7) * 1.1f))));
+        return bodies;
+    }
+
+    static (Double3 Linear, Double3 Angular, double Scale) Momentum(TestWorld world, List<BodyHandle> bodies)
+    {
+        Double3 linear = Double3.Zero, angular = Double3.Zero;
+        double scale = 0;
+        foreach (var handle in bodies)
+        {
+            var body = world.Bodies[handle];
+            double mass = 1.0 / body.LocalInertia.InverseMass, moment = 1.0 / body.LocalInertia.InverseInertiaTensor.XX;
+            Double3 momentum = (Double3)body.Velocity.Linear * mass;
+            linear += momentum;
+            // Spheres: the moment is the same about all axes.
+            angular += Double3.Cross(body.Pose.Position, momentum) + (Double3)body.Velocity.Angular * moment;
+            scale += momentum.Length;
+        }
+        return (linear, angular, scale);
+    }
+
+    static double GreatestError(TestWorld world, List<BodyHandle> bodies)
+    {
+        double greatest = 0;
+        for (int i = 0; i < ArmCount; ++i)
+        {
+            world.Solver.GetDescription<BallSocket>(world.Bodies[bodies[i + 1]].Constraints[0].ConnectingConstraintHandle, out var joint);
+            RigidPose.Transform(joint.LocalOffsetA, world.Bodies[bodies[0]].Pose, out var a);
+            RigidPose.Transform(joint.LocalOffsetB, world.Bodies[bodies[i + 1]].Pose, out var b);
+            greatest = Math.Max(greatest, (a - b).Length());
+        }
+        return greatest;
+    }
+}

@@ -1,0 +1,48 @@
+using Demos.Scenes;
+using Xunit;
+
+namespace DemoTests.Scenes;
+
+/// <summary>A step of a scene that has settled takes no memory, managed or not, and a simulation that is disposed owes none.</summary>
+/// <remarks>
+/// Pools grow while a scene holds more of something than ever before: contacts come in several types, whose numbers shift until all is at
+/// rest. So each scene has to come to steps that take nothing, many of them in a row: a step that always takes something never does.
+/// </remarks>
+public class MemoryTests
+{
+    const int CalmSteps = 60;
+    const int MostSteps = 600;
+
+    public static TheoryData<string, int> Scenes
+    {
+        get
+        {
+            var data = new TheoryData<string, int>();
+            foreach (var scene in SceneLibrary.Scenes)
+            {
+                data.Add(scene.Name, 1);
+                data.Add(scene.Name, 2);
+            }
+            return data;
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Scenes))]
+    public void Steps_after_the_warm_up_take_no_memory(string name, int threads)
+    {
+        using var world = new SceneWorld(SceneLibrary.Load(name, seed: 1), threads);
+        int calm = 0, steps = 0;
+        (long Managed, ulong Pools) taken = default, last = default;
+        for (; steps < MostSteps && calm < CalmSteps; ++steps)
+        {
+            var before = (Managed: world.ManagedBytes(), Pools: world.PoolBytes);
+            world.Step();
+            taken = (world.ManagedBytes() - before.Managed, world.PoolBytes - before.Pools);
+            calm = taken == default ? calm + 1 : 0;
+            last = taken == default ? last : taken;
+        }
+        Assert.True(calm == CalmSteps, $"In {steps} steps no {CalmSteps} in a row took no memory; the last that did took {last}.");
+        world.Simulation.Validate();
+    }
+}

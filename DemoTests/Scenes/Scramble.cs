@@ -1,0 +1,272 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using Xunit;
+
+namespace DemoTests.Scenes;
+
+/// <summary>
+/// A crowded pit in which things are added, removed and changed by lot, beside a list of what there must be: after each step the
+/// simulation must be sound and hold exactly that.
+/// </summary>
+sealed class Scramble : IDisposable
+{
+    const int MostBodies = 90;
+    const float Extent = 7;
+    static readonly BodyActivityDescription neverSleep = new(-1);
+
+    readonly Random random;
+    readonly TestWorld world;
+    readonly List<TypedIndex> shapes = [];
+    readonly List<BodyHandle> bodies = [];
+    readonly List<StaticHandle> statics = [];
+    readonly List<Joint> joints = [];
+
+    // A joint of the list; the kind is that of the switch in AddJoint.
+    readonly record struct Joint(ConstraintHandle Handle, int Kind, BodyHandle A, BodyHandle B)
+    {
+        public bool Has(BodyHandle body) => A == body || B == body;
+    }
+
+    public Scramble(int seed, int threads, SimulationAllocationSizes? sizes)
+    {
+        random = new Random(seed);
+        world = new TestWorld(threads: threads, sizes: sizes);
+        Fill();
+    }
+
+    public Simulation Simulation => world.Simulation;
+
+    /// <summary>Some changes and a step.</summary>
+    public void Round()
+    {
+        int changes = random.Next(6);
+        for (int i = 0; i < changes; ++i)
+            Change();
+        if (random.Next(8) == 0)
+            world.Solver.SubstepCount = random.Next(1, 6);
+        world.Step(random.Next(10) == 0 ? 1 / 120f : TestWorld.Dt);
+    }
+
+    /// <summary>Requires that the simulation is sound and has what it was given.</summary>
+    public void Check()
+    {
+        Simulation.Validate();
+        Assert.Equal(bodies.Count, world.Bodies.CountBodies());
+        Assert.Equal(statics.Count, world.Statics.Count);
+        Assert.All(bodies, body => Assert.True(world.Bodies.BodyExists(body)));
+        Assert.All(statics, still => Assert.True(world.Statics.StaticExists(still)));
+        int contacts = Simulation.NarrowPhase.PairCount;
+        Assert.Equal(joints.Count + contacts, world.Solver.CountConstraints());
+        foreach (var joint in joints)
+            AssertDescription(joint);
+    }
+
+    public void Clear()
+    {
+        Simulation.Clear();
+        bodies.Clear();
+        statics.Clear();
+        joints.Clear();
+        shapes.Clear();
+        Check();
+        Fill();
+    }
+
+    public void Dispose() => world.Dispose();
+
+    void Fill()
+    {
+        shapes.Add(Simulation.Shapes.Add(new Sphere(.4f)));
+        shapes.Add(Simulation.Shapes.Add(new Capsule(.3f, .7f)));
+        shapes.Add(Simulation.Shapes.Add(new Box(.8f, .6f, .9f)));
+        shapes.Add(Simulation.Shapes.Add(new Sphere(.7f)));
+        shapes.Add(Simulation.Shapes.Add(new Box(1.5f, .4f, .5f)));
+        AddStatic(new Vector3(0, -1, 0), new Box(2 * Extent, 2, 2 * Extent));
+        for (int i = 0; i < 30; ++i)
+            AddBody();
+    }
+
+    void Change()
+    {
+        switch (random.Next(16))
+        {
+            case 0 or 1 or 2:
+                if (bodies.Count < MostBodies)
+                    AddBody();
+                break;
+            case 3 or 4:
+                if (bodies.Count > 10)
+                    RemoveBody(random.Next(bodies.Count));
+                break;
+            case 5:
+                AddStatic(Place(), new Box(1, 1, 1));
+                break;
+            case 6:
+                if (statics.Count > 0)
+                    RemoveStatic();
+                break;
+            case 7:
+                world.Bodies.SetShape(AnyBody(), random.Next(6) == 0 ? default : AnyShape());
+                break;
+            case 8:
+                ToggleKinematic(AnyBody());
+                break;
+            case 9:
+                Redescribe(AnyBody());
+                break;
+            case 10:
+                if (statics.Count > 0)
+                    ChangeStatic(statics[random.Next(statics.Count)]);
+                break;
+            case 11 or 12 or 13:
+                AddJoint();
+                break;
+            case 14:
+                if (joints.Count > 0)
+                    RemoveJoint(random.Next(joints.Count));
+                break;
+            default:
+                world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));
+                break;
+        }
+    }
+
+    BodyHandle AnyBody() => bodies[random.Next(bodies.Count)];
+
+    TypedIndex AnyShape() => shapes[random.Next(shapes.Count)];
+
+    Vector3 Place() => TestWorld.Scatter(random, Extent) + new Vector3(0, Extent / 2 + .5f, 0);
+
+    BodyDescription AnyDescription()
+    {
+        var pose = new RigidPose(Place(), TestWorld.Turn(random));
+        var velocity = new BodyVelocity(TestWorld.Scatter(random, 4), TestWorld.Scatter(random, 4));
+        CollidableDescription collidable = random.Next(10) == 0 ? default : AnyShape();
+        return random.Next(6) == 0
+            ? BodyDescription.CreateKinematic(pose, collidable, neverSleep)
+            : BodyDescription.CreateDynamic(pose, velocity, new Box(1, 1, 1).ComputeInertia(1 + random.NextSingle()), collidable, neverSleep);
+    }
+
+    void AddBody() => bodies.Add(world.Bodies.Add(AnyDescription()));
+
+    void RemoveBody(int index)
+    {
+        var handle = bodies[index];
+        world.Bodies.Remove(handle);
+        bodies.RemoveAt(index);
+        joints.RemoveAll(joint => joint.Has(handle));
+    }
+
+    void ToggleKinematic(BodyHandle handle)
+    {
+        var body = world.Bodies[handle];
+        if (body.Kinematic)
+            body.SetLocalInertia(new Sphere(.5f).ComputeInertia(1));
+        else
+            body.BecomeKinematic();
+        DropJointsWithoutDynamics();
+    }
+
+    void Redescribe(BodyHandle handle)
+    {
+        world.Bodies.ApplyDescription(handle, AnyDescription());
+        DropJointsWithoutDynamics();
+    }
+
+    void DropJointsWithoutDynamics() => joints.RemoveAll(joint => world.Bodies[joint.A].Kinematic && world.Bodies[joint.B].Kinematic);
+
+    void AddStatic(Vector3 position, Box box) =>
+        statics.Add(world.Statics.Add(new StaticDescription(new RigidPose(position), Simulation.Shapes.Add(box))));
+
+    void RemoveStatic()
+    {
+        int index = random.Next(statics.Count);
+        world.Statics.Remove(statics[index]);
+        statics.RemoveAt(index);
+    }
+
+    void ChangeStatic(StaticHandle handle)
+    {
+        if (random.Next(2) == 0)
+            world.Statics.SetShape(handle, AnyShape());
+        else
+            world.Statics.ApplyDescription(handle, new StaticDescription(new RigidPose(Place(), TestWorld.Turn(random)), AnyShape()));
+    }
+
+    void AddJoint()
+    {
+        BodyHandle a = AnyBody(), b = AnyBody();
+        int kind = random.Next(7);
+        // The kind on one body has it on both sides of the list.
+        if (kind == 6)
+            b = a;
+        if ((kind < 6 && a == b) || (world.Bodies[a].Kinematic && world.Bodies[b].Kinematic))
+            return;
+        var solver = world.Solver;
+        var spring = new SpringSettings(5, 1);
+        ConstraintHandle handle = kind switch
+        {
+            0 => solver.Add(a, b, new BallSocket { LocalOffsetA = new Vector3(0, 1, 0), LocalOffsetB = new Vector3(0, -1, 0), SpringSettings = spring }),
+            1 => solver.Add(a, b, new Weld { LocalOffset = new Vector3(1, 0, 0), LocalOrientation = Quaternion.Identity, SpringSettings = spring }),
+            2 => solver.Add(a, b, new Hinge { LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY, LocalOffsetB = Vector3.UnitX, SpringSettings = spring }),
+            3 => solver.Add(a, b, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f, SpringSettings = spring }),
+            4 => solver.Add(a, b, new TwistLimit
+            {
+                LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = spring,
+            }),
+            5 => solver.Add(a, b, new DistanceLimit { MinimumDistance = .5f, MaximumDistance = 3, SpringSettings = spring }),
+            _ => solver.Add(a, new OneBodyLinearServo { Target = new Vector3(0, 3, 0), ServoSettings = new ServoSettings(2, 0, 50), SpringSettings = spring }),
+        };
+        joints.Add(new Joint(handle, kind, a, b));
+    }
+
+    void RemoveJoint(int index)
+    {
+        world.Solver.Remove(joints[index].Handle);
+        joints.RemoveAt(index);
+    }
+
+    // A joint that lost its handle to a contact, or its place to another joint, has another type or other numbers.
+    void AssertDescription(Joint joint)
+    {
+        var solver = world.Solver;
+        Assert.True(solver.ConstraintExists(joint.Handle), $"{joint} is gone");
+        switch (joint.Kind)
+        {
+            case 0:
+                solver.GetDescription<BallSocket>(joint.Handle, out var ball);
+                Assert.Equal(new Vector3(0, -1, 0), ball.LocalOffsetB);
+                break;
+            case 1:
+                solver.GetDescription<Weld>(joint.Handle, out var weld);
+                Assert.Equal(new Vector3(1, 0, 0), weld.LocalOffset);
+                break;
+            case 2:
+                solver.GetDescription<Hinge>(joint.Handle, out var hinge);
+                Assert.Equal(Vector3.UnitX, hinge.LocalOffsetB);
+                break;
+            case 3:
+                solver.GetDescription<SwingLimit>(joint.Handle, out var swing);
+                Assert.Equal(.5f, swing.MinimumDot);
+                break;
+            case 4:
+                solver.GetDescription<TwistLimit>(joint.Handle, out var twist);
+                Assert.Equal(1, twist.MaximumAngle);
+                break;
+            case 5:
+                solver.GetDescription<DistanceLimit>(joint.Handle, out var distance);
+                Assert.Equal(3, distance.MaximumDistance);
+                break;
+            default:
+                solver.GetDescription<OneBodyLinearServo>(joint.Handle, out var servo);
+                Assert.Equal(50, servo.ServoSettings.MaximumForce);
+                break;
+        }
+        Assert.Contains(world.Bodies[joint.A].Constraints.Span.AsSpan()[..world.Bodies[joint.A].Constraints.Count].ToArray(),
+            reference => reference.ConnectingConstraintHandle == joint.Handle);
+    }
+}
