@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.InteropServices;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -20,6 +21,19 @@ public struct BodyConstraintReference
     public ConstraintHandle ConnectingConstraintHandle;
     /// <summary>Which of the constraint's bodies this one is.</summary>
     public int BodyIndexInConstraint;
+}
+
+/// <summary>What the integrator keeps of a body beside its state: a row of 32 bytes.</summary>
+[StructLayout(LayoutKind.Explicit, Size = 32)]
+struct StepOrigin
+{
+    /// <summary>
+    /// Position when the step began, to which its whole translation is added once. Between steps: the position that the last step wrote, by
+    /// which a position that was written since is recognised.
+    /// </summary>
+    [FieldOffset(0)] public Vector3 Position;
+    /// <summary>What rounding took of the velocity of a fast body, to be added to its next change.</summary>
+    [FieldOffset(16)] public Vector3 LostVelocity;
 }
 
 /// <summary>Bodies that are stored together, each property in an array of its own.</summary>
@@ -45,11 +59,10 @@ public struct BodySet
     /// position: the part of the last step that rounding left over.
     /// </summary>
     internal Buffer<BodyVelocity> Displacements;
-    /// <summary>
-    /// Position of each body when the step began, to which its whole translation is added once. Between steps: the position
-    /// that the last step wrote, by which a position that was written since is recognised.
-    /// </summary>
-    internal Buffer<Vector4> StartPositions;
+    /// <summary>Where each body was when the step began, and what rounding has taken of its velocity.</summary>
+    internal Buffer<StepOrigin> Origins;
+    /// <summary>Geometric stiffness of each body in the place of an inertia tensor; allocated only once a joint can add to it.</summary>
+    internal Buffer<BodyInertia> Stiffness;
     /// <summary>Shape and collision settings of each body.</summary>
     public Buffer<Collidable> Collidables;
     /// <summary>Progress of each body towards sleep.</summary>
@@ -67,10 +80,19 @@ public struct BodySet
         ResizeZeroed(ref LocalInertias, capacity, Count, pool);
         ResizeZeroed(ref WorldInertias, capacity, Count, pool);
         ResizeZeroed(ref Displacements, capacity, Count, pool);
-        ResizeZeroed(ref StartPositions, capacity, Count, pool);
+        ResizeZeroed(ref Origins, capacity, Count, pool);
+        if (Stiffness.Allocated)
+            ResizeZeroed(ref Stiffness, capacity, Count, pool);
         ResizeZeroed(ref Collidables, capacity, Count, pool);
         ResizeZeroed(ref Activity, capacity, Count, pool);
         ResizeZeroed(ref Constraints, capacity, Count, pool);
+    }
+
+    /// <summary>Makes room for geometric stiffness, from the first joint on that can add to it.</summary>
+    internal void EnsureStiffness(BufferPool pool)
+    {
+        if (!Stiffness.Allocated)
+            ResizeZeroed(ref Stiffness, Capacity, 0, pool);
     }
 
     static void ResizeZeroed<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged
@@ -95,7 +117,9 @@ public struct BodySet
             MotionStates[index] = MotionStates[last];
             LocalInertias[index] = LocalInertias[last];
             Displacements[index] = Displacements[last];
-            StartPositions[index] = StartPositions[last];
+            Origins[index] = Origins[last];
+            if (Stiffness.Allocated)
+                Stiffness[index] = Stiffness[last];
             Collidables[index] = Collidables[last];
             Activity[index] = Activity[last];
             Constraints[index] = Constraints[last];
@@ -105,7 +129,9 @@ public struct BodySet
         LocalInertias[last] = default;
         WorldInertias[last] = default;
         Displacements[last] = default;
-        StartPositions[last] = default;
+        Origins[last] = default;
+        if (Stiffness.Allocated)
+            Stiffness[last] = default;
         Collidables[last] = default;
         Activity[last] = default;
         Constraints[last] = default;
@@ -120,7 +146,9 @@ public struct BodySet
         pool.Return(ref LocalInertias);
         pool.Return(ref WorldInertias);
         pool.Return(ref Displacements);
-        pool.Return(ref StartPositions);
+        pool.Return(ref Origins);
+        if (Stiffness.Allocated)
+            pool.Return(ref Stiffness);
         pool.Return(ref Collidables);
         pool.Return(ref Activity);
         pool.Return(ref Constraints);

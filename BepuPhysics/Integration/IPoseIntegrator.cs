@@ -1,5 +1,3 @@
-using BepuUtilities.Memory;
-
 namespace BepuPhysics;
 
 /// <summary>Parts of a step in which bodies are integrated.</summary>
@@ -21,8 +19,8 @@ public interface IPoseIntegrator
     /// <summary>Tells the callbacks about a time over which velocities will be integrated. Called on the thread that steps.</summary>
     internal void Prepare(float dt);
 
-    /// <summary>Integrates some bundles of the active bodies, with the geometric stiffness of each body where there is any. Called on worker threads.</summary>
-    internal void Integrate(IntegrationStage stage, float dt, Buffer<BodyInertia> stiffness, int startBundle, int endBundle, int workerIndex);
+    /// <summary>Integrates some bundles of the active bodies. Called on worker threads.</summary>
+    internal void Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex);
 
     /// <summary>Velocities that a bundle of bodies will have after a time, for the prediction of bounds.</summary>
     internal void PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity);

@@ -3,7 +3,6 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
-using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
@@ -16,7 +15,7 @@ namespace BepuPhysics;
 // over at the end of the step is where the next sum begins, so that it does not add up from step to step.
 //
 // The same holds for the velocity of a fast body: 0.04 m/s of gravity is added to 500 m/s with an error of 4e-4 of itself, and with the same
-// sign for many substeps on end. What is lost is kept beside the displacement (its padding and that of the position) and added back.
+// sign for many substeps on end. What is lost is kept and added back.
 sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
 {
     const int FloatsPerRow = 8;
@@ -37,13 +36,15 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
 
     void IPoseIntegrator.Prepare(float dt) => callbacks.PrepareForIntegration(dt);
 
-    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, Buffer<BodyInertia> stiffness, int startBundle, int endBundle, int workerIndex)
+    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
     {
         ref var set = ref bodies.ActiveSet;
         var motions = (float*)set.MotionStates.Memory;
         var localInertias = (float*)set.LocalInertias.Memory;
         var worldInertias = (float*)set.WorldInertias.Memory;
         var displacements = (float*)set.Displacements.Memory;
+        var origins = (float*)set.Origins.Memory;
+        var stiffness = set.Stiffness;
         var wideDt = new Vector<float>(dt);
         for (int bundle = startBundle; bundle < endBundle; ++bundle)
         {
@@ -51,12 +52,12 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             ReadBodies(motions, localInertias, indices, out var pose, out var velocity, out var localInertia);
             var kinematic = IsKinematic(localInertia);
             if (stage == IntegrationStage.First)
-                Begin(ref set, displacements, indices, pose.Position);
+                Begin(origins, displacements, indices, pose.Position);
             else
-                MovePoses(ref set, motions, displacements, indices, kinematic, wideDt, localInertia, ref pose, ref velocity);
+                MovePoses(motions, origins, displacements, indices, wideDt, localInertia, ref pose, ref velocity);
             if (stage == IntegrationStage.Last)
             {
-                End(ref set, displacements, indices, pose.Position);
+                End(origins, displacements, indices, pose.Position);
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
                 continue;
@@ -65,12 +66,15 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, wideDt, ref velocity);
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
-                KeepLostVelocity(ref set, displacements, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
+                KeepLostVelocity(origins, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
             var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
             if (stiffness.Allocated)
             {
                 var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, indices);
                 GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), wideDt, ref worldInertia, ref velocity.Angular);
+                // The warm start that follows gathers the stiffness of this step.
+                if (stage == IntegrationStage.First)
+                    Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, indices);
             }
             WriteVelocity(motions, indices, velocity);
             WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
@@ -117,19 +121,24 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     // A position that is not what the last step wrote was written since: nothing is left over from the step before.
-    static void Begin(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide position)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
     {
-        ReadPositions(ref set, indices, out var written);
-        var kept = Vector.Equals(written.X, position.X) & Vector.Equals(written.Y, position.Y) & Vector.Equals(written.Z, position.Z);
+        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var kept = Vector.Equals(origin.R0, position.X) & Vector.Equals(origin.R1, position.Y) & Vector.Equals(origin.R2, position.Z);
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
         Rows8 start = default;
         start.R0 = Wide.Mask(kept, row.R0);
         start.R1 = Wide.Mask(kept, row.R1);
         start.R2 = Wide.Mask(kept, row.R2);
-        start.R3 = Wide.Mask(kept, row.R3);
-        start.R7 = Wide.Mask(kept, row.R7);
         Transpose.Scatter(start, displacements, FloatsPerRow, indices);
-        WritePositions(ref set, indices, position);
+        origin.R0 = position.X;
+        origin.R1 = position.Y;
+        origin.R2 = position.Z;
+        origin.R4 = Wide.Mask(kept, origin.R4);
+        origin.R5 = Wide.Mask(kept, origin.R5);
+        origin.R6 = Wide.Mask(kept, origin.R6);
+        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
     }
 
     // Exact by Dekker's two-sum, whichever of the two is larger: what a + b lost by rounding to sum.
@@ -140,19 +149,23 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         return (a - (sum - second)) + (b - second);
     }
 
-    static void End(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide position)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void End(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
     {
-        ReadPositions(ref set, indices, out var start);
+        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
-        row.R0 = LeftOver(start.X, row.R0, position.X);
-        row.R1 = LeftOver(start.Y, row.R1, position.Y);
-        row.R2 = LeftOver(start.Z, row.R2, position.Z);
+        row.R0 = LeftOver(origin.R0, row.R0, position.X);
+        row.R1 = LeftOver(origin.R1, row.R1, position.Y);
+        row.R2 = LeftOver(origin.R2, row.R2, position.Z);
         Transpose.Scatter(row, displacements, FloatsPerRow, indices);
-        WritePositions(ref set, indices, position);
+        origin.R0 = position.X;
+        origin.R1 = position.Y;
+        origin.R2 = position.Z;
+        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void MovePoses(ref BodySet set, float* motions, float* displacements, Vector<int> indices, Vector<int> kinematic, Vector<float> dt, in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+    void MovePoses(float* motions, float* origins, float* displacements, Vector<int> indices, Vector<float> dt, in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
@@ -165,8 +178,8 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         row.R6 = rotation.Z;
         Transpose.Scatter(row, displacements, FloatsPerRow, indices);
 
-        ReadPositions(ref set, indices, out var start);
-        pose.Position = start + translation;
+        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        pose.Position = new Vector3Wide(origin.R0, origin.R1, origin.R2) + translation;
         var inverseInertia = localInertia.InverseInertiaTensor;
         switch (callbacks.AngularIntegrationMode)
         {
@@ -193,29 +206,6 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ReadPositions(ref BodySet set, Vector<int> indices, out Vector3Wide positions)
-    {
-        Unsafe.SkipInit(out positions);
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-        {
-            ref var start = ref set.StartPositions[Math.Max(indices[lane], 0)];
-            Lanes.Write(new Vector3(start.X, start.Y, start.Z), ref positions, lane);
-        }
-    }
-
-    static void WritePositions(ref BodySet set, Vector<int> indices, in Vector3Wide positions)
-    {
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-        {
-            if (indices[lane] >= 0)
-            {
-                ref var target = ref set.StartPositions[indices[lane]];
-                target = new(positions.X[lane], positions.Y[lane], positions.Z[lane], target.W);
-            }
-        }
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void IntegrateVelocity(Vector<int> indices, Vector<int> exists, Vector<int> kinematic, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
     {
         var mask = callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
@@ -237,41 +227,20 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     // The change by itself is what the callbacks make of a body at rest, provided that they only add: what they made of the moving body must
     // differ from the sum by no more than rounding. Damping, for one, does not; such lanes keep nothing.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void KeepLostVelocity(ref BodySet set, float* displacements, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
+    void KeepLostVelocity(float* origins, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
     {
         BodyVelocityWide added = default;
         callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);
         var sum = before + added.Linear;
         fast &= Vector.Equals(sum.X, after.X) & Vector.Equals(sum.Y, after.Y) & Vector.Equals(sum.Z, after.Z);
-        ReadLostVelocity(ref set, displacements, indices, out var lost);
-        var change = added.Linear + Vector3Wide.Mask(fast, lost);
+        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var change = added.Linear + Vector3Wide.Mask(fast, new(origin.R4, origin.R5, origin.R6));
         var changed = before + change;
-        lost = new(LeftOver(before.X, change.X, changed.X), LeftOver(before.Y, change.Y, changed.Y), LeftOver(before.Z, change.Z, changed.Z));
+        origin.R4 = Wide.Mask(fast, LeftOver(before.X, change.X, changed.X));
+        origin.R5 = Wide.Mask(fast, LeftOver(before.Y, change.Y, changed.Y));
+        origin.R6 = Wide.Mask(fast, LeftOver(before.Z, change.Z, changed.Z));
+        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
         after = Vector3Wide.Select(fast, changed, after);
-        WriteLostVelocity(ref set, displacements, indices, Vector3Wide.Mask(fast, lost));
-    }
-
-    static void ReadLostVelocity(ref BodySet set, float* displacements, Vector<int> indices, out Vector3Wide lost)
-    {
-        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
-        lost.X = row.R3;
-        lost.Y = row.R7;
-        Unsafe.SkipInit(out lost.Z);
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-            GatherScatter.Get(ref lost.Z, lane) = set.StartPositions[Math.Max(indices[lane], 0)].W;
-    }
-
-    static void WriteLostVelocity(ref BodySet set, float* displacements, Vector<int> indices, in Vector3Wide lost)
-    {
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-        {
-            var index = indices[lane];
-            if (index < 0)
-                continue;
-            displacements[index * FloatsPerRow + 3] = lost.X[lane];
-            displacements[index * FloatsPerRow + 7] = lost.Y[lane];
-            set.StartPositions[index].W = lost.Z[lane];
-        }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

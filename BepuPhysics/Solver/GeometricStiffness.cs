@@ -14,19 +14,30 @@ namespace BepuPhysics.Constraints;
 // The angular velocity is scaled along, w' = I'^-1 I w, since it is the momentum that the step owns.
 static class GeometricStiffness
 {
-    /// <summary>Adds the stiffness of one force at the end of one arm.</summary>
+    // Part of rho = 1 below which the load of one joint is resolved by far, and is not worth a visit to its bodies.
+    const float ResolvedPart = 0.1f;
+
+    /// <summary>f.r where the force pulls outward so hard that the substep might not resolve the swing; zero elsewhere.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static void Add(in Vector3Wide force, in Vector3Wide arm, ref Symmetric3x3Wide stiffness)
+    internal static Vector<float> Tension(in Vector3Wide force, in Vector3Wide arm, in Symmetric3x3Wide inverseInertia, in Substep substep)
     {
-        var tension = Wide.Max(Vector3Wide.Dot(force, arm), Vector<float>.Zero);
-        // An arm of zero length has no tension either, so nothing is added.
+        var tension = Vector3Wide.Dot(force, arm);
+        // The trace is at least the greatest inverse moment, so this is at least h^2 w^2.
+        var trace = inverseInertia.XX + inverseInertia.YY + inverseInertia.ZZ;
+        var limit = new Vector<float>(ResolvedPart * substep.InverseDt * substep.InverseDt);
+        return Wide.Mask(Vector.GreaterThan(tension * trace, limit), tension);
+    }
+
+    /// <summary>Stiffness of a tension at the end of an arm.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Symmetric3x3Wide Of(Vector<float> tension, in Vector3Wide arm)
+    {
+        // An arm of zero length has no tension either.
         var perLength = Wide.DivideOrZero(tension, arm.LengthSquared());
-        stiffness.XX += tension - perLength * arm.X * arm.X;
-        stiffness.YX -= perLength * arm.Y * arm.X;
-        stiffness.YY += tension - perLength * arm.Y * arm.Y;
-        stiffness.ZX -= perLength * arm.Z * arm.X;
-        stiffness.ZY -= perLength * arm.Z * arm.Y;
-        stiffness.ZZ += tension - perLength * arm.Z * arm.Z;
+        return new(
+            tension - perLength * arm.X * arm.X,
+            -(perLength * arm.Y * arm.X), tension - perLength * arm.Y * arm.Y,
+            -(perLength * arm.Z * arm.X), -(perLength * arm.Z * arm.Y), tension - perLength * arm.Z * arm.Z);
     }
 
     /// <summary>Replaces the inverse inertia and the angular velocity in lanes whose swing the substep cannot resolve.</summary>

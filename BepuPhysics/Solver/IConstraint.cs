@@ -1,4 +1,3 @@
-using System.Numerics;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
@@ -23,9 +22,14 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Whether the constraint holds points of its bodies together, so that its load stiffens their rotation.</summary>
     static virtual bool CarriesPointLoad => false;
 
-    /// <summary>Adds the geometric stiffness of the constraint's load to its bodies; asked for only where <see cref="CarriesPointLoad"/>.</summary>
-    static virtual void AddGeometricStiffness(
-        in TBodies bodies, Vector<float> inverseDt, in TPrestep prestep, in TImpulses impulses, ref Symmetric3x3Wide stiffnessA, ref Symmetric3x3Wide stiffnessB) { }
+    /// <summary>Geometric stiffness of the constraint's load on its first and its last body; asked for only where <see cref="CarriesPointLoad"/>.</summary>
+    /// <returns>Whether there is any in any lane that a substep might not resolve.</returns>
+    static virtual bool TryGetGeometricStiffness(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB)
+    {
+        stiffnessA = stiffnessB = default;
+        return false;
+    }
 
     /// <summary>Applies the impulses that earlier substeps accumulated.</summary>
     static abstract void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);

@@ -20,14 +20,23 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void AddGeometricStiffness(
-        in TBodies bodies, Vector<float> inverseDt, in TPrestep prestep, in TRows impulses, ref Symmetric3x3Wide stiffnessA, ref Symmetric3x3Wide stiffnessB)
+    public static bool TryGetGeometricStiffness(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PointLoad(geometry, impulses, out var impulse, out var offsetA, out var offsetB);
-        var force = impulse * inverseDt;
-        GeometricStiffness.Add(force, offsetA, ref stiffnessA);
-        GeometricStiffness.Add(-force, offsetB, ref stiffnessB);
+        var force = impulse * new Vector<float>(substep.InverseDt);
+        ref var slots = ref Unsafe.AsRef(in bodies);
+        var tensionA = GeometricStiffness.Tension(force, offsetA, BodySlots.At(ref slots, 0).InverseInertia, substep);
+        var tensionB = GeometricStiffness.Tension(-force, offsetB, BodySlots.At(ref slots, TBodies.Count - 1).InverseInertia, substep);
+        if (Vector.EqualsAll(tensionA + tensionB, Vector<float>.Zero))
+        {
+            stiffnessA = stiffnessB = default;
+            return false;
+        }
+        stiffnessA = GeometricStiffness.Of(tensionA, offsetA);
+        stiffnessB = GeometricStiffness.Of(tensionB, offsetB);
+        return true;
     }
 
     /// <inheritdoc/>

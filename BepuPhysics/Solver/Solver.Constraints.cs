@@ -151,6 +151,8 @@ public sealed unsafe partial class Solver
                 HandleToConstraint[i].SetIndex = -1;
         }
         HandleToConstraint[handle.Value] = Allocate(handle, bodyHandles, typeId);
+        if (Processor(typeId).CarriesPointLoad)
+            bodies.ActiveSet.EnsureStiffness(pool);
         for (int i = 0; i < bodyHandles.Length; ++i)
             bodies.AddConstraint(bodyHandles[i], handle, i);
         return handle;

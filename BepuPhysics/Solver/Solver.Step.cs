@@ -44,7 +44,6 @@ public sealed unsafe partial class Solver
 
     enum StageKind
     {
-        AddStiffness,
         SubstepStarted,
         Integrate,
         WarmStart,
@@ -100,8 +99,7 @@ public sealed unsafe partial class Solver
         // Callbacks and substep events are the game's and may throw.
         try
         {
-            TakeStiffness(ref work);
-            work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, work.Stiffness.Memory);
+            work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
             BuildBlocks(ref work);
             BuildStages(ref work);
             BuildSplitBodies(ref work.Split);
@@ -123,26 +121,6 @@ public sealed unsafe partial class Solver
         if (work.Stages.Span.Allocated)
             work.Stages.Dispose(pool);
         work.Split.Dispose(pool);
-        if (work.Stiffness.Allocated)
-            pool.Return(ref work.Stiffness);
-    }
-
-    // Room for the geometric stiffness of bodies, if any constraint can add to it.
-    void TakeStiffness(ref SolveWork work)
-    {
-        ref var batches = ref ActiveSet.Batches;
-        for (int i = 0; i < batches.Count && i < FallbackBatchThreshold; ++i)
-        {
-            ref var typeBatches = ref batches[i].TypeBatches;
-            for (int j = 0; j < typeBatches.Count; ++j)
-            {
-                if (typeBatches[j].ConstraintCount == 0 || !Processor(typeBatches[j].TypeId).CarriesPointLoad)
-                    continue;
-                pool.Take(bodies.ActiveSet.Capacity, out work.Stiffness);
-                work.Stiffness.Clear(0, work.Stiffness.Length);
-                return;
-            }
-        }
     }
 
     void BuildBlocks(ref SolveWork work)
@@ -168,8 +146,6 @@ public sealed unsafe partial class Solver
     {
         work.Stages = new QuickList<Stage>(64, pool);
         work.Iterations = IterationsOf(0);
-        if (work.Stiffness.Allocated)
-            AddSweep(ref work, StageKind.AddStiffness, 0);
         AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
         var bodyBlocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
         for (int substep = 0; substep < substepCount; ++substep)
@@ -212,8 +188,7 @@ public sealed unsafe partial class Solver
     {
         for (int batch = 0; batch < work.BlocksOfBatch.Count; ++batch)
         {
-            // Where bodies are split, each of their constraints is stable by itself: the fallback batch adds no stiffness.
-            if (work.BlocksOfBatch[batch].Count == 0 || (kind == StageKind.AddStiffness && batch == FallbackBatchThreshold))
+            if (work.BlocksOfBatch[batch].Count == 0)
                 continue;
             work.Stages.Add(new() { Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
             if (batch == FallbackBatchThreshold)
@@ -232,7 +207,6 @@ public sealed unsafe partial class Solver
         public int Iterations;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
-        public Buffer<BodyInertia> Stiffness;
         public FallbackParts Split;
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
@@ -251,9 +225,8 @@ public sealed unsafe partial class Solver
                 case StageKind.Integrate:
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.ActiveSet.Count);
                     var start = blockIndex * BodyBundlesPerBlock;
-                    Integrator.Integrate(stage.Integration, SubstepDt, Stiffness, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
+                    Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
                     break;
-                case StageKind.AddStiffness:
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                     RunConstraints(stage, Blocks[BlocksOfBatch[stage.Batch].Start + blockIndex]);
@@ -290,8 +263,6 @@ public sealed unsafe partial class Solver
                 else
                     processor.SolveSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
             }
-            else if (stage.Kind == StageKind.AddStiffness)
-                processor.AddGeometricStiffness(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
             else if (stage.Kind == StageKind.WarmStart)
                 processor.WarmStart(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
             else

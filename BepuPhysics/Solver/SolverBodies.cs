@@ -57,27 +57,16 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         }
     }
 
-    /// <summary>Reads the geometric stiffness of a bundle of bodies, N m, world axes.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal Symmetric3x3Wide GatherStiffness(Vector<int> references)
+    /// <summary>Adds to the geometric stiffness of a bundle of bodies, N m, world axes, except for kinematics and unused lanes.</summary>
+    internal void AddStiffness(Vector<int> references, in Symmetric3x3Wide added)
     {
         var row = Transpose.Gather(stiffness, FloatsPerRow, references);
-        return new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
-    }
-
-    /// <summary>Writes the geometric stiffness of a bundle of bodies, except for kinematics and unused lanes.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal void ScatterStiffness(Vector<int> references, in Symmetric3x3Wide value)
-    {
-        Rows8 row;
-        row.R0 = value.XX;
-        row.R1 = value.YX;
-        row.R2 = value.YY;
-        row.R3 = value.ZX;
-        row.R4 = value.ZY;
-        row.R5 = value.ZZ;
-        row.R6 = Vector<float>.Zero;
-        row.R7 = Vector<float>.Zero;
+        row.R0 += added.XX;
+        row.R1 += added.YX;
+        row.R2 += added.YY;
+        row.R3 += added.ZX;
+        row.R4 += added.ZY;
+        row.R5 += added.ZZ;
         Transpose.Scatter(row, stiffness, FloatsPerRow, references);
     }
 

@@ -15,30 +15,6 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     internal override bool CarriesPointLoad => TConstraint.CarriesPointLoad;
 
     /// <inheritdoc/>
-    internal override void AddGeometricStiffness(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
-    {
-        if (!TConstraint.CarriesPointLoad)
-            return;
-        // Only joints of two bodies hold points together; a point held to the world would take the first half of this.
-        var references = (Vector<int>*)batch.BodyReferences.Memory;
-        var prestep = (TPrestep*)batch.Prestep.Memory;
-        var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
-        // The impulses are those of the last substep, of the last step's length.
-        var inverseDt = new Vector<float>(substep.InverseDt * substep.WarmStartScale);
-        for (int i = startBundle; i < endBundle; ++i)
-        {
-            var a = references[i * TBodies.Count];
-            var b = references[i * TBodies.Count + TBodies.Count - 1];
-            Gather(references + i * TBodies.Count, bodies, BodyAccess.Pose, substep, out var slots);
-            var stiffnessA = bodies.GatherStiffness(a);
-            var stiffnessB = bodies.GatherStiffness(b);
-            TConstraint.AddGeometricStiffness(slots, inverseDt, prestep[i], impulses[i], ref stiffnessA, ref stiffnessB);
-            bodies.ScatterStiffness(a, stiffnessA);
-            bodies.ScatterStiffness(b, stiffnessB);
-        }
-    }
-
-    /// <inheritdoc/>
     internal override void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
@@ -49,6 +25,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
             Gather(references, bodies, TConstraint.WarmStartAccess, substep, out var slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             Scatter(references, bodies, ref slots);
+            if (TConstraint.CarriesPointLoad && substep.Index == 0)
+                AddGeometricStiffness(references, bodies, substep, slots, prestep[i], impulses[i]);
         }
     }
 
@@ -94,6 +72,16 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
         }
+    }
+
+    // Once per step: the load changes little from substep to substep.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void AddGeometricStiffness(Vector<int>* references, in SolverBodies bodies, in Substep substep, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
+    {
+        if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
+            return;
+        bodies.AddStiffness(references[0], stiffnessA);
+        bodies.AddStiffness(references[TBodies.Count - 1], stiffnessB);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

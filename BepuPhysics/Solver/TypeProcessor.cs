@@ -30,8 +30,6 @@ public abstract class TypeProcessor
 
     /// <summary>Whether constraints of this type stiffen the rotation of their bodies by their load.</summary>
     internal abstract bool CarriesPointLoad { get; }
-    /// <summary>Adds the stiffness of some bundles to their bodies.</summary>
-    internal abstract void AddGeometricStiffness(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
     /// <summary>Applies the accumulated impulses of some bundles.</summary>
     internal abstract void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
     /// <summary>Solves some bundles once.</summary>
