@@ -74,7 +74,8 @@ public sealed unsafe class ConstraintFixture : IDisposable
             for (int slot = 0; slot < references.Length; ++slot)
                 references[slot] = i * references.Length + slot;
             processor.Allocate(ref batch, new(i), references, count, pool);
-            // No kernel takes another path for axes that are not unit vectors; only the normal of contacts has to be one, or they would gain energy.
+            // No kernel takes another path for axes that are not unit vectors; only the normal of contacts has to be one, or they
+            // would gain energy.
             for (int k = 0; k < processor.PrestepFloats; ++k)
                 column[k] = 0.1f + 0.4f * random.NextSingle();
             column[processor.PrestepFloats..].Clear();

@@ -24,7 +24,8 @@ sealed class SmokeCase
     {
         get
         {
-            IEnumerable<string> values = parameters.Select(p => string.Create(CultureInfo.InvariantCulture, $"{p.Property.Name}: {p.Value}"));
+            IEnumerable<string> values = parameters.Select(choice =>
+                string.Create(CultureInfo.InvariantCulture, $"{choice.Property.Name}: {choice.Value}"));
             return $"{Owner.Name}.{method.Name}({string.Join(", ", values)})";
         }
     }
@@ -59,7 +60,7 @@ sealed class SmokeCase
         object? values = type.GetProperty(source.Name, Members)?.GetValue(null);
         return values is System.Collections.IEnumerable sequence
             ? [.. sequence.Cast<object?>()]
-            : throw new InvalidOperationException($"{type.Name}.{source.Name} has to be a static property with the values of {property.Name}.");
+            : throw new InvalidOperationException($"{type.Name}.{source.Name} has to be a static property with values.");
     }
 
     /// <summary>Setup, one call, cleanup; the cleanup also after a failure.</summary>
