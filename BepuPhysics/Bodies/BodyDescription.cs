@@ -19,15 +19,18 @@ public struct BodyDescription
     public BodyActivityDescription Activity;
 
     /// <summary>A body that forces and contacts move.</summary>
-    public static BodyDescription CreateDynamic(RigidPose pose, BodyVelocity velocity, BodyInertia inertia, CollidableDescription collidable, BodyActivityDescription activity) =>
+    public static BodyDescription CreateDynamic(
+        RigidPose pose, BodyVelocity velocity, BodyInertia inertia, CollidableDescription collidable, BodyActivityDescription activity) =>
         new() { Pose = pose, Velocity = velocity, LocalInertia = inertia, Collidable = collidable, Activity = activity };
 
     /// <summary>A body that forces and contacts move, at rest.</summary>
-    public static BodyDescription CreateDynamic(RigidPose pose, BodyInertia inertia, CollidableDescription collidable, BodyActivityDescription activity) =>
+    public static BodyDescription CreateDynamic(
+        RigidPose pose, BodyInertia inertia, CollidableDescription collidable, BodyActivityDescription activity) =>
         CreateDynamic(pose, default, inertia, collidable, activity);
 
     /// <summary>A body that keeps the velocity it is given.</summary>
-    public static BodyDescription CreateKinematic(RigidPose pose, BodyVelocity velocity, CollidableDescription collidable, BodyActivityDescription activity) =>
+    public static BodyDescription CreateKinematic(
+        RigidPose pose, BodyVelocity velocity, CollidableDescription collidable, BodyActivityDescription activity) =>
         new() { Pose = pose, Velocity = velocity, Collidable = collidable, Activity = activity };
 
     /// <summary>A body that keeps the velocity it is given, at rest.</summary>

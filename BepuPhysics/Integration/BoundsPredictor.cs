@@ -63,7 +63,9 @@ unsafe struct BoundsPredictor : IStagedWork
         }
     }
 
-    readonly void Write(int lanes, Collidable* collidables, in Vector3Wide position, in BodyVelocityWide velocity, Vector<float> maximumRadius, Vector<float> maximumAngularExpansion, Vector3Wide min, Vector3Wide max)
+    readonly void Write(
+        int lanes, Collidable* collidables, in Vector3Wide position, in BodyVelocityWide velocity, Vector<float> maximumRadius,
+        Vector<float> maximumAngularExpansion, Vector3Wide min, Vector3Wide max)
     {
         var dt = new Vector<float>(Dt);
         var turning = Wide.Min(velocity.Angular.Length() * dt * maximumRadius, maximumAngularExpansion);

@@ -38,7 +38,8 @@ static class FreeRotation
 
     /// <summary>Turns by the angular velocity, then sets the angular velocity that has the same momentum in the new orientation.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal static void TurnKeepingMomentum(in Symmetric3x3Wide inverseInertia, Vector<float> dt, ref QuaternionWide orientation, ref Vector3Wide angular)
+    internal static void TurnKeepingMomentum(
+        in Symmetric3x3Wide inverseInertia, Vector<float> dt, ref QuaternionWide orientation, ref Vector3Wide angular)
     {
         var turned = Turn(orientation, angular, dt);
         var free = CanTumble(inverseInertia);

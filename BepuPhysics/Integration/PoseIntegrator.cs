@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
@@ -98,7 +97,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ReadBodies(float* motions, float* localInertias, Vector<int> indices, out RigidPoseWide pose, out BodyVelocityWide velocity, out BodyInertiaWide localInertia)
+    static void ReadBodies(
+        float* motions, float* localInertias, Vector<int> indices, out RigidPoseWide pose, out BodyVelocityWide velocity,
+        out BodyInertiaWide localInertia)
     {
         var row = Transpose.Gather(motions, FloatsPerMotion, indices);
         pose.Orientation = new(row.R0, row.R1, row.R2, row.R3);
@@ -165,7 +166,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void MovePoses(float* motions, float* origins, float* displacements, Vector<int> indices, Vector<float> dt, in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+    void MovePoses(
+        float* motions, float* origins, float* displacements, Vector<int> indices, Vector<float> dt, in BodyInertiaWide localInertia,
+        ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
@@ -206,7 +209,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void IntegrateVelocity(Vector<int> indices, Vector<int> exists, Vector<int> kinematic, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
+    void IntegrateVelocity(
+        Vector<int> indices, Vector<int> exists, Vector<int> kinematic, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
+        Vector<float> dt, ref BodyVelocityWide velocity)
     {
         var mask = callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
         var changed = velocity;
@@ -227,7 +232,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     // The change by itself is what the callbacks make of a body at rest, provided that they only add: what they made of the moving body must
     // differ from the sum by no more than rounding. Damping, for one, does not; such lanes keep nothing.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void KeepLostVelocity(float* origins, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex, Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
+    void KeepLostVelocity(
+        float* origins, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
+        Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
     {
         BodyVelocityWide added = default;
         callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);

@@ -28,7 +28,8 @@ public struct SolveDescription
     }
 
     /// <summary>A number of iterations for each substep, chosen by a function.</summary>
-    public SolveDescription(int substepCount, SubstepVelocityIterationScheduler velocityIterationScheduler, int fallbackBatchThreshold = DefaultFallbackBatchThreshold)
+    public SolveDescription(
+        int substepCount, SubstepVelocityIterationScheduler velocityIterationScheduler, int fallbackBatchThreshold = DefaultFallbackBatchThreshold)
         : this(1, substepCount, fallbackBatchThreshold) =>
         VelocityIterationScheduler = velocityIterationScheduler ?? throw new ArgumentNullException(nameof(velocityIterationScheduler));
 

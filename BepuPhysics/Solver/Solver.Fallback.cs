@@ -28,7 +28,8 @@ public sealed unsafe partial class Solver
         public QuickList<int> StartOfBody;
         public Buffer<int> PartsOfBody;
 
-        public readonly SplitBodies For(int typeBatch) => new(Shares.Memory + StartOfTypeBatch[typeBatch], Parts.Memory + StartOfTypeBatch[typeBatch]);
+        public readonly SplitBodies For(
+            int typeBatch) => new(Shares.Memory + StartOfTypeBatch[typeBatch], Parts.Memory + StartOfTypeBatch[typeBatch]);
 
         // The velocity of a body is the mean of its parts by mass, summed in the order of the constraints. What changed is summed, since the
         // parts started from that velocity: so a body that nothing pushes keeps every bit of it.

@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
-using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;

@@ -45,7 +45,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     }
 
     /// <inheritdoc/>
-    internal override void WarmStartSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
+    internal override void WarmStartSplit(
+        ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory;
         var prestep = (TPrestep*)batch.Prestep.Memory;
@@ -60,7 +61,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     }
 
     /// <inheritdoc/>
-    internal override void SolveSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
+    internal override void SolveSplit(
+        ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory;
         var prestep = (TPrestep*)batch.Prestep.Memory;
@@ -76,7 +78,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
 
     // Once per step: the load changes little from substep to substep.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void AddGeometricStiffness(Vector<int>* references, in SolverBodies bodies, in Substep substep, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
+    static void AddGeometricStiffness(
+        Vector<int>* references, in SolverBodies bodies, in Substep substep, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
     {
         if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
             return;

@@ -1,3 +1,4 @@
+using DemoTests.Support;
 using Demos.Scenes;
 using Xunit;
 
@@ -8,6 +9,7 @@ namespace DemoTests.Scenes;
 /// Pools grow while a scene holds more of something than ever before: contacts come in several types, whose numbers shift until all is at
 /// rest. So each scene has to come to steps that take nothing, many of them in a row: a step that always takes something never does.
 /// </remarks>
+[Collection(AloneCollection.Name)]
 public class MemoryTests
 {
     const int CalmSteps = 60;

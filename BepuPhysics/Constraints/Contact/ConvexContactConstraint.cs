@@ -27,7 +27,8 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     // All impulses of the manifold are summed to one force and one torque before they touch the bodies:
     // sum(rA_i x n l_i) = (sum l_i rA_i) x n, and the same about B with every arm shifted by -offsetB.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void WarmStart(ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
+    public static void WarmStart(
+        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
         if (substep.WarmStartScale != 1)
             Scale(ref impulses, new Vector<float>(substep.WarmStartScale));
@@ -56,7 +57,8 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     /// <inheritdoc/>
     // A JIT root of its own: inlined into the loop, it and the gathers are more than the JIT's inliner takes.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static void Solve(ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
+    public static void Solve(
+        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
         var softness = prestep.Material.SpringSettings.ForSubstep(substep);
         var inverseDt = new Vector<float>(substep.InverseDt);
@@ -78,7 +80,9 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void SolveNormal(ref TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact, in SoftnessWide softness, Vector<float> inverseDt, ref Vector<float> impulse)
+    static void SolveNormal(
+        ref TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact, in SoftnessWide softness,
+        Vector<float> inverseDt, ref Vector<float> impulse)
     {
         ref var a = ref BodySlots.At(ref bodies, 0);
         var n = prestep.Normal;
@@ -114,7 +118,8 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
 
     // Two rows that share an anchor, so their effective mass is a 2 x 2 block: a block solve stops sliding in one sweep where two rows in turn would not.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void SolveFriction(ref TBodies bodies, in Vector3Wide n, in Vector3Wide center, in Vector3Wide offsetB, Vector<float> maximum, ref Vector3Wide impulse)
+    static void SolveFriction(
+        ref TBodies bodies, in Vector3Wide n, in Vector3Wide center, in Vector3Wide offsetB, Vector<float> maximum, ref Vector3Wide impulse)
     {
         BuildTangents(n, out var x, out var y);
         ref var a = ref BodySlots.At(ref bodies, 0);

@@ -96,7 +96,8 @@ public readonly struct BallSocketJoint : IJoint<TwoBodies, BallSocketWide, BallS
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PointLoad(in BallSocketGeometry geometry, in Rows3 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    public static void PointLoad(
+        in BallSocketGeometry geometry, in Rows3 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
     {
         impulse = impulses.V;
         offsetA = geometry.OffsetA;

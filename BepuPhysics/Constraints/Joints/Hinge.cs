@@ -151,7 +151,8 @@ public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, 
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PointLoad(in HingeGeometry geometry, in Rows5 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    public static void PointLoad(
+        in HingeGeometry geometry, in Rows5 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
     {
         impulse = impulses.Linear;
         offsetA = geometry.OffsetA;

@@ -117,7 +117,8 @@ public readonly struct WeldJoint : IJoint<TwoBodies, WeldWide, WeldGeometry, Row
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PointLoad(in WeldGeometry geometry, in Rows6 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    public static void PointLoad(
+        in WeldGeometry geometry, in Rows6 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
     {
         impulse = impulses.Linear;
         offsetA = geometry.OffsetA;

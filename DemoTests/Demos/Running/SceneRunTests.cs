@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using DemoTests.Support;
 using Demos.Running;
 using Demos.Scenes;
 using Xunit;
@@ -7,6 +8,7 @@ using Xunit;
 namespace DemoTests.Runner;
 
 /// <summary>The figures of a run against scenes whose answers are known.</summary>
+[Collection(AloneCollection.Name)]
 public class SceneRunTests
 {
     static readonly RunSettings shortRun = new() { Steps = 30, Warmup = 5 };
