@@ -53,7 +53,6 @@ public unsafe class InliningTests
         var substep = new Substep(1, 1 / 240f, 1, 1);
         processor.WarmStart(ref batch, bodies, substep, 0, 1);
         processor.Solve(ref batch, bodies, substep, 0, 1);
-        processor.AddGeometricStiffness(ref batch, bodies, substep, 0, 1);
         TypeProcessor.Dispose(ref batch, pool);
         pool.Return(ref motions);
         pool.Return(ref inertias);
