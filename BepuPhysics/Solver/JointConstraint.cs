@@ -19,7 +19,7 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
     public static bool CarriesPointLoad => TJoint.HoldsPoints;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static bool TryGetGeometricStiffness(
         in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB)
     {

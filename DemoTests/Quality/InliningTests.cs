@@ -52,6 +52,8 @@ public unsafe class InliningTests
         var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
         var substep = new Substep(1, 1 / 240f, 1, 1);
         processor.WarmStart(ref batch, bodies, substep, 0, 1);
+        // Once a step, in its first substep.
+        processor.WarmStart(ref batch, bodies, new Substep(0, 1 / 240f), 0, 1);
         processor.Solve(ref batch, bodies, substep, 0, 1);
         TypeProcessor.Dispose(ref batch, pool);
         pool.Return(ref motions);

@@ -103,7 +103,6 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
             correction = offsetB;
         }
         manifold.OffsetB = offsetB;
-        manifold.Normal = normal;
         for (int i = 0; i < TContacts.Count; ++i)
         {
             ref var source = ref wide.Contacts[i];
@@ -115,6 +114,8 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
             contact.FeatureId = Lane(ref source.FeatureId, lane);
         }
         manifold.Count = count;
+        // A bundle that is apart as a whole leaves its normals unwritten: nobody may see what was there before.
+        manifold.Normal = count > 0 ? normal : default;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
