@@ -294,12 +294,18 @@ public sealed unsafe partial class Bodies
 
     void WriteSettings(int index, in BodyDescription description)
     {
+        var settings = description.Collidable;
         ref var collidable = ref ActiveSet.Collidables[index];
-        collidable.Shape = description.Collidable.Shape;
-        collidable.Continuity = description.Collidable.Continuity;
-        collidable.MinimumSpeculativeMargin = description.Collidable.MinimumSpeculativeMargin;
-        collidable.MaximumSpeculativeMargin = description.Collidable.MaximumSpeculativeMargin;
-        collidable.SpeculativeMargin = description.Collidable.MinimumSpeculativeMargin;
+        // The margin of the coming step is set by its prediction of bounds.
+        collidable = new()
+        {
+            BroadPhaseIndex = collidable.BroadPhaseIndex,
+            Shape = settings.Shape,
+            Continuity = settings.Continuity,
+            SpeculativeMargin = settings.MinimumSpeculativeMargin,
+            MinimumSpeculativeMargin = settings.MinimumSpeculativeMargin,
+            MaximumSpeculativeMargin = settings.MaximumSpeculativeMargin,
+        };
         ActiveSet.Activity[index] = new()
         {
             SleepThreshold = description.Activity.SleepThreshold,

@@ -9,8 +9,10 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 public interface INarrowPhaseCallbacks
 {
-    /// <summary>Called once, when the simulation has been created.</summary>
-    void Initialize(Simulation simulation);
+    /// <summary>Chooses the material of a pair whose contacts were found, and may change them.</summary>
+    /// <returns>Whether the contacts push the bodies apart.</returns>
+    bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
+        where TManifold : unmanaged, IContactManifold<TManifold>;
 
     /// <summary>Whether to look for contacts of a pair whose bounds overlap.</summary>
     /// <param name="workerIndex">Index of the calling worker.</param>
@@ -19,17 +21,15 @@ public interface INarrowPhaseCallbacks
     /// <param name="speculativeMargin">Distance within which contacts are looked for, m; may be changed.</param>
     bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin);
 
-    /// <summary>Chooses the material of a pair whose contacts were found, and may change them.</summary>
-    /// <returns>Whether the contacts push the bodies apart.</returns>
-    bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
-        where TManifold : unmanaged, IContactManifold<TManifold>;
-
     /// <summary>Whether to look for contacts between two children of compounds.</summary>
     bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB);
 
     /// <summary>May change the contacts between two children of compounds.</summary>
     /// <returns>Whether the contacts are kept.</returns>
     bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold);
+
+    /// <summary>Called once, when the simulation has been created.</summary>
+    void Initialize(Simulation simulation);
 
     /// <summary>Called once, when the simulation is disposed.</summary>
     void Dispose();

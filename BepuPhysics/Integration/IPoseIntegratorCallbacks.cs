@@ -18,22 +18,6 @@ public enum AngularIntegrationMode
 /// <remarks>Implement this with a struct: the integrator is compiled for it, so calls are direct and usually inlined.</remarks>
 public interface IPoseIntegratorCallbacks
 {
-    /// <summary>How orientations and angular velocities are advanced.</summary>
-    AngularIntegrationMode AngularIntegrationMode { get; }
-
-    /// <summary>Kept for callers; bodies without constraints are integrated in substeps like all others.</summary>
-    bool AllowSubstepsForUnconstrainedBodies { get; }
-
-    /// <summary>Whether <see cref="IntegrateVelocity"/> is called for kinematic bodies too.</summary>
-    bool IntegrateVelocityForKinematics { get; }
-
-    /// <summary>Called once, when the simulation has been created.</summary>
-    void Initialize(Simulation simulation);
-
-    /// <summary>Called before bodies are integrated over a time, on the thread that steps the simulation: the place to work out what all bodies share.</summary>
-    /// <param name="dt">Time that the following calls integrate over, s.</param>
-    void PrepareForIntegration(float dt);
-
     /// <summary>Changes the velocities of a bundle of bodies. Called from worker threads.</summary>
     /// <param name="bodyIndices">Indices of the bodies in the active set; -1 for unused lanes.</param>
     /// <param name="position">Positions of the bodies.</param>
@@ -46,4 +30,20 @@ public interface IPoseIntegratorCallbacks
     void IntegrateVelocity(
         Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia,
         Vector<int> integrationMask, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity);
+
+    /// <summary>Called before bodies are integrated over a time, on the thread that steps the simulation: the place to work out what all bodies share.</summary>
+    /// <param name="dt">Time that the following calls integrate over, s.</param>
+    void PrepareForIntegration(float dt);
+
+    /// <summary>Called once, when the simulation has been created.</summary>
+    void Initialize(Simulation simulation);
+
+    /// <summary>Whether <see cref="IntegrateVelocity"/> is called for kinematic bodies too.</summary>
+    bool IntegrateVelocityForKinematics { get; }
+
+    /// <summary>Kept for callers; bodies without constraints are integrated in substeps like all others.</summary>
+    bool AllowSubstepsForUnconstrainedBodies { get; }
+
+    /// <summary>How orientations and angular velocities are advanced.</summary>
+    AngularIntegrationMode AngularIntegrationMode { get; }
 }
