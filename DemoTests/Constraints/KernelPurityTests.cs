@@ -1,0 +1,135 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Constraints;
+using BepuUtilities.Memory;
+using Xunit;
+
+namespace DemoTests.Constraints;
+
+/// <summary>What a constraint does depends on its own numbers alone: not on its lane, not on its neighbours, not on how full the bundle is.</summary>
+public unsafe class KernelPurityTests
+{
+    const int ConstraintCount = 61;
+
+    /// <summary>Every constraint type of the library, contacts included, by id.</summary>
+    public static TheoryData<int> Types()
+    {
+        using var pool = new BufferPool();
+        return new(CreateSolver(pool).TypeProcessors.Where(p => p is not null).Select(p => p!.TypeId));
+    }
+
+    [Theory]
+    [MemberData(nameof(Types))]
+    public void Order_and_neighbours_do_not_matter(int typeId)
+    {
+        var order = Enumerable.Range(0, ConstraintCount).ToArray();
+        var expected = Run(typeId, order);
+        Assert.Contains(expected.Values, outcome => outcome.Any(value => value != 0 && float.IsFinite(value)));
+
+        var random = new Random(typeId);
+        for (int shuffle = 0; shuffle < 3; ++shuffle)
+        {
+            random.Shuffle(order);
+            Compare(expected, Run(typeId, order));
+        }
+        // Alone in a bundle, beside unused lanes.
+        for (int i = 0; i < ConstraintCount; i += 7)
+            Compare(expected, Run(typeId, [i]));
+    }
+
+    static void Compare(Dictionary<int, float[]> expected, Dictionary<int, float[]> actual)
+    {
+        foreach (var (constraint, outcome) in actual)
+        {
+            for (int i = 0; i < outcome.Length; ++i)
+            {
+                var same = BitConverter.SingleToInt32Bits(outcome[i]) == BitConverter.SingleToInt32Bits(expected[constraint][i]) ||
+                    (float.IsNaN(outcome[i]) && float.IsNaN(expected[constraint][i]));
+                Assert.True(same, $"constraint {constraint}, number {i}: {outcome[i]:R} here, {expected[constraint][i]:R} there");
+            }
+        }
+    }
+
+    // Warm starts and solves constraints that are stored in some order; impulses and velocities of each by its number.
+    static Dictionary<int, float[]> Run(int typeId, int[] order)
+    {
+        using var pool = new BufferPool();
+        var processor = CreateSolver(pool).Processor(typeId);
+        var bodiesPerConstraint = processor.BodiesPerConstraint;
+        pool.Take<MotionState>(ConstraintCount * bodiesPerConstraint, out var motions);
+        pool.Take<BodyInertia>(motions.Length, out var inertias);
+        pool.Take<BodyInertia>(motions.Length, out var stiffness);
+        pool.Take<BodyVelocity>(motions.Length, out var displacements);
+        stiffness.Clear(0, stiffness.Length);
+        var batch = default(TypeBatch);
+        for (int body = 0; body < motions.Length; ++body)
+            FillBody(new Random(1000 + body), out motions[body], out inertias[body], out displacements[body]);
+        var references = new int[bodiesPerConstraint];
+        foreach (var constraint in order)
+        {
+            for (int slot = 0; slot < references.Length; ++slot)
+                references[slot] = constraint * bodiesPerConstraint + slot;
+            var index = processor.Allocate(ref batch, new(constraint), references, 16, pool);
+            var random = new Random(constraint);
+            for (int i = 0; i < processor.PrestepFloats; ++i)
+                processor.PrestepFloat(ref batch, index, i) = random.NextSingle() * 2 - 0.7f;
+            for (int i = 0; i < processor.ImpulseFloats; ++i)
+                processor.Impulse(ref batch, index, i) = random.NextSingle();
+        }
+
+        var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
+        foreach (var substep in new[] { new Substep(0, 1 / 240f, 0.8f), new Substep(1, 1 / 240f) })
+        {
+            processor.WarmStart(ref batch, bodies, substep, 0, batch.BundleCount);
+            processor.Solve(ref batch, bodies, substep, 0, batch.BundleCount);
+        }
+
+        var outcomes = new Dictionary<int, float[]>();
+        for (int index = 0; index < batch.ConstraintCount; ++index)
+        {
+            var constraint = batch.IndexToHandle[index].Value;
+            var outcome = new List<float>();
+            for (int i = 0; i < processor.ImpulseFloats; ++i)
+                outcome.Add(processor.Impulse(ref batch, index, i));
+            for (int slot = 0; slot < bodiesPerConstraint; ++slot)
+            {
+                ref var velocity = ref motions[constraint * bodiesPerConstraint + slot].Velocity;
+                outcome.AddRange([velocity.Linear.X, velocity.Linear.Y, velocity.Linear.Z, velocity.Angular.X, velocity.Angular.Y, velocity.Angular.Z]);
+            }
+            outcomes.Add(constraint, [.. outcome]);
+        }
+        TypeProcessor.Dispose(ref batch, pool);
+        pool.Return(ref motions);
+        pool.Return(ref inertias);
+        pool.Return(ref stiffness);
+        pool.Return(ref displacements);
+        return outcomes;
+    }
+
+    static void FillBody(Random random, out MotionState motion, out BodyInertia inertia, out BodyVelocity displacement)
+    {
+        motion = default;
+        motion.Pose = new(Vector(random, 2), Quaternion.Normalize(new(Vector(random, 1), random.NextSingle() + 0.1f)));
+        motion.Velocity = new(Vector(random, 3), Vector(random, 3));
+        inertia = default;
+        inertia.InverseMass = random.NextSingle() + 0.1f;
+        inertia.InverseInertiaTensor.XX = random.NextSingle() + 1;
+        inertia.InverseInertiaTensor.YY = random.NextSingle() + 1;
+        inertia.InverseInertiaTensor.ZZ = random.NextSingle() + 1;
+        inertia.InverseInertiaTensor.YX = random.NextSingle() * 0.3f;
+        displacement = new(Vector(random, 0.01f), Vector(random, 0.01f));
+    }
+
+    static Vector3 Vector(Random random, float size) => (new Vector3(random.NextSingle(), random.NextSingle(), random.NextSingle()) * 2 - Vector3.One) * size;
+
+    static Solver CreateSolver(BufferPool pool)
+    {
+        // Only the list of types is wanted of it.
+        var solver = new Solver(null!, pool, new SolveDescription(1, 1), 16);
+        DefaultTypes.RegisterDefaults(solver);
+        return solver;
+    }
+}
