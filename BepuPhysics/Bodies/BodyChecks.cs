@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuUtilities;
 
 namespace BepuPhysics;
 
@@ -19,7 +20,11 @@ static class BodyChecks
     /// <summary>Greatest entry of an inverse inertia tensor.</summary>
     // A 1 mm cube of 1e-6 kg has 6e12 / (kg m2).
     internal const float MaximumInverseInertia = 1e25f;
+    /// <summary>Greatest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
+    // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find what was never normalised.
     const float UnitTolerance = 1e-2f;
+
+    internal static bool HasUnitLength(float lengthSquared) => MathF.Abs(lengthSquared - 1) <= UnitTolerance;
 
     internal static void Position(Vector3 value, string name) => Bounded(value, MaximumPosition, name);
 
@@ -37,8 +42,7 @@ static class BodyChecks
 
     internal static void Orientation(Quaternion value, string name)
     {
-        var lengthSquared = value.X * value.X + value.Y * value.Y + value.Z * value.Z + value.W * value.W;
-        if (!(MathF.Abs(lengthSquared - 1) <= UnitTolerance))
+        if (!HasUnitLength(Exact.Dot(value, value)))
             throw new ArgumentException($"The {name} must be a quaternion of unit length, not {value}.", name);
     }
 

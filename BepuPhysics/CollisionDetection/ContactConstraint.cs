@@ -67,11 +67,10 @@ unsafe readonly ref struct ContactConstraint
         for (int i = 0; i < contactCount; ++i)
         {
             result.Normals[i] = impulses[i * Vector<float>.Count];
-            var field = i * ContactPrestepLayout.FloatsPerContact;
-            result.Offsets[i] = new(prestep[field * Vector<float>.Count], prestep[(field + 1) * Vector<float>.Count], prestep[(field + 2) * Vector<float>.Count]);
+            result.Offsets[i] = Read(prestep, i * ContactPrestepLayout.FloatsPerContact);
         }
         var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
-        result.Friction = new(impulses[friction * Vector<float>.Count], impulses[(friction + 1) * Vector<float>.Count], impulses[(friction + 2) * Vector<float>.Count]);
+        result.Friction = Read(impulses, friction);
         result.Twist = impulses[(friction + 3) * Vector<float>.Count];
     }
 
@@ -146,6 +145,9 @@ unsafe readonly ref struct ContactConstraint
         impulses[(friction + 2) * Vector<float>.Count] = tangential.Z;
         impulses[(friction + 3) * Vector<float>.Count] = old.Twist;
     }
+
+    static Vector3 Read(float* column, int field) => new(
+        column[field * Vector<float>.Count], column[(field + 1) * Vector<float>.Count], column[(field + 2) * Vector<float>.Count]);
 
     void Write(int field, float value) => prestep[field * Vector<float>.Count] = value;
 

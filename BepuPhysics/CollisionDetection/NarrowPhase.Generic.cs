@@ -173,7 +173,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         if (material.Restitution > 0)
             Note(ref worker, new() { Pair = pair, Coefficient = material.Restitution });
-        var typeId = ConstraintTypeIds.ConvexContact(convex.Count, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
+        var typeId = ConstraintType(pair, convex.Count);
         var index = Pairs.Pairs.IndexOf(pair);
         if (index >= 0)
         {
@@ -245,6 +245,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
 
+    static int ConstraintType(in CollidablePair pair, int contactCount) =>
+        ConstraintTypeIds.ConvexContact(contactCount, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
+
     static int ContactCount(int typeId) => typeId % 4 + 1;
 
     void SortByKey()
@@ -258,7 +261,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         ContactImpulses impulses = default;
         var solver = Simulation.Solver;
         var contactCount = pending.Manifold.Count;
-        var typeId = ConstraintTypeIds.ConvexContact(contactCount, pending.Pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
+        var typeId = ConstraintType(pending.Pair, contactCount);
         var index = Pairs.Pairs.IndexOf(pending.Pair);
         if (index >= 0)
         {

@@ -7,9 +7,6 @@ namespace BepuPhysics.Constraints;
 /// <summary>Checks of the values in constraint descriptions.</summary>
 static class ConstraintChecks
 {
-    /// <summary>Longest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
-    // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find a vector never normalised.
-    const float UnitTolerance = 1e-2f;
     /// <summary>Greatest length of an offset, m: squares and products with velocities must stay finite in float.</summary>
     const float MaximumLength = 1e12f;
 
@@ -34,14 +31,13 @@ static class ConstraintChecks
     internal static void Unit(Vector3 value, string name)
     {
         Finite(value, name);
-        if (MathF.Abs(Exact.LengthSquared(value) - 1) > UnitTolerance)
+        if (!BodyChecks.HasUnitLength(Exact.LengthSquared(value)))
             throw new ArgumentException($"{name} must have unit length, not {value}.", name);
     }
 
     internal static void Unit(Quaternion value, string name)
     {
-        var lengthSquared = value.X * value.X + value.Y * value.Y + value.Z * value.Z + value.W * value.W;
-        if (!(MathF.Abs(lengthSquared - 1) <= UnitTolerance))
+        if (!BodyChecks.HasUnitLength(Exact.Dot(value, value)))
             throw new ArgumentException($"{name} must have unit length, not {value}.", name);
     }
 

@@ -121,7 +121,7 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     static void SolveFriction(
         ref TBodies bodies, in Vector3Wide n, in Vector3Wide center, in Vector3Wide offsetB, Vector<float> maximum, ref Vector3Wide impulse)
     {
-        BuildTangents(n, out var x, out var y);
+        Vector3Wide.BuildOrthonormalBasis(n, out var x, out var y);
         ref var a = ref BodySlots.At(ref bodies, 0);
         var angularAX = Vector3Wide.Cross(center, x);
         var angularAY = Vector3Wide.Cross(center, y);
@@ -170,17 +170,6 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             b.Linear -= linear * b.InverseMass;
             b.Angular += responseBX * changeX + responseBY * changeY;
         }
-    }
-
-    // Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: Building an Orthonormal Basis, Revisited. JCGT 6(1), 2017.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void BuildTangents(in Vector3Wide n, out Vector3Wide x, out Vector3Wide y)
-    {
-        var sign = Vector.ConditionalSelect(Vector.LessThan(n.Z, Vector<float>.Zero), -Vector<float>.One, Vector<float>.One);
-        var a = -Vector<float>.One / (sign + n.Z);
-        var b = n.X * n.Y * a;
-        x = new(Vector<float>.One + sign * n.X * n.X * a, sign * b, -sign * n.X);
-        y = new(b, sign + n.Y * n.Y * a, -n.Y);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
