@@ -136,7 +136,7 @@ public struct BoxWide : IShapeWide<Box>
 
     /// <summary>Part of a line that is between two parallel planes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void IntersectSlab(
+    internal static void IntersectSlab(
         Vector<float> position, Vector<float> direction, Vector<float> halfExtent, out Vector<float> entry, out Vector<float> exit)
     {
         // A line that is closer to parallel than this stays at its distance, to rounding, over any chord of any box: the interval is

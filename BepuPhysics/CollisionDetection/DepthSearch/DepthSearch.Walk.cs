@@ -1,0 +1,86 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSupportB>
+{
+    // Steps of a walk. One pair in a hundred of deep cylinders gets there; all others stop long before.
+    const int MaximumSteps = 40;
+    // A direction that is farther than 60 degrees from the best one is not taken as it is: the best direction is tilted towards it by a half.
+    const float TiltCosine = 0.5f;
+    const float Tilt = 0.5f;
+    // Where the simplex comes no closer to its target, tilting is given up.
+    const float StalledRatio = 0.9999f;
+
+    /// <summary>Walks from the state's direction to a local minimum of the depth.</summary>
+    /// <param name="a">First shapes.</param>
+    /// <param name="b">Second shapes.</param>
+    /// <param name="frame">Where B is, scale and tolerances.</param>
+    /// <param name="activeMask">Lanes to walk in; nothing changes in others.</param>
+    /// <param name="knownMask">Lanes that have a simplex. The others start with the first support point.</param>
+    /// <param name="walk">Direction to start in, and simplex; direction, depth and simplex of the minimum.</param>
+    /// <param name="statistics">Counts.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void Walk<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, Vector<int> activeMask, Vector<int> knownMask,
+        ref SearchWalk walk, ref TStatistics statistics)
+        where TStatistics : struct, ISearchStatistics
+    {
+        statistics.Evaluated(activeMask);
+        Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out var vertex);
+        var bestDirection = walk.Direction;
+        var best = Wide.Select(activeMask, Vector3Wide.Dot(vertex.Point, bestDirection), walk.Depth);
+        var keepMask = knownMask | Vector.OnesComplement(activeMask);
+        walk.Simplex.A.Keep(keepMask, vertex);
+        walk.Simplex.B.Keep(keepMask, vertex);
+        walk.Simplex.C.Keep(keepMask, vertex);
+        var wholeMask = knownMask & activeMask;
+        var betterMask = activeMask;
+        var rawMask = Vector<int>.Zero;
+        var previousLength = new Vector<float>(float.MaxValue);
+        for (int i = 1; ; ++i)
+        {
+            // The tootbird: the origin's projection on the best plane; the origin itself once there is a plane between it and the shape.
+            var target = bestDirection * Wide.Max(best, Vector<float>.Zero);
+            walk.Simplex.Add(vertex, target, activeMask, wholeMask, out var offset);
+            wholeMask = Vector<int>.Zero;
+            var length = offset.Length();
+            // As comparisons that NaN loses, so that lanes without a pair stop.
+            activeMask &= Vector.GreaterThan(length + Wide.Min(best, Vector<float>.Zero), frame.Tolerance) &
+                Vector.GreaterThanOrEqual(best, frame.LeastDepth);
+            if (activeMask == Vector<int>.Zero)
+                break;
+            if (i == MaximumSteps)
+            {
+                statistics.Capped(activeMask);
+                break;
+            }
+            var stalled = Vector.GreaterThanOrEqual(length, previousLength * new Vector<float>(StalledRatio));
+            rawMask = Vector.AndNot(rawMask | stalled, betterMask);
+            previousLength = length;
+
+            var straight = offset * (Vector<float>.One / length);
+            var tiltMask = Vector.AndNot(
+                Vector.GreaterThan(best, Vector<float>.Zero) &
+                Vector.LessThan(Vector3Wide.Dot(straight, bestDirection), new Vector<float>(TiltCosine)), rawMask);
+            var direction = straight;
+            if (tiltMask != Vector<int>.Zero)
+            {
+                var tilted = bestDirection + straight * new Vector<float>(Tilt);
+                direction = Vector3Wide.Select(tiltMask, tilted * (Vector<float>.One / tilted.Length()), straight);
+            }
+            // A support point that is no farther out than the simplex is to rounding: the simplex is what is closest.
+            var limit = Vector3Wide.Dot(target - offset, straight) + frame.Rounding;
+            statistics.Evaluated(activeMask);
+            Support(a, b, frame, direction, Vector.OnesComplement(activeMask), out vertex);
+            var depth = Vector3Wide.Dot(vertex.Point, direction);
+            betterMask = activeMask & Vector.LessThan(depth, best);
+            best = Wide.Select(betterMask, depth, best);
+            bestDirection = Vector3Wide.Select(betterMask, direction, bestDirection);
+            activeMask &= betterMask | tiltMask | Vector.GreaterThan(depth, limit);
+        }
+        walk.Direction = bestDirection;
+        walk.Depth = best;
+    }
+}

@@ -1,0 +1,30 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>What the depth search asks of a shape: its core, in the shape's frame, and by how much the core is rounded.</summary>
+/// <remarks>
+/// The core of a sphere is its centre, that of a capsule its segment; other shapes are their own. What a lane returns depends on that lane
+/// alone; lanes without a shape may hold anything, and must not fail.
+/// </remarks>
+/// <typeparam name="TShapeWide">Wide form of the shape.</typeparam>
+public interface ISupport<TShapeWide> where TShapeWide : unmanaged
+{
+    /// <summary>Distance of the surface from the core, m.</summary>
+    /// <param name="shape">Shapes.</param>
+    static abstract Vector<float> Margin(in TShapeWide shape);
+
+    /// <summary>Two balls about one point of the core.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="center">Centre of both balls; a point of the core.</param>
+    /// <param name="inner">Radius of a ball that lies in the core, m; zero where the core is flat.</param>
+    /// <param name="outer">Radius of a ball that holds the core, m.</param>
+    static abstract void GetExtents(in TShapeWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer);
+
+    /// <summary>A point of the core that is farthest along a direction. Of several, always the same.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="direction">Direction; of length one to rounding.</param>
+    /// <param name="doneMask">Lanes whose result is not needed: they may return anything.</param>
+    static abstract Vector3Wide Support(in TShapeWide shape, in Vector3Wide direction, Vector<int> doneMask);
+}

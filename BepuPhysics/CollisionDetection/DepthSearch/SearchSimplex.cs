@@ -1,0 +1,158 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A point of the Minkowski difference A - B, in A's frame and scaled, and the points of A and B that it came from.</summary>
+struct SearchVertex
+{
+    public Vector3Wide Point;
+    /// <summary>In A's frame, m.</summary>
+    public Vector3Wide OnA;
+    /// <summary>In B's frame, m.</summary>
+    public Vector3Wide OnB;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Keep(Vector<int> keepMask, in SearchVertex other)
+    {
+        Point = Vector3Wide.Select(keepMask, Point, other.Point);
+        OnA = Vector3Wide.Select(keepMask, OnA, other.OnA);
+        OnB = Vector3Wide.Select(keepMask, OnB, other.OnB);
+    }
+}
+
+/// <summary>Up to three points of the Minkowski difference. A segment or a single point repeats some of its vertices.</summary>
+struct SearchSimplex
+{
+    // Squared length, in units of the search, below which two vertices are one; squared sine below which three are on a line.
+    const float LeastSquaredEdge = 1e-14f;
+    const float LeastSquaredSine = 1e-12f;
+
+    public SearchVertex A, B, C;
+
+    /// <summary>
+    /// Takes in a new vertex and keeps those that span, with it, what is closest to the target.
+    /// </summary>
+    /// <param name="vertex">New vertex.</param>
+    /// <param name="target">What the search aims at.</param>
+    /// <param name="activeMask">Lanes to change.</param>
+    /// <param name="wholeMask">Lanes in which the old triangle competes, too.</param>
+    /// <param name="offset">From the closest point to the target.</param>
+    // Exact: all three segments and all three triangles at the new vertex are tried. Choosing between them by plane tests alone is wrong
+    // where the target is beside all of them, and then the search may never end.
+    // A vertex that is not kept is overwritten by the new one in its place, so that three masks say everything.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, out Vector3Wide offset)
+    {
+        var q = target - vertex.Point;
+        var a = A.Point - vertex.Point;
+        var b = B.Point - vertex.Point;
+        var c = C.Point - vertex.Point;
+        var closest = q;
+        var distance = q.LengthSquared();
+        var squaredA = a.LengthSquared();
+        var squaredB = b.LengthSquared();
+        var squaredC = c.LengthSquared();
+        var useA = TrySegment(q, a, squaredA, ref closest, ref distance);
+        var useB = TrySegment(q, b, squaredB, ref closest, ref distance);
+        var useC = TrySegment(q, c, squaredC, ref closest, ref distance);
+        useA = Vector.AndNot(useA, useB | useC);
+        useB = Vector.AndNot(useB, useC);
+        var useAB = TryTriangle(q, a, b, squaredA * squaredB, ref closest, ref distance);
+        var useBC = TryTriangle(q, b, c, squaredB * squaredC, ref closest, ref distance);
+        var useCA = TryTriangle(q, c, a, squaredC * squaredA, ref closest, ref distance);
+        useAB = Vector.AndNot(useAB, useBC | useCA);
+        useBC = Vector.AndNot(useBC, useCA);
+        var keepA = Vector.AndNot(useA, useBC) | useAB | useCA;
+        var keepB = Vector.AndNot(useB, useCA) | useAB | useBC;
+        var keepC = Vector.AndNot(useC, useAB) | useBC | useCA;
+        // An offset that is across a long edge to a part in 1e7 of the edge may be off by much of its own length: once more.
+        var edge = Vector3Wide.Select(keepA, a, Vector3Wide.Select(keepB, b, c));
+        var squaredEdge = Wide.Select(keepA, squaredA, Wide.Select(keepB, squaredB, squaredC));
+        var hasEdge = (keepA | keepB | keepC) & Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
+        closest -= edge * Wide.Mask(hasEdge, Vector3Wide.Dot(closest, edge) / squaredEdge);
+        if (wholeMask != Vector<int>.Zero)
+        {
+            var whole = TryTriangle(target - A.Point, B.Point - A.Point, C.Point - A.Point,
+                (B.Point - A.Point).LengthSquared() * (C.Point - A.Point).LengthSquared(), wholeMask, ref closest, ref distance);
+            keepA |= whole;
+            keepB |= whole;
+            keepC |= whole;
+        }
+        A.Keep(Vector.OnesComplement(activeMask) | keepA, vertex);
+        B.Keep(Vector.OnesComplement(activeMask) | keepB, vertex);
+        C.Keep(Vector.OnesComplement(activeMask) | keepC, vertex);
+        offset = closest;
+    }
+
+    /// <summary>Weights of the vertices in the point of the simplex that is closest to the target.</summary>
+    // The simplex is what is closest, as a whole: the point is inside of it, to rounding.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector3Wide GetWeights(in Vector3Wide target)
+    {
+        var one = Vector<float>.One;
+        var zero = Vector<float>.Zero;
+        var q = target - A.Point;
+        var b = B.Point - A.Point;
+        var c = C.Point - A.Point;
+        var normal = Vector3Wide.Cross(b, c);
+        var determinant = normal.LengthSquared();
+        var squaredB = b.LengthSquared();
+        var squaredC = c.LengthSquared();
+        var inverse = one / determinant;
+        var weightB = Wide.Clamp(Vector3Wide.Dot(Vector3Wide.Cross(q, c), normal) * inverse, zero, one);
+        var weightC = Wide.Clamp(Vector3Wide.Dot(Vector3Wide.Cross(b, q), normal) * inverse, zero, one - weightB);
+        var isTriangle = Vector.GreaterThan(determinant, squaredB * squaredC * new Vector<float>(LeastSquaredSine));
+
+        // A segment: two of its three vertices are one, and either of B and C is as good as the other where they are it.
+        var useB = Vector.GreaterThanOrEqual(squaredB, squaredC);
+        var edge = Vector3Wide.Select(useB, b, c);
+        var squaredEdge = Wide.Select(useB, squaredB, squaredC);
+        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
+        var along = Wide.Clamp(Wide.Mask(hasEdge, Vector3Wide.Dot(q, edge) / squaredEdge), zero, one);
+        weightB = Wide.Select(isTriangle, weightB, Wide.Mask(useB, along));
+        weightC = Wide.Select(isTriangle, weightC, Wide.Mask(Vector.OnesComplement(useB), along));
+        return new(one - weightB - weightC, weightB, weightC);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> TrySegment(
+        in Vector3Wide q, in Vector3Wide edge, Vector<float> squaredEdge, ref Vector3Wide closest, ref Vector<float> distance)
+    {
+        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
+        var along = Wide.Clamp(
+            Wide.Mask(hasEdge, Vector3Wide.Dot(q, edge) / squaredEdge), Vector<float>.Zero, Vector<float>.One);
+        var candidate = q - edge * along;
+        var squared = candidate.LengthSquared();
+        var better = Vector.LessThan(squared, distance);
+        closest = Vector3Wide.Select(better, candidate, closest);
+        distance = Wide.Select(better, squared, distance);
+        return better;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, Vector<float> squaredEdges,
+        ref Vector3Wide closest, ref Vector<float> distance) =>
+        TryTriangle(q, e1, e2, squaredEdges, Vector<int>.AllBitsSet, ref closest, ref distance);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, Vector<float> squaredEdges,
+        Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    {
+        var normal = Vector3Wide.Cross(e1, e2);
+        var determinant = normal.LengthSquared();
+        var u = Vector3Wide.Dot(Vector3Wide.Cross(q, e2), normal);
+        var v = Vector3Wide.Dot(Vector3Wide.Cross(e1, q), normal);
+        var height = Vector3Wide.Dot(q, normal);
+        var scaled = height / determinant;
+        var squared = height * scaled;
+        var better = wantedMask &
+            Vector.GreaterThan(determinant, squaredEdges * new Vector<float>(LeastSquaredSine)) &
+            Vector.GreaterThanOrEqual(u, Vector<float>.Zero) & Vector.GreaterThanOrEqual(v, Vector<float>.Zero) &
+            Vector.LessThanOrEqual(u + v, determinant) & Vector.LessThanOrEqual(squared, distance);
+        closest = Vector3Wide.Select(better, normal * scaled, closest);
+        distance = Wide.Select(better, squared, distance);
+        return better;
+    }
+}
