@@ -82,24 +82,7 @@ sealed class ShapeFactory(Simulation simulation)
     {
         if (!ConvexHullHelper.CreateShape(shape.Points, pool, out Vector3 center, out ConvexHull hull))
             throw new SceneException(shape.Line, shape.Word, "the points of the hull enclose no volume");
-        return Convex(hull, center, HullVolume(hull));
-    }
-
-    static double HullVolume(in ConvexHull hull)
-    {
-        double volume = 0;
-        for (int face = 0; face < hull.FaceToVertexIndicesStart.Length; ++face)
-        {
-            hull.GetVertexIndicesForFace(face, out Buffer<HullVertexIndex> vertices);
-            hull.GetPoint(vertices[0], out Vector3 first);
-            for (int i = 2; i < vertices.Length; ++i)
-            {
-                hull.GetPoint(vertices[i - 1], out Vector3 second);
-                hull.GetPoint(vertices[i], out Vector3 third);
-                volume += Math.Abs(Vector3.Dot(first, Vector3.Cross(second, third))) / 6.0;
-            }
-        }
-        return volume;
+        return Convex(hull, center, HullVolume.Of(hull));
     }
 
     BuiltShape Mesh(SceneShape shape, bool solid)

@@ -18,7 +18,7 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
         : base(pool, TShape.TypeId, Unsafe.SizeOf<TShape>(), Math.Max(1, initialCapacity)) => ResizeShapes(initialCapacity);
 
     /// <inheritdoc/>
-    public sealed override int Capacity => Math.Min(shapes.Length, taken.Length);
+    public sealed override int Capacity => Math.Min(shapes.Length, SlotCapacity);
 
     /// <summary>A shape by its index; the reference is valid until a shape is added or the batch is resized.</summary>
     /// <remarks>
@@ -67,9 +67,7 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
 
     private protected sealed override void ResizeShapes(int shapeCapacity)
     {
-        var usedSlotCount = UsedSlotCount;
-        pool.ResizeToAtLeast(ref shapes, shapeCapacity, usedSlotCount);
-        pool.ResizeToAtLeast(ref taken, shapeCapacity, usedSlotCount);
-        taken.Clear(usedSlotCount, taken.Length - usedSlotCount);
+        pool.ResizeToAtLeast(ref shapes, shapeCapacity, UsedSlotCount);
+        ResizeSlots(shapeCapacity);
     }
 }

@@ -18,7 +18,10 @@ public abstract unsafe class ShapeBatch
     private protected readonly BufferPool pool;
     IdPool ids;
     // One byte per slot: 1 when a shape is in it.
-    private protected Buffer<byte> taken;
+    Buffer<byte> taken;
+    // What number each slot's shape has among all that were ever added.
+    Buffer<int> generations;
+    int lastGeneration;
 
     private protected ShapeBatch(BufferPool pool, int typeId, int shapeDataSize, int initialCapacity)
     {
@@ -162,6 +165,7 @@ public abstract unsafe class ShapeBatch
     public virtual void Dispose()
     {
         pool.Return(ref taken);
+        pool.Return(ref generations);
         ids.Dispose(pool);
         Count = 0;
     }
@@ -190,6 +194,24 @@ public abstract unsafe class ShapeBatch
     /// <summary>Distance from the centre of a shape to its farthest point.</summary>
     internal abstract float MaximumRadius(int shapeIndex);
 
+    /// <summary>Tells a shape that exists from those that were in its slot before.</summary>
+    internal int Generation(int shapeIndex)
+    {
+        Check.That(Exists(shapeIndex));
+        return generations[shapeIndex];
+    }
+
+    /// <summary>Number of slots whose state is recorded.</summary>
+    private protected int SlotCapacity => taken.Length;
+
+    /// <summary>Changes the number of slots whose state is recorded; those in use remain.</summary>
+    private protected void ResizeSlots(int slotCapacity)
+    {
+        pool.ResizeToAtLeast(ref taken, slotCapacity, UsedSlotCount);
+        pool.ResizeToAtLeast(ref generations, slotCapacity, UsedSlotCount);
+        taken.Clear(UsedSlotCount, taken.Length - UsedSlotCount);
+    }
+
     /// <summary>Number of slots from the first to the last that may hold a shape.</summary>
     private protected int UsedSlotCount => ids.HighestPossiblyClaimedId + 1;
 
@@ -206,6 +228,7 @@ public abstract unsafe class ShapeBatch
         var index = ids.Take();
         Check.That(!Exists(index));
         taken[index] = 1;
+        generations[index] = ++lastGeneration;
         ++Count;
         return index;
     }

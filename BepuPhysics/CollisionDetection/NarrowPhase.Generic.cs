@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
@@ -25,16 +26,26 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     struct Worker
     {
         public CollisionBatcher<Completion> Batcher;
-        public QuickList<CollidablePair> TestedPairs;
+        public QuickList<TestedPair> TestedPairs;
         public QuickList<PendingPair> Pending;
         public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
     }
 
-    // A pair whose contacts need a constraint that it does not have.
+    // A pair that waits for its contacts.
+    struct TestedPair
+    {
+        public CollidablePair Pair;
+        // Index in the cache; negative for a pair that is not in it.
+        public int CacheIndex;
+        public bool KeepsHistory;
+    }
+
+    // A pair whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
     struct PendingPair
     {
         public CollidablePair Pair;
+        public bool KeepsHistory;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
     }
@@ -91,9 +102,10 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         {
             ref var worker = ref workers[i];
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
-            worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i));
+            worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
+                Pairs.Histories.Memory);
             // Who tests how many is up to chance. Each has room for all, or a worker's memory would grow whenever it is luckier than ever.
-            worker.TestedPairs = new QuickList<CollidablePair>(Math.Max(256, testedPairCount), worker.Pool);
+            worker.TestedPairs = new QuickList<TestedPair>(Math.Max(256, testedPairCount), worker.Pool);
             worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
             worker.Bouncing = default;
         }
@@ -154,31 +166,62 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         }
         if (!callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
             return;
+        var offsetB = poseB.Position - poseA.Position;
+        var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
+        var tested = new TestedPair { Pair = new(a, b), KeepsHistory = task.KeepsHistories };
+        tested.CacheIndex = Pairs.Pairs.IndexOf(tested.Pair);
+        var history = PairInput.NoHistory;
+        if (task.KeepsHistories && tested.CacheIndex >= 0)
+        {
+            history = Pairs.Pairs.Values[tested.CacheIndex].History;
+            Unsafe.SkipInit(out ConvexContactManifold manifold);
+            if (Reuse(history, collidableA.Shape, shapeB, offsetB, poseA.Orientation, poseB.Orientation, margin, ref manifold))
+            {
+                Complete(workerIndex, tested, ref manifold);
+                return;
+            }
+        }
         ref var worker = ref workers[workerIndex];
         var pairId = worker.TestedPairs.Count;
-        worker.TestedPairs.Add(new(a, b), worker.Pool);
-        worker.Batcher.Add(
-            collidableA.Shape.Type, collidableA.Shape.Index, shapeB.Type, shapeB.Index,
-            poseB.Position - poseA.Position, poseA.Orientation, poseB.Orientation, margin, pairId);
+        worker.TestedPairs.Add(tested, worker.Pool);
+        worker.Batcher.Add(task, taskIndex, flipped, collidableA.Shape.Index, shapeB.Index, offsetB, poseA.Orientation, poseB.Orientation,
+            margin, pairId, history);
     }
 
-    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    /// <summary>Finds the contacts of a pair that has hardly moved since its last test, and otherwise prepares its history for the next.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    bool Reuse(int historyIndex, TypedIndex shapeA, TypedIndex shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, float margin, ref ConvexContactManifold manifold)
     {
-        ref var worker = ref workers[workerIndex];
-        var pair = worker.TestedPairs[pairId];
-        if (!callbacks.ConfigureContactManifold(workerIndex, pair, ref manifold, out var material) || manifold.Count == 0)
+        ref var history = ref Pairs.Histories.Memory[historyIndex];
+        history.Identify(Identify(shapeA), Identify(shapeB));
+        return history.TryReuse(offsetB, orientationA, orientationB, margin, ref manifold);
+    }
+
+    ShapeIdentity Identify(TypedIndex shape) => new(shape, Simulation.Shapes.GetBatch(shape.Type).Generation(shape.Index));
+
+    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
+        Complete(workerIndex, workers[workerIndex].TestedPairs[pairId], ref manifold);
+
+    void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        if (!callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
+        {
+            if (tested.KeepsHistory)
+                CompleteWithoutContacts(ref workers[workerIndex], tested);
             return;
+        }
         if (typeof(TManifold) != typeof(ConvexContactManifold))
             throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint yet.");
+        ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         if (material.Restitution > 0)
-            Note(ref worker, new() { Pair = pair, Coefficient = material.Restitution });
-        var typeId = ConstraintType(pair, convex.Count);
-        var index = Pairs.Pairs.IndexOf(pair);
-        if (index >= 0)
+            Note(ref worker, new() { Pair = tested.Pair, Coefficient = material.Restitution });
+        var typeId = ConstraintType(tested.Pair, convex.Count);
+        if (tested.CacheIndex >= 0)
         {
-            Pairs.MarkSeen(index);
-            ref var cached = ref Pairs.Pairs.Values[index];
+            Pairs.MarkSeen(tested.CacheIndex);
+            ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
             if (cached.ConstraintTypeId == typeId)
             {
                 var target = new ContactConstraint(Simulation.Solver, cached.Constraint, convex.Count);
@@ -188,7 +231,20 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
                 return;
             }
         }
-        worker.Pending.Add(new() { Pair = pair, Manifold = convex, Material = material }, worker.Pool);
+        worker.Pending.Add(
+            new() { Pair = tested.Pair, KeepsHistory = tested.KeepsHistory, Manifold = convex, Material = material }, worker.Pool);
+    }
+
+    // A pair that is apart keeps its history, so that it costs little to see that it still is.
+    void CompleteWithoutContacts(ref Worker worker, in TestedPair tested)
+    {
+        if (tested.CacheIndex >= 0)
+        {
+            Pairs.MarkSeen(tested.CacheIndex);
+            if (!Pairs.Pairs.Values[tested.CacheIndex].HasConstraint)
+                return;
+        }
+        worker.Pending.Add(new() { Pair = tested.Pair, KeepsHistory = true }, worker.Pool);
     }
 
     // Pairs that ask for restitution pay for a list; no others do.
@@ -260,25 +316,23 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     {
         ContactImpulses impulses = default;
         var solver = Simulation.Solver;
-        var contactCount = pending.Manifold.Count;
-        var typeId = ConstraintType(pending.Pair, contactCount);
         var index = Pairs.Pairs.IndexOf(pending.Pair);
-        if (index >= 0)
-        {
-            ref var old = ref Pairs.Pairs.Values[index];
-            new ContactConstraint(solver, old.Constraint, ContactCount(old.ConstraintTypeId)).ReadImpulses(old.Features, out impulses);
-            solver.RemoveWithoutNotice(old.Constraint);
-        }
-        var handle = AddConstraint(pending.Pair, typeId);
         if (index < 0)
         {
             index = Pairs.Pairs.Count;
-            Pairs.Add(pending.Pair, default, Pool);
+            Pairs.Add(pending.Pair, pending.KeepsHistory, Pool);
         }
         ref var cached = ref Pairs.Pairs.Values[index];
-        cached.Constraint = handle;
-        cached.ConstraintTypeId = typeId;
-        var target = new ContactConstraint(solver, handle, contactCount);
+        if (cached.HasConstraint)
+        {
+            new ContactConstraint(solver, cached.Constraint, ContactCount(cached.ConstraintTypeId)).ReadImpulses(cached.Features, out impulses);
+            RemoveConstraint(ref cached);
+        }
+        var contactCount = pending.Manifold.Count;
+        if (contactCount == 0)
+            return;
+        AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached);
+        var target = new ContactConstraint(solver, cached.Constraint, contactCount);
         target.Write(pending.Manifold, pending.Material);
         target.WriteImpulses(impulses, pending.Manifold, ref cached.Features);
     }

@@ -11,11 +11,18 @@ public abstract partial class NarrowPhase
     internal void Validate()
     {
         var solver = Simulation.Solver;
+        int contactPairCount = 0;
+        int historyCount = 0;
         for (int i = 0; i < Pairs.Pairs.Count; ++i)
         {
             var pair = Pairs.Pairs.Keys[i];
             Invariant.Require(Pairs.Pairs.IndexOf(pair) == i, "place of pair", i);
             ref var cached = ref Pairs.Pairs.Values[i];
+            Invariant.Require(cached.History < 0 || Pairs.Histories.MayExist(cached.History), "history of pair", i, cached.History);
+            historyCount += cached.History < 0 ? 0 : 1;
+            if (!cached.HasConstraint)
+                continue;
+            ++contactPairCount;
             Invariant.Require(solver.ConstraintExists(cached.Constraint), "constraint of pair", i, cached.Constraint.Value);
             var location = solver.HandleToConstraint[cached.Constraint.Value];
             Invariant.Require(location.TypeId == cached.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount, "type of the constraint of pair", i, location.TypeId);
@@ -26,7 +33,9 @@ public abstract partial class NarrowPhase
             Invariant.Require(IsBody(location, 0, pair.A), "first body of the constraint of pair", i);
             Invariant.Require(processor.BodiesPerConstraint == 1 || IsBody(location, 1, pair.B), "second body of the constraint of pair", i);
         }
-        Invariant.Require(CountContactConstraints() == Pairs.Pairs.Count, "number of contact constraints, pairs are", Pairs.Pairs.Count);
+        Invariant.Require(contactPairCount == PairCount, "number of pairs with contacts, counted are", contactPairCount, PairCount);
+        Invariant.Require(historyCount == Pairs.Histories.Count, "number of histories, pairs have", historyCount, Pairs.Histories.Count);
+        Invariant.Require(CountContactConstraints() == PairCount, "number of contact constraints, pairs are", PairCount);
     }
 
     bool IsBody(in ConstraintLocation location, int slot, CollidableReference collidable)

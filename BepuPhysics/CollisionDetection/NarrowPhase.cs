@@ -33,7 +33,7 @@ public abstract partial class NarrowPhase
     }
 
     /// <summary>Number of pairs that have contacts.</summary>
-    public int PairCount => Pairs.Pairs.Count;
+    public int PairCount { get; private set; }
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
@@ -43,6 +43,7 @@ public abstract partial class NarrowPhase
     internal void Clear()
     {
         Pairs.Clear();
+        PairCount = 0;
         Restitution.BeginStep();
     }
 
@@ -55,33 +56,48 @@ public abstract partial class NarrowPhase
             Pool.Return(ref pairOfConstraint);
     }
 
-    /// <summary>Removes the constraint of every pair that was not seen in this step.</summary>
+    /// <summary>Removes every pair that was not seen in this step.</summary>
     private protected void RemoveUnseenPairs()
     {
         for (int i = Pairs.FindUnseen(Pairs.Pairs.Count); i >= 0; i = Pairs.FindUnseen(i))
         {
-            Simulation.Solver.RemoveWithoutNotice(Pairs.Pairs.Values[i].Constraint);
-            Pairs.RemoveAt(i);
+            ref var cached = ref Pairs.Pairs.Values[i];
+            if (cached.HasConstraint)
+                RemoveConstraint(ref cached);
+            Pairs.RemoveAt(i, Pool);
         }
     }
 
-    /// <summary>Adds the constraint of a pair.</summary>
-    private protected ConstraintHandle AddConstraint(in CollidablePair pair, int typeId)
+    /// <summary>Removes the constraint of a pair, which has one.</summary>
+    private protected void RemoveConstraint(ref CachedPair cached)
+    {
+        Simulation.Solver.RemoveWithoutNotice(cached.Constraint);
+        cached.ConstraintTypeId = CachedPair.NoConstraint;
+        --PairCount;
+    }
+
+    /// <summary>Adds the constraint of a pair, which has none.</summary>
+    private protected void AddConstraint(in CollidablePair pair, int typeId, ref CachedPair cached)
     {
         Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
         var handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
         if (handle.Value >= pairOfConstraint.Length)
             Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Value * 2), pairOfConstraint.Length);
         pairOfConstraint[handle.Value] = pair;
-        return handle;
+        cached.Constraint = handle;
+        cached.ConstraintTypeId = typeId;
+        ++PairCount;
     }
 
     /// <summary>Forgets the pair of a contact constraint that is removed from outside, as with one of its bodies.</summary>
     internal void Forget(ConstraintHandle handle)
     {
         var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Value]);
-        if (index >= 0 && Pairs.Pairs.Values[index].Constraint == handle)
-            Pairs.RemoveAt(index);
+        if (index >= 0 && Pairs.Pairs.Values[index].HasConstraint && Pairs.Pairs.Values[index].Constraint == handle)
+        {
+            Pairs.RemoveAt(index, Pool);
+            --PairCount;
+        }
         Restitution.Forget(handle);
     }
 }

@@ -42,6 +42,13 @@ public sealed class SceneDescription
     public int AddCapsule(float radius, float halfLength) =>
         Add(new SceneShape { Kind = SceneShapeKind.Capsule, Size = new Vector3(radius, halfLength, 0) });
 
+    /// <summary>Adds a cylinder along local y and returns its number.</summary>
+    public int AddCylinder(float radius, float halfLength) =>
+        Add(new SceneShape { Kind = SceneShapeKind.Cylinder, Size = new Vector3(radius, halfLength, 0) });
+
+    /// <summary>Adds the convex hull of points and returns its number.</summary>
+    public int AddHull(Vector3[] points) => Add(new SceneShape { Kind = SceneShapeKind.Hull, Points = points });
+
     /// <summary>Adds a static body of one shape and returns its number.</summary>
     public int AddStatic(int shape, Vector3 position, Quaternion? orientation = null) => Add(new SceneBody
     {

@@ -35,4 +35,18 @@ sealed class SceneRandom(int seed)
             return new Quaternion((float)(x / length), (float)(y / length), (float)(z / length), (float)(w / length));
         }
     }
+
+    /// <summary>A direction, all equally likely: a point of the unit ball, drawn until it lies inside.</summary>
+    public Vector3 NextDirection()
+    {
+        while (true)
+        {
+            double x = 2 * Next() - 1, y = 2 * Next() - 1, z = 2 * Next() - 1;
+            double squared = x * x + y * y + z * z;
+            if (squared is > 1 or < 0.01)
+                continue;
+            double length = Math.Sqrt(squared);
+            return new Vector3((float)(x / length), (float)(y / length), (float)(z / length));
+        }
+    }
 }

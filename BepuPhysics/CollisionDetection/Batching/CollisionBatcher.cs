@@ -26,6 +26,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     public TCallbacks Callbacks;
 
     readonly CollisionTaskRegistry registry;
+    readonly PairHistory* histories;
     Buffer<PairBatch> batches;
     bool executing;
 
@@ -47,6 +48,10 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         Callbacks = callbacks;
         registry = collisionTypeMatrix;
     }
+
+    /// <summary>Creates an empty batcher for pairs of which some have a history.</summary>
+    internal CollisionBatcher(BufferPool pool, Shapes shapes, CollisionTaskRegistry collisionTypeMatrix, float dt, TCallbacks callbacks,
+        PairHistory* histories) : this(pool, shapes, collisionTypeMatrix, dt, callbacks) => this.histories = histories;
 
     /// <summary>Adds a pair of shapes.</summary>
     /// <param name="shapeIndexA">First shape.</param>
@@ -139,8 +144,27 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         Quaternion orientationB, float speculativeMargin, int pairId)
     {
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
+        Add(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId,
+            PairInput.NoHistory);
+    }
+
+    /// <summary>Adds a pair of shapes that exist to the task of their types, with a pose that is known to be sound.</summary>
+    /// <param name="task">Task of the shapes' types.</param>
+    /// <param name="taskIndex">Index of the task.</param>
+    /// <param name="flipped">Whether the task has the types in the other order.</param>
+    /// <param name="shapeIndexA">First shape.</param>
+    /// <param name="shapeIndexB">Second shape.</param>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
+    /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
+    /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
+    /// <param name="pairId">Id that the callbacks get with the result.</param>
+    /// <param name="history">Index of the pair's history, or <see cref="PairInput.NoHistory"/>.</param>
+    internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, Vector3 offsetB,
+        Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId, int history)
+    {
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped);
+        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped, history);
         if (flipped)
             (shapeIndexA, shapeIndexB) = (shapeIndexB, shapeIndexA);
         task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, pair);
@@ -178,7 +202,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         executing = true;
         try
         {
-            task.Execute(ref batch, ref Callbacks);
+            task.Execute(ref batch, histories, ref Callbacks);
         }
         finally
         {
@@ -214,7 +238,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static PairInput CreateInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId,
-        bool flipped) => new()
+        bool flipped, int history = PairInput.NoHistory) => new()
     {
         OffsetB = flipped ? -offsetB : offsetB,
         OrientationA = flipped ? orientationB : orientationA,
@@ -222,6 +246,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         SpeculativeMargin = speculativeMargin,
         PairId = pairId,
         Flipped = flipped,
+        History = history,
     };
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

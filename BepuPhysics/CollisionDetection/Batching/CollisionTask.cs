@@ -9,8 +9,9 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 public abstract unsafe class CollisionTask
 {
-    private protected CollisionTask(int shapeTypeIndexA, int shapeTypeIndexB, string description)
+    private protected CollisionTask(int shapeTypeIndexA, int shapeTypeIndexB, string description, bool keepsHistories)
     {
+        KeepsHistories = keepsHistories;
         ShapeTypeIndexA = shapeTypeIndexA;
         ShapeTypeIndexB = shapeTypeIndexB;
         Description = description;
@@ -28,6 +29,9 @@ public abstract unsafe class CollisionTask
     /// <inheritdoc/>
     public sealed override string ToString() => Description;
 
+    /// <summary>Whether the test of a pair uses what the last one found.</summary>
+    internal bool KeepsHistories { get; }
+
     /// <summary>Size of the memory of a batch, bytes.</summary>
     internal abstract int BatchByteCount { get; }
 
@@ -38,6 +42,9 @@ public abstract unsafe class CollisionTask
     internal abstract void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair);
 
     /// <summary>Tests all pairs of a batch, hands the results to the callbacks and empties the batch.</summary>
-    internal abstract void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks)
+    /// <param name="batch">The pairs.</param>
+    /// <param name="histories">Histories that the pairs' indices refer to.</param>
+    /// <param name="callbacks">Receives the results.</param>
+    internal abstract void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks)
         where TCallbacks : struct, ICollisionCallbacks;
 }

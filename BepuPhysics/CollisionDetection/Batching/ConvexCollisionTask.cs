@@ -3,22 +3,18 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Diagnostics;
 
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Tests batches of pairs of two convex shape types with a pair tester.</summary>
-/// <remarks>
-/// A pair is written straight into its lane, so that a test starts from wide data and nothing is transposed in between. Types are
-/// ordered by their ids; a pair that was added in the other order is turned on its way in and its contacts on their way out.
-/// </remarks>
 /// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
 /// <typeparam name="TShapeWideA">Wide form of the first shape.</typeparam>
 /// <typeparam name="TShapeB">Second shape.</typeparam>
 /// <typeparam name="TShapeWideB">Wide form of the second shape.</typeparam>
 /// <typeparam name="TContacts">As many contacts as a pair can have.</typeparam>
 /// <typeparam name="TTester">Finds the contacts.</typeparam>
-public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester> : CollisionTask
+public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester>
+    : ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts>
     where TShapeA : unmanaged, IConvexShape where TShapeWideA : unmanaged, IShapeWide<TShapeA>
     where TShapeB : unmanaged, IConvexShape where TShapeWideB : unmanaged, IShapeWide<TShapeB>
     where TContacts : unmanaged, IFew<ContactWide>
@@ -26,56 +22,24 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
 {
     /// <summary>Creates the task.</summary>
     /// <exception cref="InvalidOperationException">The type id of the first shape is greater than that of the second.</exception>
-    public ConvexCollisionTask() : base(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}")
-    {
-        if (TShapeA.TypeId > TShapeB.TypeId)
-            throw new InvalidOperationException(
-                $"Name {typeof(TShapeB).Name} (type id {TShapeB.TypeId}) before {typeof(TShapeA).Name} (type id {TShapeA.TypeId}).");
-    }
-
-    // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
-    // half of those would lie across two.
-    internal override int BatchByteCount =>
-        PairBatch.BundleCapacity * sizeof(PairBundle<TShapeWideA, TShapeWideB>) + sizeof(ConvexManifoldWide<TContacts>);
+    public ConvexCollisionTask() : base(keepsHistories: false) { }
 
     internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
     {
-        Check.That(shapes.GetBatch(TShapeA.TypeId) is ShapeBatch<TShapeA> && shapes.GetBatch(TShapeB.TypeId) is ShapeBatch<TShapeB>);
-        // A checked cast to a generic class is a call.
-        var batchA = Unsafe.As<ShapeBatch<TShapeA>>(shapes.GetBatch(TShapeA.TypeId));
-        var batchB = Unsafe.As<ShapeBatch<TShapeB>>(shapes.GetBatch(TShapeB.TypeId));
-        Write(ref batch, batchA.Get(shapeIndexA), batchB.Get(shapeIndexB), pair);
+        Find(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB);
+        Write(ref batch, *shapeA, *shapeB, pair, TTester.NeedsOrientationA, TTester.NeedsOrientationB);
     }
 
     internal override void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair) =>
-        Write(ref batch, *(TShapeA*)shapeA, *(TShapeB*)shapeB, pair);
+        Write(ref batch, *(TShapeA*)shapeA, *(TShapeB*)shapeB, pair, TTester.NeedsOrientationA, TTester.NeedsOrientationB);
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Write(ref PairBatch batch, in TShapeA shapeA, in TShapeB shapeB, in PairInput pair)
+    internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks)
     {
-        Check.That(batch.Bundles.Allocated && batch.Count < PairBatch.Capacity);
-        BundleIndexing.GetBundleIndices(batch.Count++, out var bundleIndex, out var lane);
-        ref var bundle = ref ((PairBundle<TShapeWideA, TShapeWideB>*)batch.Bundles.Memory)[bundleIndex];
-        Lanes.Write(shapeA, ref bundle.A, lane);
-        Lanes.Write(shapeB, ref bundle.B, lane);
-        Lanes.Write(pair.OffsetB, ref bundle.Pose.OffsetB, lane);
-        if (TTester.NeedsOrientationA)
-            Lanes.Write(pair.OrientationA, ref bundle.Pose.OrientationA, lane);
-        if (TTester.NeedsOrientationB)
-            Lanes.Write(pair.OrientationB, ref bundle.Pose.OrientationB, lane);
-        Lane(ref bundle.SpeculativeMargin, lane) = pair.SpeculativeMargin;
-        Lane(ref bundle.PairIds, lane) = pair.PairId;
-        Lane(ref bundle.FlipMask, lane) = pair.Flipped ? -1 : 0;
-    }
-
-    internal override void Execute<TCallbacks>(ref PairBatch batch, ref TCallbacks callbacks)
-    {
-        var bundles = (PairBundle<TShapeWideA, TShapeWideB>*)batch.Bundles.Memory;
-        ref var wide = ref *(ConvexManifoldWide<TContacts>*)(bundles + PairBatch.BundleCapacity);
+        ref var wide = ref Manifold(batch);
         Unsafe.SkipInit(out ConvexContactManifold manifold);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
-            ref var bundle = ref bundles[start >> BundleIndexing.VectorShift];
+            ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
             TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, out wide);
             var laneCount = Math.Min(Vector<float>.Count, batch.Count - start);
             for (int lane = 0; lane < laneCount; ++lane)
@@ -86,38 +50,4 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
         }
         batch.Count = 0;
     }
-
-    /// <summary>Takes the contacts that exist out of a lane, in the frame of the caller's A.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane,
-        ref ConvexContactManifold manifold)
-    {
-        int count = 0;
-        var offsetB = Lanes.Read<Vector3, Vector3Wide>(ref bundle.Pose.OffsetB, lane);
-        var normal = Lanes.Read<Vector3, Vector3Wide>(ref wide.Normal, lane);
-        Vector3 correction = default;
-        if (Lane(ref bundle.FlipMask, lane) != 0)
-        {
-            offsetB = -offsetB;
-            normal = -normal;
-            correction = offsetB;
-        }
-        manifold.OffsetB = offsetB;
-        for (int i = 0; i < TContacts.Count; ++i)
-        {
-            ref var source = ref wide.Contacts[i];
-            if (Lane(ref source.Exists, lane) == 0)
-                continue;
-            ref var contact = ref Unsafe.Add(ref manifold.Contact0, count++);
-            contact.Offset = Lanes.Read<Vector3, Vector3Wide>(ref source.OffsetA, lane) + correction;
-            contact.Depth = Lane(ref source.Depth, lane);
-            contact.FeatureId = Lane(ref source.FeatureId, lane);
-        }
-        manifold.Count = count;
-        // A bundle that is apart as a whole leaves its normals unwritten: nobody may see what was there before.
-        manifold.Normal = count > 0 ? normal : default;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static ref T Lane<T>(ref Vector<T> wide, int lane) => ref Unsafe.Add(ref Unsafe.As<Vector<T>, T>(ref wide), lane);
 }

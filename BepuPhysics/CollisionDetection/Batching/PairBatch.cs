@@ -28,6 +28,11 @@ struct PairInput
     public int PairId;
     /// <summary>Whether the caller's A is B here, because the task has the types in the other order.</summary>
     public bool Flipped;
+    /// <summary>Index of the pair's history; <see cref="NoHistory"/> where it has none.</summary>
+    public int History;
+
+    /// <summary>Index that no history has.</summary>
+    public const int NoHistory = -1;
 }
 
 /// <summary>A bundle of pairs of a batch.</summary>

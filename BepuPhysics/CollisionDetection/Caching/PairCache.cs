@@ -6,15 +6,23 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What is remembered of a pair that has contacts.</summary>
+/// <summary>What is remembered of a pair that has contacts, or a history.</summary>
 struct CachedPair
 {
-    /// <summary>Contact constraint of the pair.</summary>
+    /// <summary>Contact constraint of the pair; means nothing where there is none.</summary>
     public ConstraintHandle Constraint;
-    /// <summary>Type id of that constraint, which tells the number of its contacts.</summary>
+    /// <summary>Type id of that constraint, which tells the number of its contacts; <see cref="NoConstraint"/> where there is none.</summary>
     public int ConstraintTypeId;
     /// <summary>Feature ids of its contacts, by which impulses find their contacts from step to step.</summary>
     public FeatureIds Features;
+    /// <summary>Index of the pair's history; negative for shapes whose test keeps none.</summary>
+    public int History;
+
+    /// <summary>Type id of a pair without contacts.</summary>
+    public const int NoConstraint = -1;
+
+    /// <summary>Whether the pair has contacts.</summary>
+    public readonly bool HasConstraint => ConstraintTypeId >= 0;
 }
 
 /// <summary>Feature ids of up to four contacts.</summary>
@@ -39,7 +47,7 @@ public struct CollidablePairComparer : IEqualityComparerRef<CollidablePair>
     }
 }
 
-/// <summary>The pairs that have contacts, and which of them were seen again this step.</summary>
+/// <summary>The pairs that have contacts or a history, and which of them were seen again this step.</summary>
 /// <remarks>
 /// Read and marked by many workers at once during the narrow phase; changed by one thread, in an order that depends only on handles,
 /// when the narrow phase has ended.
@@ -57,12 +65,18 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         return buffer;
     }
 
-    /// <summary>Notes that a pair has contacts in this step. Workers mark different pairs, so no two write the same byte.</summary>
+    /// <summary>Histories of the pairs that have one; changed in place by the worker that tests the pair.</summary>
+    public PairHistories Histories;
+
+    /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
 
-    /// <summary>Adds a pair that has been seen in this step.</summary>
-    public void Add(CollidablePair pair, in CachedPair cached, BufferPool pool)
+    /// <summary>Adds a pair without constraint that has been seen in this step.</summary>
+    public void Add(CollidablePair pair, bool keepsHistory, BufferPool pool)
     {
+        CachedPair cached = default;
+        cached.ConstraintTypeId = CachedPair.NoConstraint;
+        cached.History = keepsHistory ? Histories.Take(pool) : PairInput.NoHistory;
         Pairs.Add(pair, cached, pool);
         if (Pairs.Count > seen.Length)
         {
@@ -74,8 +88,10 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     }
 
     /// <summary>Removes a pair; the last one takes its index.</summary>
-    public void RemoveAt(int index)
+    public void RemoveAt(int index, BufferPool pool)
     {
+        if (Pairs.Values[index].History >= 0)
+            Histories.Return(Pairs.Values[index].History, pool);
         var last = Pairs.Count - 1;
         seen[index] = seen[last];
         seen[last] = 0;
@@ -111,11 +127,13 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     {
         seen.Clear(0, Pairs.Count);
         Pairs.Clear();
+        Histories.Clear();
     }
 
     public void Dispose(BufferPool pool)
     {
         Pairs.Dispose(pool);
         pool.Return(ref seen);
+        Histories.Dispose(pool);
     }
 }

@@ -18,7 +18,7 @@ static class Pile
     {
         var random = new SceneRandom(seed);
         var scene = new SceneDescription { Name = Scene.Name, Steps = 400 };
-        AddPit(scene);
+        Pit.Add(scene, PitHalfWidth);
         const int sizeCount = 4;
         int firstShape = scene.Shapes.Count;
         float[] masses = new float[3 * sizeCount];
@@ -42,17 +42,5 @@ static class Pile
             scene.AddDynamic(firstShape + shape, masses[shape], position, random.NextRotation());
         }
         return scene;
-    }
-
-    static void AddPit(SceneDescription scene)
-    {
-        int floor = scene.AddBox(20, 1, 20);
-        int wallX = scene.AddBox(1, 20, PitHalfWidth + 2);
-        int wallZ = scene.AddBox(PitHalfWidth, 20, 1);
-        scene.AddStatic(floor, new Vector3(0, -1, 0));
-        scene.AddStatic(wallX, new Vector3(-PitHalfWidth - 1, 20, 0));
-        scene.AddStatic(wallX, new Vector3(PitHalfWidth + 1, 20, 0));
-        scene.AddStatic(wallZ, new Vector3(0, 20, -PitHalfWidth - 1));
-        scene.AddStatic(wallZ, new Vector3(0, 20, PitHalfWidth + 1));
     }
 }

@@ -1,0 +1,83 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Tests batches of pairs of two convex shape types with a pair tester that starts from what it found in the last step.</summary>
+/// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
+/// <typeparam name="TShapeWideA">Wide form of the first shape.</typeparam>
+/// <typeparam name="TShapeB">Second shape.</typeparam>
+/// <typeparam name="TShapeWideB">Wide form of the second shape.</typeparam>
+/// <typeparam name="TContacts">As many contacts as a pair can have.</typeparam>
+/// <typeparam name="TTester">Finds the contacts.</typeparam>
+sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester>
+    : ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts>
+    where TShapeA : unmanaged, IConvexShape where TShapeWideA : unmanaged, IShapeWide<TShapeA>
+    where TShapeB : unmanaged, IConvexShape where TShapeWideB : unmanaged, IShapeWide<TShapeB>
+    where TContacts : unmanaged, IFew<ContactWide>
+    where TTester : unmanaged, ISearchingPairTester<TShapeWideA, TShapeWideB, TContacts>
+{
+    public SearchCollisionTask() : base(keepsHistories: true) { }
+
+    // After the bundles and their contacts: the index of each pair's history.
+    internal override int BatchByteCount => base.BatchByteCount + PairBatch.Capacity * sizeof(int);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    int* HistoryIndices(in PairBatch batch) => (int*)(batch.Bundles.Memory + base.BatchByteCount);
+
+    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
+    {
+        Find(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB);
+        Write(ref batch, shapeA, shapeB, pair);
+    }
+
+    internal override void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair)
+    {
+        HistoryIndices(batch)[batch.Count] = pair.History;
+        Write(ref batch, *(TShapeA*)shapeA, *(TShapeB*)shapeB, pair, needsOrientationA: true, needsOrientationB: true);
+    }
+
+    internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks)
+    {
+        ref var wide = ref Manifold(batch);
+        Unsafe.SkipInit(out ConvexContactManifold manifold);
+        // The lanes behind the last pair have no history.
+        for (int i = batch.Count; i % Vector<int>.Count != 0; ++i)
+            HistoryIndices(batch)[i] = PairInput.NoHistory;
+        for (int start = 0; start < batch.Count; start += Vector<float>.Count)
+        {
+            ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
+            var historyIndices = *(Vector<int>*)(HistoryIndices(batch) + start);
+            PairHistory.GatherSearch(histories, historyIndices, out var state);
+            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, ref state, out var measures, out wide);
+            PairHistory.ScatterSearch(histories, historyIndices, state);
+            var laneCount = Math.Min(Vector<float>.Count, batch.Count - start);
+            for (int lane = 0; lane < laneCount; ++lane)
+            {
+                Read(ref wide, ref bundle, lane, ref manifold);
+                if (historyIndices[lane] >= 0)
+                    Record(ref histories[historyIndices[lane]], manifold, ref bundle, ref measures, lane);
+                callbacks.OnPairCompleted(Lane(ref bundle.PairIds, lane), ref manifold);
+            }
+        }
+        batch.Count = 0;
+    }
+
+    // The history is told in the order of the caller, as the contacts are.
+    static void Record(ref PairHistory history, in ConvexContactManifold manifold, ref PairBundle<TShapeWideA, TShapeWideB> bundle,
+        ref PairMeasuresWide measuresWide, int lane)
+    {
+        var measures = Lanes.Read<PairMeasures, PairMeasuresWide>(ref measuresWide, lane);
+        var orientationA = Lanes.Read<Quaternion, QuaternionWide>(ref bundle.Pose.OrientationA, lane);
+        var orientationB = Lanes.Read<Quaternion, QuaternionWide>(ref bundle.Pose.OrientationB, lane);
+        if (Lane(ref bundle.FlipMask, lane) != 0)
+        {
+            (orientationA, orientationB) = (orientationB, orientationA);
+            (measures.ReachA, measures.ReachB) = (measures.ReachB, measures.ReachA);
+        }
+        history.Record(manifold, measures, orientationA, orientationB, Lane(ref bundle.SpeculativeMargin, lane));
+    }
+}

@@ -1,0 +1,23 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>As <see cref="IPairTester{TShapeWideA, TShapeWideB, TContacts}"/>, with a state that lives as long as the pair.</summary>
+/// <typeparam name="TShapeWideA">Wide form of A's shape.</typeparam>
+/// <typeparam name="TShapeWideB">Wide form of B's shape.</typeparam>
+/// <typeparam name="TContacts">As many contacts as a pair can have.</typeparam>
+interface ISearchingPairTester<TShapeWideA, TShapeWideB, TContacts>
+    where TShapeWideA : unmanaged where TShapeWideB : unmanaged where TContacts : unmanaged, IFew<ContactWide>
+{
+    /// <summary>Tests a bundle of pairs.</summary>
+    /// <param name="a">First shapes.</param>
+    /// <param name="b">Second shapes.</param>
+    /// <param name="pose">Poses of the pairs.</param>
+    /// <param name="speculativeMargin">Greatest distance at which a contact exists, m; zero or more.</param>
+    /// <param name="state">Where the search of the last test ended, and then where this one did; zero where there was none.</param>
+    /// <param name="measures">Bounds that hold beyond this test.</param>
+    /// <param name="manifold">The contacts.</param>
+    static abstract void Test(in TShapeWideA a, in TShapeWideB b, in PairPoseWide pose, Vector<float> speculativeMargin,
+        ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<TContacts> manifold);
+}
