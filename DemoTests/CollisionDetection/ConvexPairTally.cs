@@ -63,7 +63,7 @@ sealed class ConvexPairTally
         var size = reference.Size;
         var depth = found.Depth;
         var tolerance = Tolerance * size + Rounding * reference.LargerSize;
-        var isExact = !usesAxes || depth > 0 || found.AxisDepth - depth < 1e-6 * size;
+        var isExact = !usesAxes || depth > 0 || found.AxisDepth - depth < 1e-12 * size;
         if (manifold.Count == 0)
         {
             MissedCount += depth > tolerance ? 1 : 0;
@@ -105,8 +105,9 @@ sealed class ConvexPairTally
         if (Math.Max(error, isExact ? excess : 0) > worst)
         {
             worst = Math.Max(error, isExact ? excess : 0);
-            WorstPose = $"A {Describe(reference.A)} B {Describe(reference.B)} {pose} depth {depth:g9} normal {found.Normal}, found "
-                + $"{deepest:g9} {normal}, along it {along:g9}";
+            WorstPose = $"A {Describe(reference.A)} B {Describe(reference.B)} {pose} depth {depth:g9} normal "
+                + $"{ConvexGenerator.ToVector(found.Normal)}, found "
+                + $"{deepest:g9} {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
         }
     }
 
@@ -123,7 +124,7 @@ sealed class ConvexPairTally
 
     static string Describe(ConvexShape s) => s.Kind switch
     {
-        ConvexKind.Box => $"box {s.HalfExtents}",
+        ConvexKind.Box => $"box {ConvexGenerator.ToVector(s.HalfExtents)}",
         ConvexKind.Triangle or ConvexKind.Hull => $"{s.Kind} {string.Join(' ', s.Points)}",
         _ => $"{s.Kind} {s.Radius:g9} {s.HalfLength:g9}",
     };

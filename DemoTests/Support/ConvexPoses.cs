@@ -77,6 +77,14 @@ public static class ConvexPoses
         return new(reference, pose, local, reference.Find(local));
     }
 
+    /// <summary>Measures a pose that is given.</summary>
+    public static ConvexCase Measure(ConvexShape a, ConvexShape b, ConvexPose pose)
+    {
+        var reference = new ConvexReference(a, b, ConvexRotation.Between(pose.OrientationA, pose.OrientationB));
+        var local = pose.LocalOffsetB;
+        return new(reference, pose, local, reference.Find(local));
+    }
+
     /// <summary>Relative to the smaller size.</summary>
     static double NextDepth(ConvexRegime regime, ConvexRandom random) => regime switch
     {

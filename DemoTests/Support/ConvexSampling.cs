@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
+using System.Linq;
 
 namespace DemoTests.Support;
 
@@ -11,6 +12,8 @@ namespace DemoTests.Support;
 static class ConvexSampling
 {
     const int NeighborCount = 7;
+    // Some pairs are as deep along many directions, spheres in one point along all.
+    const int MaximumStartCount = 40;
 
     static readonly ConcurrentDictionary<int, Grid> grids = [];
 
@@ -24,15 +27,20 @@ static class ConvexSampling
             values[i] = pair.DepthAlong(grid.Directions[i], offset);
         var best = double.MaxValue;
         normal = default;
+        var starts = new List<(double Value, int Index)>();
         for (int i = 0; i < count; ++i)
         {
             var lowest = true;
             for (int j = 0; j < NeighborCount && lowest; ++j)
                 lowest = values[grid.Neighbors[i * NeighborCount + j]] >= values[i];
-            if (!lowest)
-                continue;
+            if (lowest)
+                starts.Add((values[i], i));
+        }
+        starts.Sort();
+        foreach (var (start, i) in starts.Take(MaximumStartCount))
+        {
             var direction = grid.Directions[i];
-            var value = Descend(pair, offset, ref direction, values[i], Math.Sqrt(4 * Math.PI / count));
+            var value = Descend(pair, offset, ref direction, start, Math.Sqrt(4 * Math.PI / count));
             if (value < best)
                 (best, normal) = (value, direction);
         }
