@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
 using DemoTests.CollisionDetection.References;
 using Xunit;
 using Xunit.Abstractions;
