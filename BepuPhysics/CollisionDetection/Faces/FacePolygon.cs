@@ -49,7 +49,7 @@ unsafe struct FacePolygon
     public ContactFeatureWide Feature;
     /// <summary>Height of the feature's plane: SlopeX x + SlopeY y + SlopeHeight.</summary>
     public Vector<float> SlopeX, SlopeY, SlopeHeight;
-    /// <summary>Extent across the normal, m.</summary>
+    /// <summary>Greatest distance of a vertex from the first, its two parts added, m.</summary>
     public Vector<float> Extent;
     /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
     public Vector<int> IsPolygon, IsSegment;
