@@ -111,7 +111,8 @@ unsafe struct FacePolygon
         SlopeX = -acrossX * inverse;
         SlopeY = -acrossY * inverse;
         SlopeHeight = Vertices[0].Height - (SlopeX * Vertices[0].X + SlopeY * Vertices[0].Y);
-        IsPolygon = Vector.AndNot(isPolygon, isSteep);
+        // A polygon that is one point has no edge to be outside of.
+        IsPolygon = Vector.AndNot(isPolygon, isSteep) & Vector.GreaterThan(Extent, Vector<float>.Zero);
         IsSegment = Vector.AndNot(isSegment, isSteep);
         var becomesSegment = isPolygon & isSteep;
         if (!Vector.EqualsAll(becomesSegment, Vector<int>.Zero))
