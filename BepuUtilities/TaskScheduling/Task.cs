@@ -11,11 +11,11 @@ public unsafe struct Task
     /// <summary>Handed to the function. What it points to must live until the task has ended.</summary>
     public void* Context;
 
-    /// <summary>Continuation that hears of the end of the task; <see cref="ContinuationHandle.Null"/> for none.</summary>
-    public ContinuationHandle Continuation;
-
     /// <summary>Handed to the function.</summary>
     public long Id;
+
+    /// <summary>Continuation that hears of the end of the task; <see cref="ContinuationHandle.Null"/> for none.</summary>
+    public ContinuationHandle Continuation;
 
     /// <summary>Creates a task.</summary>
     /// <param name="function">Function to call.</param>
@@ -25,14 +25,11 @@ public unsafe struct Task
     public Task(delegate*<long, void*, int, IThreadDispatcher, void> function, void* context = null, long taskId = 0,
         ContinuationHandle continuation = default)
     {
+        Id = taskId;
         Function = function;
         Context = context;
-        Id = taskId;
         Continuation = continuation;
     }
-
-    /// <summary>A task that calls a function without a context.</summary>
-    public static implicit operator Task(delegate*<long, void*, int, IThreadDispatcher, void> function) => new(function);
 
     /// <summary>
     /// Calls the function, then notifies the continuation, and runs here what that leads to. A task whose continuation belongs to a
@@ -47,4 +44,7 @@ public unsafe struct Task
             throw new InvalidOperationException("The task has no function.");
         TaskContinuation.Run(this, null, workerIndex, dispatcher);
     }
+
+    /// <summary>A task that calls a function without a context.</summary>
+    public static implicit operator Task(delegate*<long, void*, int, IThreadDispatcher, void> function) => new(function);
 }
