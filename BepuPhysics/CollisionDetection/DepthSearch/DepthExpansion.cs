@@ -1,0 +1,331 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>
+/// Finds the least depth of one pair by expanding a polytope inside its Minkowski difference where its surface is nearest to the origin,
+/// until that is no nearer than the best depth that was found: then no direction is better.
+/// </summary>
+/// <remarks>
+/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <see cref="Add"/> takes the answer. Points are
+/// floats, the geometry between them is in double precision.
+/// </remarks>
+ref struct DepthExpansion
+{
+    // Six times the volume of a tetrahedron that is too flat to begin with, as a part of its span cubed.
+    const double LeastVolume = 1e-9;
+    // As a part of the span: how far a point that is at hand must be from the others to begin with.
+    const double GoodDistance = 1e-2;
+    // As a part of the span: what is no farther out than this has no extent in a direction.
+    const double LeastDistance = 2e-6;
+    // As parts of the span: what a support point must gain for its face to be no face of the difference, and how far a vertex must be over
+    // a face's plane for the face to go. Support points are floats: they are that well known.
+    const double FaceRounding = 2e-6;
+    const double Visibility = 1e-6;
+
+    enum Phase
+    {
+        /// <summary>The fourth corner: away from the walk's triangle.</summary>
+        Opposite,
+        /// <summary>Corners one by one, where the first four are flat.</summary>
+        Corner,
+        Expand,
+        Ended,
+    }
+
+    readonly double span;
+    readonly double slack;
+    readonly double wanted;
+    ExpandingPolytope polytope;
+    Phase phase;
+    int cornerCount;
+    int probe;
+    double probedDistance;
+    DoubleVector3 probed;
+    int face;
+    int seed0, seed1, seed2;
+    bool hasSeed;
+    double best;
+    DoubleVector3 bestDirection;
+
+    /// <summary>Number of support points asked for.</summary>
+    public int Evaluations;
+    /// <summary>Why it ended.</summary>
+    public ExpansionEnd End;
+    /// <summary>Whether a direction was found that is better than wanted.</summary>
+    public bool HasSwitched;
+
+    /// <summary>Starts with the simplex of a walk.</summary>
+    /// <param name="vertices">Memory.</param>
+    /// <param name="faces">Memory.</param>
+    /// <param name="indices">Memory.</param>
+    /// <param name="frame">Tolerances.</param>
+    /// <param name="walk">Where the walk ended.</param>
+    /// <param name="lane">Which of its lanes.</param>
+    /// <param name="wanted">Depth below which a direction is of interest.</param>
+    public DepthExpansion(Span<PolytopeVertex> vertices, Span<PolytopeFace> faces, Span<int> indices, in SearchFrame frame,
+        in SearchWalk walk, int lane, double wanted)
+    {
+        span = frame.Span[lane];
+        slack = frame.CertificateSlack[lane];
+        this.wanted = wanted;
+        best = walk.Depth[lane];
+        bestDirection = new(walk.Direction.X[lane], walk.Direction.Y[lane], walk.Direction.Z[lane]);
+        polytope = new(vertices, faces, indices[..(indices.Length / 2)], indices[(indices.Length / 2)..], Visibility * span);
+        Read(walk.Simplex.A, lane, out vertices[0]);
+        Read(walk.Simplex.B, lane, out vertices[1]);
+        Read(walk.Simplex.C, lane, out vertices[2]);
+        phase = Phase.Opposite;
+    }
+
+    /// <summary>Says which support point is wanted next; false when the expansion has ended.</summary>
+    public bool Next(out Vector3 direction)
+    {
+        var wantedDirection = phase switch
+        {
+            Phase.Opposite => -bestDirection,
+            Phase.Corner => probed,
+            Phase.Expand => polytope.Faces[face].Normal,
+            _ => default,
+        };
+        direction = wantedDirection.ToSingle();
+        return phase != Phase.Ended;
+    }
+
+    /// <summary>Takes the support point that was asked for.</summary>
+    public void Add(in SearchVertex found, int lane, in Vector3 direction)
+    {
+        ++Evaluations;
+        Read(found, lane, out var vertex);
+        var depth = DoubleVector3.Dot(vertex.Point, new(direction));
+        var isBest = depth < best;
+        if (isBest)
+        {
+            best = depth;
+            bestDirection = new(direction);
+            hasSeed = false;
+        }
+        if (best <= 0)
+        {
+            Finish(ExpansionEnd.Apart);
+            return;
+        }
+        switch (phase)
+        {
+            case Phase.Opposite:
+                polytope.Vertices[3] = vertex;
+                Start();
+                break;
+            case Phase.Corner:
+                TakeCorner(vertex);
+                break;
+            case Phase.Expand:
+                Expand(vertex, depth, isBest);
+                break;
+        }
+    }
+
+    /// <summary>Puts a walk where the best direction is.</summary>
+    /// <param name="walk">Walk.</param>
+    /// <param name="lane">Lane of it to write.</param>
+    /// <param name="isSeeded">Whether it has a simplex there.</param>
+    public readonly void Write(ref SearchWalk walk, int lane, out bool isSeeded)
+    {
+        Lanes.Write(bestDirection.ToSingle(), ref walk.Direction, lane);
+        isSeeded = hasSeed;
+        if (!hasSeed)
+            return;
+        WriteVertex(polytope.Vertices[seed0], ref walk.Simplex.A, lane);
+        WriteVertex(polytope.Vertices[seed1], ref walk.Simplex.B, lane);
+        WriteVertex(polytope.Vertices[seed2], ref walk.Simplex.C, lane);
+    }
+
+    void Start()
+    {
+        var volume = ExpandingPolytope.Volume(polytope.Vertices);
+        if ((volume < 0 ? -volume : volume) > LeastVolume * span * span * span)
+        {
+            polytope.VertexCount = 4;
+            polytope.Start();
+            phase = Phase.Expand;
+            Choose();
+            return;
+        }
+        // Corner by corner, each as far as possible from the point, line or plane of those before: those at hand where they are far enough.
+        phase = Phase.Corner;
+        cornerCount = 1;
+        while (cornerCount < 3 && TryCornerAtHand())
+            ++cornerCount;
+        StartProbing();
+    }
+
+    /// <summary>Swaps the farthest of the vertices at hand into the place of the next corner.</summary>
+    readonly bool TryCornerAtHand()
+    {
+        var farthest = 0;
+        var distance = GoodDistance * span;
+        for (int i = cornerCount; i < 4; ++i)
+        {
+            var candidate = DistanceFromCorners(polytope.Vertices[i].Point);
+            if (candidate > distance)
+            {
+                distance = candidate;
+                farthest = i;
+            }
+        }
+        if (farthest == 0)
+            return false;
+        (polytope.Vertices[cornerCount], polytope.Vertices[farthest]) = (polytope.Vertices[farthest], polytope.Vertices[cornerCount]);
+        return true;
+    }
+
+    void StartProbing()
+    {
+        probe = 0;
+        probedDistance = LeastDistance * span;
+        probed = GetProbe();
+    }
+
+    /// <summary>Takes a support point across the corners, and the farthest of them as the next corner.</summary>
+    void TakeCorner(in PolytopeVertex vertex)
+    {
+        var distance = DistanceFromCorners(vertex.Point);
+        if (distance > probedDistance)
+        {
+            probedDistance = distance;
+            polytope.Vertices[cornerCount] = vertex;
+        }
+        // Both ways along each axis across the corners: three axes across a point, two across a line, one across a plane.
+        if (++probe < 8 - 2 * cornerCount)
+            probed = GetProbe();
+        else if (probedDistance <= LeastDistance * span)
+            // No thicker than this across some direction, which has just been looked along both ways.
+            Finish(ExpansionEnd.Flat);
+        else if (++cornerCount < 4)
+            StartProbing();
+        else
+        {
+            polytope.VertexCount = 4;
+            polytope.Start();
+            phase = Phase.Expand;
+            Choose();
+        }
+    }
+
+    readonly double DistanceFromCorners(in DoubleVector3 point)
+    {
+        var offset = point - polytope.Vertices[0].Point;
+        if (cornerCount == 1)
+            return offset.Length;
+        if (cornerCount == 2)
+            return DoubleVector3.Cross(offset, Unit(1)).Length;
+        var height = DoubleVector3.Dot(offset, Across());
+        return height < 0 ? -height : height;
+    }
+
+    readonly DoubleVector3 GetProbe()
+    {
+        DoubleVector3 axis;
+        if (cornerCount == 1)
+            axis = new(probe >> 1 == 0 ? 1 : 0, probe >> 1 == 1 ? 1 : 0, probe >> 1 == 2 ? 1 : 0);
+        else if (cornerCount == 2)
+        {
+            var along = Unit(1);
+            axis = DoubleVector3.Cross(along, LeastAxis(along));
+            axis *= 1 / axis.Length;
+            if (probe >> 1 == 1)
+                axis = DoubleVector3.Cross(along, axis);
+        }
+        else
+            axis = Across();
+        return (probe & 1) == 0 ? axis : -axis;
+    }
+
+    readonly DoubleVector3 Unit(int corner)
+    {
+        var edge = polytope.Vertices[corner].Point - polytope.Vertices[0].Point;
+        return edge * (1 / edge.Length);
+    }
+
+    readonly DoubleVector3 Across()
+    {
+        var normal = DoubleVector3.Cross(Unit(1), Unit(2));
+        return normal * (1 / normal.Length);
+    }
+
+    void Expand(in PolytopeVertex vertex, double depth, bool isBest)
+    {
+        ref var expanded = ref polytope.Faces[face];
+        if (depth - expanded.Offset <= FaceRounding * span)
+        {
+            // A face of the difference itself: as far out as can be.
+            expanded.Priority = double.PositiveInfinity;
+            if (isBest)
+                Seed(face);
+        }
+        else
+        {
+            polytope.Vertices[polytope.VertexCount++] = vertex;
+            if (!polytope.Expand(face))
+            {
+                Finish(ExpansionEnd.Limit);
+                return;
+            }
+        }
+        Choose();
+    }
+
+    /// <summary>Picks the face to expand, or ends.</summary>
+    void Choose()
+    {
+        face = polytope.FindLeast();
+        var bound = polytope.Faces[face].Priority;
+        if (best - bound <= slack || bound >= wanted)
+        {
+            if (!hasSeed && bound < double.PositiveInfinity)
+                Seed(face);
+            Finish(ExpansionEnd.Certified);
+        }
+        else if (polytope.VertexCount == ExpandingPolytope.MaximumVertexCount || Evaluations >= 2 * ExpandingPolytope.MaximumExpansions)
+            Finish(ExpansionEnd.Limit);
+    }
+
+    void Seed(int index)
+    {
+        ref var seed = ref polytope.Faces[index];
+        hasSeed = true;
+        seed0 = seed.Vertex0;
+        seed1 = seed.Vertex1;
+        seed2 = seed.Vertex2;
+    }
+
+    void Finish(ExpansionEnd end)
+    {
+        End = end;
+        HasSwitched = best < wanted;
+        phase = Phase.Ended;
+    }
+
+    static DoubleVector3 LeastAxis(in DoubleVector3 v)
+    {
+        double x = v.X * v.X, y = v.Y * v.Y, z = v.Z * v.Z;
+        return x <= y && x <= z ? new(1, 0, 0) : y <= z ? new(0, 1, 0) : new(0, 0, 1);
+    }
+
+    static void Read(in SearchVertex vertex, int lane, out PolytopeVertex result)
+    {
+        result.Point = new(vertex.Point.X[lane], vertex.Point.Y[lane], vertex.Point.Z[lane]);
+        result.OnA = new(vertex.OnA.X[lane], vertex.OnA.Y[lane], vertex.OnA.Z[lane]);
+        result.OnB = new(vertex.OnB.X[lane], vertex.OnB.Y[lane], vertex.OnB.Z[lane]);
+        result.FaceFrom = result.FaceTo = -1;
+    }
+
+    static void WriteVertex(in PolytopeVertex vertex, ref SearchVertex target, int lane)
+    {
+        Lanes.Write(vertex.Point.ToSingle(), ref target.Point, lane);
+        Lanes.Write(vertex.OnA, ref target.OnA, lane);
+        Lanes.Write(vertex.OnB, ref target.OnB, lane);
+    }
+}
