@@ -1,0 +1,124 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A convex hull is its own core. Of equally far vertices it shows the first.</summary>
+// Each lane has a hull of its own, so it is the vertices of one hull that are compared at once. All of them: hulls are small, and climbing
+// from neighbour to neighbour would wait for memory at each step.
+public readonly unsafe struct ConvexHullSupport : ISupport<ConvexHullWide>
+{
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Margin(in ConvexHullWide shape) => Vector<float>.Zero;
+
+    /// <inheritdoc/>
+    public static void GetExtents(in ConvexHullWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer)
+    {
+        center = Vector3Wide.Zero;
+        inner = outer = Vector<float>.Zero;
+        for (int lane = 0; lane < Vector<float>.Count; ++lane)
+        {
+            var hull = shape.Hull(lane);
+            if (hull == null)
+                continue;
+            GatherScatter.Get(ref inner, lane) = hull->InnerRadius;
+            GatherScatter.Get(ref outer, lane) = hull->OuterRadius;
+        }
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static Vector3Wide Support(in ConvexHullWide shape, in Vector3Wide direction, Vector<int> doneMask)
+    {
+        var result = Vector3Wide.Zero;
+        for (int lane = 0; lane < Vector<float>.Count; ++lane)
+        {
+            if (GatherScatter.Get(ref doneMask, lane) != 0)
+                continue;
+            var hull = shape.Hull(lane);
+            if (hull == null)
+                continue;
+            var vertex = FindFarthest(hull, Broadcast(direction.X, lane), Broadcast(direction.Y, lane), Broadcast(direction.Z, lane));
+            GatherScatter.Get(ref result.X, lane) = vertex[0];
+            GatherScatter.Get(ref result.Y, lane) = vertex[Vector<float>.Count];
+            GatherScatter.Get(ref result.Z, lane) = vertex[2 * Vector<float>.Count];
+        }
+        return result;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Broadcast(in Vector<float> vector, int lane) => new(GatherScatter.Get(ref Unsafe.AsRef(in vector), lane));
+
+    /// <summary>Address of the X of the farthest vertex.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static float* FindFarthest(HullHeader* hull, Vector<float> x, Vector<float> y, Vector<float> z)
+    {
+        var points = hull->Points;
+        var farthest = points->X * x + points->Y * y + points->Z * z;
+        var farthestBundle = Vector<int>.Zero;
+        var bundle = Vector<int>.Zero;
+        for (int i = 1; i < hull->VertexBundleCount; ++i)
+        {
+            bundle += Vector<int>.One;
+            var point = points + i;
+            var along = point->X * x + point->Y * y + point->Z * z;
+            var farther = Vector.GreaterThan(along, farthest);
+            farthest = Wide.Select(farther, along, farthest);
+            farthestBundle = Wide.Select(farther, bundle, farthestBundle);
+        }
+        var bits = LanesOf(Vector.Equals(farthest, SpreadGreatest(farthest)));
+        // No lane at all where the direction is not a number.
+        var lane = bits == 0 ? 0 : BitOperations.TrailingZeroCount(bits);
+        var found = GatherScatter.Get(ref farthestBundle, lane);
+        for (bits &= bits - 1; bits != 0; bits &= bits - 1)
+        {
+            var other = BitOperations.TrailingZeroCount(bits);
+            var otherBundle = GatherScatter.Get(ref farthestBundle, other);
+            if (otherBundle < found)
+            {
+                found = otherBundle;
+                lane = other;
+            }
+        }
+        return (float*)(points + found) + lane;
+    }
+
+    /// <summary>The greatest of all lanes, in all lanes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> SpreadGreatest(Vector<float> v)
+    {
+        if (Vector<float>.Count == 8)
+        {
+            var all = v.AsVector256();
+            v = Wide.Max(v, Vector256.Create(all.GetUpper(), all.GetLower()).AsVector());
+            v = Wide.Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(2, 3, 0, 1, 6, 7, 4, 5)).AsVector());
+            return Wide.Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(1, 0, 3, 2, 5, 4, 7, 6)).AsVector());
+        }
+        if (Vector<float>.Count == 4)
+        {
+            v = Wide.Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(2, 3, 0, 1)).AsVector());
+            return Wide.Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(1, 0, 3, 2)).AsVector());
+        }
+        var greatest = v[0];
+        for (int i = 1; i < Vector<float>.Count; ++i)
+            greatest = v[i] > greatest ? v[i] : greatest;
+        return new(greatest);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static uint LanesOf(Vector<int> mask)
+    {
+        if (Vector<int>.Count == 8)
+            return mask.AsVector256().ExtractMostSignificantBits();
+        if (Vector<int>.Count == 4)
+            return mask.AsVector128().ExtractMostSignificantBits();
+        uint bits = 0;
+        for (int i = 0; i < Vector<int>.Count; ++i)
+            bits |= mask[i] != 0 ? 1u << i : 0;
+        return bits;
+    }
+}

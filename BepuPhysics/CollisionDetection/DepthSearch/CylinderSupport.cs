@@ -1,0 +1,32 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A cylinder is its own core. Along its axis it shows the middle of a cap.</summary>
+public readonly struct CylinderSupport : ISupport<CylinderWide>
+{
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Margin(in CylinderWide shape) => Vector<float>.Zero;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void GetExtents(in CylinderWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer)
+    {
+        center = Vector3Wide.Zero;
+        inner = Wide.Min(shape.Radius, shape.HalfLength);
+        outer = Vector.SquareRoot(shape.Radius * shape.Radius + shape.HalfLength * shape.HalfLength);
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Support(in CylinderWide shape, in Vector3Wide direction, Vector<int> doneMask)
+    {
+        var across = Vector.SquareRoot(direction.X * direction.X + direction.Z * direction.Z);
+        var scale = Wide.DivideOrZero(shape.Radius, across);
+        return new(direction.X * scale, Wide.CopySign(shape.HalfLength, direction.Y), direction.Z * scale);
+    }
+}

@@ -1,0 +1,36 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A triangle is its own core, without a front or a back. Of equally far corners it shows the first.</summary>
+public readonly struct TriangleSupport : ISupport<TriangleWide>
+{
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Margin(in TriangleWide shape) => Vector<float>.Zero;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void GetExtents(in TriangleWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer)
+    {
+        center = shape.A + (shape.B - shape.A + (shape.C - shape.A)) * new Vector<float>(1f / 3);
+        inner = Vector<float>.Zero;
+        outer = Vector.SquareRoot(Wide.Max(Wide.Max(
+            (shape.A - center).LengthSquared(), (shape.B - center).LengthSquared()), (shape.C - center).LengthSquared()));
+    }
+
+    /// <inheritdoc/>
+    // By differences of corners: exact where the triangle is far from the origin of its frame.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Support(in TriangleWide shape, in Vector3Wide direction, Vector<int> doneMask)
+    {
+        var b = Vector3Wide.Dot(shape.B - shape.A, direction);
+        var c = Vector3Wide.Dot(shape.C - shape.A, direction);
+        var useB = Vector.GreaterThan(b, Vector<float>.Zero);
+        var useC = Vector.GreaterThan(c, Wide.Max(b, Vector<float>.Zero));
+        return Vector3Wide.Select(useC, shape.C, Vector3Wide.Select(useB, shape.B, shape.A));
+    }
+}
