@@ -14,33 +14,41 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 ref struct DepthExpansion
 {
-    // Six times the volume of a tetrahedron that is flat, as a part of its span cubed.
+    // Six times the volume of a tetrahedron that is too flat to begin with, as a part of its span cubed.
     const double LeastVolume = 1e-9;
-    // Squared length below which points of the difference are one, and area below which they are on a line; as parts of powers of the span.
-    const double LeastEdge = 1e-7;
-    const double LeastArea = 1e-9;
+    // As a part of the span: how far a point that is at hand must be from the others to begin with.
+    const double GoodDistance = 1e-2;
+    // As a part of the span: what is no farther out than this has no extent in a direction.
+    const double LeastDistance = 2e-6;
     // As parts of the span: what a support point must gain for its face to be no face of the difference, and how far a vertex must be over
     // a face's plane for the face to go. Support points are floats: they are that well known.
     const double FaceRounding = 2e-6;
     const double Visibility = 1e-6;
-    // How often the tetrahedron is turned in which directions are tried before the difference is taken for flat.
-    const int MaximumTurns = 6;
 
-    enum Phase { Opposite, Tetrahedron, FlatSide, OtherFlatSide, Expand, Ended }
+    enum Phase
+    {
+        /// <summary>The fourth corner: away from the walk's triangle.</summary>
+        Opposite,
+        /// <summary>Corners one by one, where the first four are flat.</summary>
+        Corner,
+        Expand,
+        Ended,
+    }
 
     readonly double span;
     readonly double slack;
     readonly double wanted;
     ExpandingPolytope polytope;
     Phase phase;
-    int corner;
-    int turn;
+    int cornerCount;
+    int probe;
+    double probedDistance;
+    DoubleVector3 probed;
     int face;
     int seed0, seed1, seed2;
     bool hasSeed;
     double best;
     DoubleVector3 bestDirection;
-    DoubleVector3 flatNormal;
 
     /// <summary>Number of support points asked for.</summary>
     public int Evaluations;
@@ -78,9 +86,7 @@ ref struct DepthExpansion
         var wantedDirection = phase switch
         {
             Phase.Opposite => -bestDirection,
-            Phase.Tetrahedron => GetCorner(corner, turn),
-            Phase.FlatSide => flatNormal,
-            Phase.OtherFlatSide => -flatNormal,
+            Phase.Corner => probed,
             Phase.Expand => polytope.Faces[face].Normal,
             _ => default,
         };
@@ -92,17 +98,7 @@ ref struct DepthExpansion
     public void Add(in SearchVertex found, int lane, in Vector3 direction)
     {
         ++Evaluations;
-        var place = phase switch
-        {
-            Phase.Opposite => 3,
-            Phase.Tetrahedron => corner,
-            Phase.Expand => polytope.VertexCount,
-            _ => -1,
-        };
-        PolytopeVertex vertex;
-        Read(found, lane, out vertex);
-        if (place >= 0)
-            polytope.Vertices[place] = vertex;
+        Read(found, lane, out var vertex);
         var depth = DoubleVector3.Dot(vertex.Point, new(direction));
         var isBest = depth < best;
         if (isBest)
@@ -111,23 +107,22 @@ ref struct DepthExpansion
             bestDirection = new(direction);
             hasSeed = false;
         }
+        if (best <= 0)
+        {
+            Finish(ExpansionEnd.Apart);
+            return;
+        }
         switch (phase)
         {
             case Phase.Opposite:
-                StartIfSolid();
+                polytope.Vertices[3] = vertex;
+                Start();
                 break;
-            case Phase.Tetrahedron:
-                if (++corner == 4)
-                    StartIfSolid();
-                break;
-            case Phase.FlatSide:
-                phase = Phase.OtherFlatSide;
-                break;
-            case Phase.OtherFlatSide:
-                Finish(ExpansionEnd.Flat);
+            case Phase.Corner:
+                TakeCorner(vertex);
                 break;
             case Phase.Expand:
-                Expand(depth, isBest);
+                Expand(vertex, depth, isBest);
                 break;
         }
     }
@@ -147,13 +142,8 @@ ref struct DepthExpansion
         WriteVertex(polytope.Vertices[seed2], ref walk.Simplex.C, lane);
     }
 
-    void StartIfSolid()
+    void Start()
     {
-        if (best <= 0)
-        {
-            Finish(ExpansionEnd.Apart);
-            return;
-        }
         var volume = ExpandingPolytope.Volume(polytope.Vertices);
         if ((volume < 0 ? -volume : volume) > LeastVolume * span * span * span)
         {
@@ -161,28 +151,113 @@ ref struct DepthExpansion
             polytope.Start();
             phase = Phase.Expand;
             Choose();
+            return;
         }
-        else if (turn < MaximumTurns)
+        // Corner by corner, each as far as possible from the point, line or plane of those before: those at hand where they are far enough.
+        phase = Phase.Corner;
+        cornerCount = 1;
+        while (cornerCount < 3 && TryCornerAtHand())
+            ++cornerCount;
+        StartProbing();
+    }
+
+    /// <summary>Swaps the farthest of the vertices at hand into the place of the next corner.</summary>
+    readonly bool TryCornerAtHand()
+    {
+        var farthest = 0;
+        var distance = GoodDistance * span;
+        for (int i = cornerCount; i < 4; ++i)
         {
-            phase = Phase.Tetrahedron;
-            corner = 0;
-            ++turn;
+            var candidate = DistanceFromCorners(polytope.Vertices[i].Point);
+            if (candidate > distance)
+            {
+                distance = candidate;
+                farthest = i;
+            }
         }
+        if (farthest == 0)
+            return false;
+        (polytope.Vertices[cornerCount], polytope.Vertices[farthest]) = (polytope.Vertices[farthest], polytope.Vertices[cornerCount]);
+        return true;
+    }
+
+    void StartProbing()
+    {
+        probe = 0;
+        probedDistance = LeastDistance * span;
+        probed = GetProbe();
+    }
+
+    /// <summary>Takes a support point across the corners, and the farthest of them as the next corner.</summary>
+    void TakeCorner(in PolytopeVertex vertex)
+    {
+        var distance = DistanceFromCorners(vertex.Point);
+        if (distance > probedDistance)
+        {
+            probedDistance = distance;
+            polytope.Vertices[cornerCount] = vertex;
+        }
+        // Both ways along each axis across the corners: three axes across a point, two across a line, one across a plane.
+        if (++probe < 8 - 2 * cornerCount)
+            probed = GetProbe();
+        else if (probedDistance <= LeastDistance * span)
+            // No thicker than this across some direction, which has just been looked along both ways.
+            Finish(ExpansionEnd.Flat);
+        else if (++cornerCount < 4)
+            StartProbing();
         else
         {
-            flatNormal = FindFlatNormal();
-            phase = Phase.FlatSide;
+            polytope.VertexCount = 4;
+            polytope.Start();
+            phase = Phase.Expand;
+            Choose();
         }
     }
 
-    void Expand(double depth, bool isBest)
+    readonly double DistanceFromCorners(in DoubleVector3 point)
+    {
+        var offset = point - polytope.Vertices[0].Point;
+        if (cornerCount == 1)
+            return offset.Length;
+        if (cornerCount == 2)
+            return DoubleVector3.Cross(offset, Unit(1)).Length;
+        var height = DoubleVector3.Dot(offset, Across());
+        return height < 0 ? -height : height;
+    }
+
+    readonly DoubleVector3 GetProbe()
+    {
+        DoubleVector3 axis;
+        if (cornerCount == 1)
+            axis = new(probe >> 1 == 0 ? 1 : 0, probe >> 1 == 1 ? 1 : 0, probe >> 1 == 2 ? 1 : 0);
+        else if (cornerCount == 2)
+        {
+            var along = Unit(1);
+            axis = DoubleVector3.Cross(along, LeastAxis(along));
+            axis *= 1 / axis.Length;
+            if (probe >> 1 == 1)
+                axis = DoubleVector3.Cross(along, axis);
+        }
+        else
+            axis = Across();
+        return (probe & 1) == 0 ? axis : -axis;
+    }
+
+    readonly DoubleVector3 Unit(int corner)
+    {
+        var edge = polytope.Vertices[corner].Point - polytope.Vertices[0].Point;
+        return edge * (1 / edge.Length);
+    }
+
+    readonly DoubleVector3 Across()
+    {
+        var normal = DoubleVector3.Cross(Unit(1), Unit(2));
+        return normal * (1 / normal.Length);
+    }
+
+    void Expand(in PolytopeVertex vertex, double depth, bool isBest)
     {
         ref var expanded = ref polytope.Faces[face];
-        if (best <= 0)
-        {
-            Finish(ExpansionEnd.Apart);
-            return;
-        }
         if (depth - expanded.Offset <= FaceRounding * span)
         {
             // A face of the difference itself: as far out as can be.
@@ -192,7 +267,7 @@ ref struct DepthExpansion
         }
         else
         {
-            ++polytope.VertexCount;
+            polytope.Vertices[polytope.VertexCount++] = vertex;
             if (!polytope.Expand(face))
             {
                 Finish(ExpansionEnd.Limit);
@@ -233,76 +308,10 @@ ref struct DepthExpansion
         phase = Phase.Ended;
     }
 
-    /// <summary>A direction across a difference without volume.</summary>
-    readonly DoubleVector3 FindFlatNormal()
-    {
-        var origin = polytope.Vertices[0].Point;
-        var farthest = 0;
-        var length = 0.0;
-        for (int i = 1; i < 4; ++i)
-        {
-            var candidate = (polytope.Vertices[i].Point - origin).Length;
-            if (candidate > length)
-            {
-                length = candidate;
-                farthest = i;
-            }
-        }
-        if (length <= LeastEdge * span)
-            return bestDirection;
-        var edge = (polytope.Vertices[farthest].Point - origin) * (1 / length);
-        var normal = default(DoubleVector3);
-        var area = 0.0;
-        for (int i = 1; i < 4; ++i)
-        {
-            var candidate = DoubleVector3.Cross(edge, polytope.Vertices[i].Point - origin);
-            if (candidate.Length > area)
-            {
-                area = candidate.Length;
-                normal = candidate;
-            }
-        }
-        if (area <= LeastArea * span)
-        {
-            // A segment: from the origin to its line, or anywhere across it.
-            normal = origin - edge * DoubleVector3.Dot(origin, edge);
-            area = normal.Length;
-            if (area <= LeastEdge * span)
-            {
-                normal = DoubleVector3.Cross(edge, LeastAxis(edge));
-                area = normal.Length;
-            }
-        }
-        return normal * (1 / area);
-    }
-
     static DoubleVector3 LeastAxis(in DoubleVector3 v)
     {
         double x = v.X * v.X, y = v.Y * v.Y, z = v.Z * v.Z;
         return x <= y && x <= z ? new(1, 0, 0) : y <= z ? new(0, 1, 0) : new(0, 0, 1);
-    }
-
-    /// <summary>A corner of a regular tetrahedron that has been turned a number of times.</summary>
-    static DoubleVector3 GetCorner(int corner, int turns)
-    {
-        const double Coordinate = 0.57735026918962576;
-        var v = corner switch
-        {
-            0 => new DoubleVector3(Coordinate, Coordinate, Coordinate),
-            1 => new DoubleVector3(-Coordinate, -Coordinate, Coordinate),
-            2 => new DoubleVector3(-Coordinate, Coordinate, -Coordinate),
-            _ => new DoubleVector3(Coordinate, -Coordinate, -Coordinate),
-        };
-        // Not turned at all, its directions are diagonals of boxes, the least clear ones to ask a box for. The rotation is that of the
-        // quaternion (1, 2, 3, 5): rational, and of no finite order.
-        for (int i = 0; i < turns; ++i)
-        {
-            v = new(
-                (13 * v.X - 26 * v.Y + 26 * v.Z) / 39,
-                (34 * v.X + 19 * v.Y + 2 * v.Z) / 39,
-                (-14 * v.X + 22 * v.Y + 29 * v.Z) / 39);
-        }
-        return v;
     }
 
     static void Read(in SearchVertex vertex, int lane, out PolytopeVertex result)
