@@ -74,7 +74,7 @@ static class PairCommand
             Dictionary<PairRow, PairFigures> ourFigures = MeasureOnce(ours, casePath), peerFigures = MeasureOnce(peer, casePath);
             foreach ((PairRow row, PairFigures figures) in ourFigures)
             {
-                if (row.Fill == PairTimesCommand.Warm)
+                if (row.Fill == PairTimesCommand.InStep)
                     continue;
                 if (!outcomes.TryGetValue(row, out PairOutcome? outcome))
                     outcomes.Add(row, outcome = new PairOutcome(row, [], []));
@@ -83,8 +83,8 @@ static class PairCommand
             foreach ((PairRow row, PairFigures figures) in ourFigures)
             {
                 // Beside the row of whole batches, which is the last of its case.
-                if (row.Fill == PairTimesCommand.Warm)
-                    outcomes.Values.Last(outcome => outcome.Case.Pair == row.Pair && outcome.Case.Regime == row.Regime).Warm.Add(figures.Time);
+                if (row.Fill == PairTimesCommand.InStep)
+                    outcomes.Values.Last(outcome => outcome.Case.Pair == row.Pair && outcome.Case.Regime == row.Regime).InStep.Add(figures.Time);
             }
             Console.Error.WriteLine($"run {run + 1} of {runs} done");
         }

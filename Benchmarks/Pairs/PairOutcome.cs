@@ -7,8 +7,8 @@ namespace Benchmarks.Pairs;
 /// <summary>What both programs measured of one case at one number of pairs per flush, run by run.</summary>
 /// <param name="Case">What was measured.</param>
 /// <param name="Runs">Figures of neighbouring runs.</param>
-/// <param name="Warm">Nanoseconds per pair where ours starts from what it found before; empty where it does not.</param>
-sealed record PairOutcome(PairRow Case, List<(PairFigures Ours, PairFigures Peer)> Runs, List<double> Warm)
+/// <param name="InStep">Nanoseconds per pair in a step of ours, for full batches; otherwise empty.</param>
+sealed record PairOutcome(PairRow Case, List<(PairFigures Ours, PairFigures Peer)> Runs, List<double> InStep)
 {
     /// <summary>Nanoseconds per pair: the middle run's.</summary>
     public double OurTime => Median(Runs.Select(run => run.Ours.Time))!.Value;
@@ -16,8 +16,8 @@ sealed record PairOutcome(PairRow Case, List<(PairFigures Ours, PairFigures Peer
     /// <summary>Nanoseconds per pair: the middle run's.</summary>
     public double PeerTime => Median(Runs.Select(run => run.Peer.Time))!.Value;
 
-    /// <summary>Nanoseconds per pair: the middle run's; null where ours keeps nothing.</summary>
-    public double? WarmTime => Median(Warm);
+    /// <summary>Nanoseconds per pair: the middle run's; null but for full batches.</summary>
+    public double? StepTime => Median(InStep);
 
     /// <summary>How many times as long the peer takes: the middle of the pairs of runs, each of which ran back to back.</summary>
     public double Ratio => Median(Ratios)!.Value;

@@ -13,13 +13,13 @@ static class PairTimesCommand
     /// <summary>The word on the command line; then the file with the cases and the file for the figures.</summary>
     public const string Word = "pair-times";
 
-    /// <summary>What stands in place of a number of pairs for whole batches whose pairs were tested before, a little way off.</summary>
-    public const int Warm = 0;
+    /// <summary>What stands in place of a number of pairs for whole batches as the engine's own step tests them.</summary>
+    public const int InStep = 0;
 
-    const int BatchCount = 9;
+    const int BatchCount = 21;
 
     /// <summary>Milliseconds of a batch, at least.</summary>
-    const double BatchTime = 1;
+    const double BatchTime = 0.5;
 
     /// <summary>Measures and returns the exit status.</summary>
     public static int Run(string casePath, string resultPath)
@@ -33,8 +33,8 @@ static class PairTimesCommand
             PairPlacement[] placements = subject.Placements;
             foreach (int fill in new[] { 1, lanes / 2, placements.Length })
                 Append(text, subject, fill, Measure(() => world.Test(placements, fill), placements.Length));
-            if (PairEngine.CreateWarmTest(world, placements) is Func<int> warmTest)
-                Append(text, subject, Warm, Measure(warmTest, placements.Length));
+            if (PairEngine.CreateStepTest(world, placements) is Func<int> stepTest)
+                Append(text, subject, InStep, Measure(stepTest, placements.Length));
         }
         File.WriteAllText(resultPath, text.ToString());
         return 0;
