@@ -30,7 +30,7 @@ static unsafe class PairEngine
         {
             isAway = !isAway;
             ReadOnlySpan<PairPlacement> pairs = isAway ? moved : placements;
-            var batcher = new CollisionBatcher<PairTally>(world.Pool, world.Shapes, world.Registry, PairWorld.Dt, default, histories.Memory);
+            var batcher = new CollisionBatcher<PairTally>(world.Pool, world.Shapes, world.Registry, PairWorld.Dt, new PairTally(), histories.Memory);
             for (int i = 0; i < pairs.Length; ++i)
             {
                 ref readonly PairPlacement pair = ref pairs[i];

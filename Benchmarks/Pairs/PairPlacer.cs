@@ -70,7 +70,11 @@ sealed class PairPlacer(PairWorld world, PairSolid[] solids, Random random)
         }
         float size = MathF.Min(solids[a].Size, solids[b].Size);
         Vector3 aside = PairGeometry.NextTangent(random, up) * PairGeometry.Next(random, 0, 0.3f * size);
-        return TryReach(new PairPlacement(a, b, aside, orientationA, orientationB), up, PairGeometry.Next(random, 0, 0.01f) * size);
+        float depth = PairGeometry.Next(random, 0, 0.01f) * size;
+        // Two triangles that lie in each other have each other behind them.
+        if (solids[a].Front is not null && solids[b].Front is not null)
+            depth = -depth;
+        return TryReach(new PairPlacement(a, b, aside, orientationA, orientationB), up, depth);
     }
 
     Quaternion Rest(PairSolid.Feature side, Vector3 normal, Vector3 tangent) => PairGeometry.Align(
@@ -110,27 +114,9 @@ sealed class PairPlacer(PairWorld world, PairSolid[] solids, Random random)
 
     float Depth(PairPlacement pair)
     {
-        var batcher = new CollisionBatcher<DepthProbe>(world.Pool, world.Shapes, world.Registry, PairWorld.Dt, new DepthProbe());
+        var batcher = new CollisionBatcher<PairTally>(world.Pool, world.Shapes, world.Registry, PairWorld.Dt, new PairTally());
         batcher.Add(world.Shape(pair.A), world.Shape(pair.B), pair.OffsetB, pair.OrientationA, pair.OrientationB, AnyDistance, new(0));
         batcher.Flush();
         return batcher.Callbacks.Depth;
-    }
-
-    /// <summary>Keeps the depth of the deepest contact.</summary>
-    struct DepthProbe() : ICollisionCallbacks
-    {
-        public float Depth = float.NegativeInfinity;
-
-        public readonly bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
-
-        public readonly void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold)
-        {
-        }
-
-        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
-        {
-            for (int i = 0; i < manifold.Count; ++i)
-                Depth = MathF.Max(Depth, manifold.GetDepth(i));
-        }
     }
 }

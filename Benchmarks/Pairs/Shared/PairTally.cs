@@ -3,12 +3,12 @@ using BepuPhysics.CollisionDetection;
 namespace Benchmarks.Pairs.Shared;
 
 /// <summary>Reads the contacts of pairs, as a game would, and counts them.</summary>
-struct PairTally : ICollisionCallbacks
+struct PairTally() : ICollisionCallbacks
 {
     public int Contacts;
 
-    /// <summary>Greatest depth that was met.</summary>
-    public float Depth;
+    /// <summary>Greatest depth that was met, m; less than any number without contacts.</summary>
+    public float Depth = float.NegativeInfinity;
 
     public readonly bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
 

@@ -44,7 +44,7 @@ sealed class PairWorld
         int contacts = 0;
         for (int start = 0; start < placements.Length; start += fill)
         {
-            var batcher = new CollisionBatcher<PairTally>(Pool, Shapes, Registry, Dt, default);
+            var batcher = new CollisionBatcher<PairTally>(Pool, Shapes, Registry, Dt, new PairTally());
             int end = Math.Min(start + fill, placements.Length);
             for (int i = start; i < end; ++i)
             {
