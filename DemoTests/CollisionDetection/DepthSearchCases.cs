@@ -61,14 +61,19 @@ sealed record DepthSearchCase(
             DepthRegime.Touching => random.Next(-1e-4, 1e-4),
             _ => -random.Next(0.002, 0.15),
         } * scale;
-        // Along the normal by what is missing; where another normal is then the best one, again.
+        // Half of them along one direction until the depth is right, which mostly meets faces; half of them along the normal from far away,
+        // which mostly meets corners and edges. Where another normal becomes the best one, again.
         var offset = center + direction * radii;
-        for (int i = 0; i < 12; ++i)
+        var keepsDirection = random.Next(2) == 0;
+        for (int i = 0; i < 20; ++i)
         {
             var (depth, normals, _) = reference.Find(offset);
             if (Math.Abs(depth - target) < 2e-6 * scale)
                 return ToSingle(offset);
-            offset += normals[0] * (target - depth);
+            var slope = Double3.Dot(normals[0], direction);
+            if (keepsDirection && slope > -0.05)
+                return null;
+            offset += keepsDirection ? direction * ((target - depth) / slope) : normals[0] * (target - depth);
         }
         return null;
     }
