@@ -20,6 +20,32 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Box, BoxWide, Few2<ContactWide>, CapsuleBoxTester>());
         registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Triangle, TriangleWide, Few2<ContactWide>, CapsuleTriangleTester>());
         registry.Register(new ConvexCollisionTask<Box, BoxWide, Box, BoxWide, Few4<ContactWide>, BoxBoxTester>());
+        RegisterSearches(registry);
         return registry;
     }
+
+    // The pairs for which no closed form is cheaper than the search.
+    static void RegisterSearches(CollisionTaskRegistry registry)
+    {
+        Register<Sphere, SphereWide, SphereSupport, SphereFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
+        Register<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Box, BoxWide, BoxSupport, BoxFeature, Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
+        Register<Box, BoxWide, BoxSupport, BoxFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
+        Register<Box, BoxWide, BoxSupport, BoxFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
+        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
+        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Cylinder, CylinderWide, CylinderSupport, CylinderFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
+        Register<Cylinder, CylinderWide, CylinderSupport, CylinderFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+    }
+
+    static void Register<TShapeA, TShapeWideA, TSupportA, TFeatureA, TShapeB, TShapeWideB, TSupportB, TFeatureB>(CollisionTaskRegistry registry)
+        where TShapeA : unmanaged, IConvexShape where TShapeWideA : unmanaged, IShapeWide<TShapeA>
+        where TSupportA : unmanaged, ISupport<TShapeWideA> where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
+        where TShapeB : unmanaged, IConvexShape where TShapeWideB : unmanaged, IShapeWide<TShapeB>
+        where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB> =>
+        registry.Register(new SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, Few4<ContactWide>,
+            SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB, TSupportB, TFeatureB>>());
 }

@@ -47,6 +47,17 @@ static class ConvexArc
             Search(start, across, middle, to, between, valueTo, slope, ref limit, tolerance, value, found);
             return;
         }
+        // Only where the function falls from both ends; where it is level, as around shapes on one axis, there is nothing to look for.
+        const double Nudge = 1e-7;
+        if (value(At(start, across, from + Nudge)) >= valueFrom || value(At(start, across, to - Nudge)) >= valueTo)
+        {
+            if (Math.Min(valueFrom, valueTo) <= limit)
+            {
+                limit = Math.Min(limit, Math.Min(valueFrom, valueTo) + tolerance);
+                found.Add(At(start, across, valueFrom <= valueTo ? from : to));
+            }
+            return;
+        }
         const double Golden = 0.6180339887498949;
         double low = from, high = to;
         var a = high - Golden * (high - low);

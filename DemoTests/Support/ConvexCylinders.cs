@@ -13,6 +13,7 @@ sealed class ConvexCylinders : IConvexSearch
 {
     const int RowCount = 33;
     const int ColumnCount = 13;
+    const int MaximumStartCount = 6;
 
     readonly double radiusA;
     readonly double halfLengthA;
@@ -27,6 +28,7 @@ sealed class ConvexCylinders : IConvexSearch
     readonly double[] extents = new double[4 * RowCount * ColumnCount];
     readonly double[] values = new double[RowCount * ColumnCount];
     readonly List<Double3> minima = [];
+    readonly List<(double Value, int Index)> starts = [];
 
     public ConvexCylinders(ConvexShape a, ConvexShape b, ConvexRotation rotation)
     {
@@ -116,14 +118,19 @@ sealed class ConvexCylinders : IConvexSearch
         var start = lune * RowCount * ColumnCount;
         for (int i = 0; i < values.Length; ++i)
             values[i] = extents[start + i] - Double3.Dot(grid[start + i], offset);
+        starts.Clear();
         for (int row = 0; row < RowCount; ++row)
         {
             for (int column = 0; column < ColumnCount; ++column)
             {
                 if (IsLowest(row, column))
-                    Descend(grid[start + row * ColumnCount + column], offset, found);
+                    starts.Add((values[row * ColumnCount + column], start + row * ColumnCount + column));
             }
         }
+        // A smooth lune has no more than a few bowls; there are many lowest points only where f is level.
+        starts.Sort();
+        for (int i = 0; i < Math.Min(starts.Count, MaximumStartCount); ++i)
+            Descend(grid[starts[i].Index], offset, found);
     }
 
     bool IsLowest(int row, int column)
@@ -144,6 +151,8 @@ sealed class ConvexCylinders : IConvexSearch
     void Descend(Double3 m, Double3 offset, ConvexCandidates found)
     {
         var value = Value(m, offset);
+        // Below the rounding of the terms that make up f nothing is gained.
+        var least = 1e-15 * (radiusA + halfLengthA + radiusB + halfLengthB);
         for (int i = 0; i < 60; ++i)
         {
             var sideA = Across(m, axisA);
@@ -183,7 +192,7 @@ sealed class ConvexCylinders : IConvexSearch
                 var next = m + t * (stepT * fraction) + b * (stepB * fraction);
                 next *= 1 / next.Length;
                 var nextValue = Value(next, offset);
-                if (nextValue < value)
+                if (nextValue < value - least)
                 {
                     (m, value) = (next, nextValue);
                     improved = true;

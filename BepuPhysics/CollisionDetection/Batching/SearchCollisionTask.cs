@@ -44,9 +44,7 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
     {
         ref var wide = ref Manifold(batch);
         Unsafe.SkipInit(out ConvexContactManifold manifold);
-        // The lanes behind the last pair have no history.
-        for (int i = batch.Count; i % Vector<int>.Count != 0; ++i)
-            HistoryIndices(batch)[i] = PairInput.NoHistory;
+        EmptyLastLanes(batch);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
@@ -64,6 +62,19 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             }
         }
         batch.Count = 0;
+    }
+
+    // The lanes behind the last pair have no history, and no shape: one that was there before may have left its memory.
+    void EmptyLastLanes(in PairBatch batch)
+    {
+        for (int i = batch.Count; i % Vector<int>.Count != 0; ++i)
+        {
+            HistoryIndices(batch)[i] = PairInput.NoHistory;
+            BundleIndexing.GetBundleIndices(i, out var bundleIndex, out var lane);
+            ref var bundle = ref Bundles(batch)[bundleIndex];
+            Lanes.Write(default(TShapeA), ref bundle.A, lane);
+            Lanes.Write(default(TShapeB), ref bundle.B, lane);
+        }
     }
 
     // The history is told in the order of the caller, as the contacts are.

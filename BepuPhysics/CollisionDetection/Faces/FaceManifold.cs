@@ -1,0 +1,115 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Up to four contacts of convex pairs whose normal, depth and witness are known.</summary>
+/// <typeparam name="TShapeWideA">Wide form of A's shape.</typeparam>
+/// <typeparam name="TFeatureA">Features of A.</typeparam>
+/// <typeparam name="TShapeWideB">Wide form of B's shape.</typeparam>
+/// <typeparam name="TFeatureB">Features of B.</typeparam>
+public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>
+    where TShapeWideA : unmanaged where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
+    where TShapeWideB : unmanaged where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
+{
+    const int CacheLine = 64;
+
+    /// <summary>Finds the contacts of a bundle of pairs.</summary>
+    /// <param name="a">First shapes.</param>
+    /// <param name="b">Second shapes.</param>
+    /// <param name="localOffsetB">Positions of B in A's frame.</param>
+    /// <param name="localOrientationB">Axes of B in A's frame, in the rows.</param>
+    /// <param name="normal">Unit normals in A's frame, from B to A: the directions of least depth.</param>
+    /// <param name="depth">Depths along the normals, m, the margins of rounded shapes included.</param>
+    /// <param name="pointOnA">A point of each A's surface that is as deep in B, in A's frame.</param>
+    /// <param name="near">All bits set where there may be contacts; the other lanes may hold anything.</param>
+    /// <param name="speculativeMargin">Greatest distance at which a contact exists, m; zero or more.</param>
+    /// <param name="orientationA">Axes of A in the world, in the rows.</param>
+    /// <param name="manifold">The contacts.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void Build(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB,
+        in Vector3Wide normal, Vector<float> depth, in Vector3Wide pointOnA, Vector<int> near, Vector<float> speculativeMargin,
+        in Matrix3x3Wide orientationA, out ConvexManifoldWide<Few4<ContactWide>> manifold)
+    {
+        Unsafe.SkipInit(out manifold);
+        var normalB = localOrientationB * normal;
+        var exists = near & Vector.GreaterThanOrEqual(depth, -speculativeMargin) &
+            ~(TFeatureA.RejectsNormal(a, -normal) | TFeatureB.RejectsNormal(b, normalB));
+        manifold.Contacts[0].Exists = exists;
+        manifold.Contacts[1].Exists = Vector<int>.Zero;
+        manifold.Contacts[2].Exists = Vector<int>.Zero;
+        manifold.Contacts[3].Exists = Vector<int>.Zero;
+        if (Vector.EqualsAll(exists, Vector<int>.Zero))
+            return;
+        if (TFeatureA.MaximumVertexCount == 1 || TFeatureB.MaximumVertexCount == 1)
+        {
+            manifold.Normal = Matrix3x3Wide.TransposeTimes(orientationA, normal);
+            ref var contact = ref manifold.Contacts[0];
+            contact.OffsetA = Matrix3x3Wide.TransposeTimes(orientationA, pointOnA + normal * (depth * new Vector<float>(0.5f)));
+            contact.Depth = depth;
+            contact.FeatureId = Vector<int>.Zero;
+            return;
+        }
+
+        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write.
+        var memory = stackalloc byte[Scratch.ByteCount + CacheLine];
+        var scratch = new Scratch((byte*)(((nint)memory + CacheLine - 1) & -CacheLine));
+        Unsafe.SkipInit(out FaceOverlap overlap);
+        overlap.Candidates = scratch.Candidates;
+        overlap.PairDepth = depth;
+        overlap.MinimumDepth = -speculativeMargin;
+        Unsafe.SkipInit(out FaceFrame frameA);
+        Vector3Wide.BuildOrthonormalBasis(normal, out frameA.X, out frameA.Y);
+        frameA.Outwards = -normal;
+        frameA.Origin = pointOnA;
+        TFeatureA.Find(a, frameA.Outwards, ~exists, ref *scratch.Points, out overlap.A.Feature);
+        overlap.A.Vertices = scratch.VerticesA;
+        overlap.A.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
+        overlap.A.Project(scratch.Points, frameA, -1);
+
+        FaceFrame frameB;
+        frameB.X = localOrientationB * frameA.X;
+        frameB.Y = localOrientationB * frameA.Y;
+        frameB.Outwards = normalB;
+        frameB.Origin = localOrientationB * (pointOnA - localOffsetB);
+        TFeatureB.Find(b, frameB.Outwards, ~exists, ref *scratch.Points, out overlap.B.Feature);
+        overlap.B.Vertices = scratch.VerticesB;
+        overlap.B.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
+        overlap.B.Project(scratch.Points, frameB, 1);
+
+        overlap.FindCandidates(exists);
+        FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref manifold);
+    }
+
+    /// <summary>Parts of the memory that a bundle is worked on in.</summary>
+    readonly struct Scratch(byte* memory)
+    {
+        static int GreatestCount =>
+            TFeatureA.MaximumVertexCount > TFeatureB.MaximumVertexCount ? TFeatureA.MaximumVertexCount : TFeatureB.MaximumVertexCount;
+
+        static int CandidateCount => FaceOverlap.GreatestCount(TFeatureA.MaximumVertexCount, TFeatureB.MaximumVertexCount);
+
+        public static int ByteCount => GreatestCount * sizeof(Vector3Wide) + CandidateCount * sizeof(FaceCandidate) +
+            (TFeatureA.MaximumVertexCount + TFeatureB.MaximumVertexCount) * sizeof(FaceVertex);
+
+        public readonly FaceVertex* VerticesA = (FaceVertex*)memory;
+        public readonly FaceVertex* VerticesB = (FaceVertex*)memory + TFeatureA.MaximumVertexCount;
+        public Vector3Wide* Points => (Vector3Wide*)(VerticesB + TFeatureB.MaximumVertexCount);
+        public FaceCandidate* Candidates => (FaceCandidate*)(Points + GreatestCount);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static int CountVertices<TFeature, TShapeWide>(Vector<int> counts, Vector<int> exists)
+        where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
+        // Segments, triangles and boxes have as many as they can.
+        if (TFeature.MaximumVertexCount <= 4)
+            return TFeature.MaximumVertexCount;
+        counts &= exists;
+        var greatest = 1;
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+            greatest = counts[lane] > greatest ? counts[lane] : greatest;
+        return greatest;
+    }
+}

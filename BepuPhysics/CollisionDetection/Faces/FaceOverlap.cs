@@ -1,0 +1,197 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Finds the corners of the overlap of two features seen along the normal.</summary>
+// Of two polygons: of each edge of A's the part that is inside of B's. Its start is a corner of the overlap, and its end is one where it was
+// cut off; where it was not, it is the start of the next edge. Then B's vertices that are inside of A's polygon.
+// Of a segment and a polygon: the ends of the part of the segment that is inside. Of two segments: the ends of the part of A's that lies
+// along B's; segments that cross have none, and touch at the witness.
+// Edges that coincide, as those of boxes of one size in a stack do, would be inside or outside by rounding, so the polygon that edges are
+// cut by is wider by a border. A vertex that is inside by at most half the border is found as a point of an edge, too, or only so.
+unsafe struct FaceOverlap
+{
+    // Part of the smaller feature, and of the size of the larger shape, by which a point outside of a feature still counts as inside. The
+    // second is a few roundings of a coordinate.
+    const float BorderTolerance = 1e-5f;
+    const float BorderRounding = 2e-7f;
+    // A contact may be where the other of two round segments is this part of the smaller radius to the side: the surface is farther there
+    // by the square of it.
+    const float SideDeviation = 0.02f;
+    // Segments that are beside each other for less than so many of their deviations cross.
+    const float MinimumSegmentLength = 10;
+
+    // Names of corners: an edge of A's, by twos, with its start and its end; the vertices of B's; a segment of B's; the witness.
+    const int VertexName = 128;
+    const int SegmentName = 192;
+
+    /// <summary>Greatest number of corners of two features with these numbers of vertices.</summary>
+    public static int GreatestCount(int countA, int countB) => 2 * countA + countB + 4;
+
+    /// <summary>Features of A and B.</summary>
+    public FacePolygon A, B;
+    /// <summary>Depth of the pair along the normal.</summary>
+    public Vector<float> PairDepth;
+    /// <summary>Least depth that a contact has.</summary>
+    public Vector<float> MinimumDepth;
+    /// <summary>Length by which a point outside of a feature still counts as inside.</summary>
+    public Vector<float> Border;
+    /// <summary>Corners that were found.</summary>
+    public FaceCandidate* Candidates;
+    /// <summary>Number of corners.</summary>
+    public int CandidateCount;
+
+    /// <summary>Finds the corners.</summary>
+    /// <param name="near">All bits set where the pair may have contacts.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void FindCandidates(Vector<int> near)
+    {
+        CandidateCount = 0;
+        Border = Wide.Min(A.Extent, B.Extent) * new Vector<float>(BorderTolerance) +
+            Wide.Max(A.Feature.Size, B.Feature.Size) * new Vector<float>(BorderRounding);
+        var polygons = near & A.IsPolygon & B.IsPolygon;
+        if (!Vector.EqualsAll(polygons, Vector<int>.Zero))
+            ClipPolygons(polygons);
+        var segments = near & A.IsSegment & B.IsPolygon;
+        if (!Vector.EqualsAll(segments, Vector<int>.Zero))
+            ClipSegment(A, B, segments, 0);
+        segments = near & A.IsPolygon & B.IsSegment;
+        if (!Vector.EqualsAll(segments, Vector<int>.Zero))
+            ClipSegment(B, A, segments, SegmentName);
+        segments = near & A.IsSegment & B.IsSegment;
+        if (!Vector.EqualsAll(segments, Vector<int>.Zero))
+            ClipSegments(segments);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ClipPolygons(Vector<int> mask)
+    {
+        var border = Border;
+        // An edge that moves less than half the border across another counts as parallel to it.
+        var half = border * new Vector<float>(0.5f);
+        var verticesB = B.Vertices;
+        var endB = verticesB + B.Count;
+        for (var vertex = verticesB; vertex != endB; ++vertex)
+        {
+            vertex->WideLineOffset = vertex->LineOffset + border;
+            vertex->Inside = new Vector<float>(float.MaxValue);
+        }
+        for (int i = 0; i < A.Count; ++i)
+        {
+            ref var edge = ref A.Vertices[i];
+            var x = edge.X;
+            var y = edge.Y;
+            var edgeX = edge.EdgeX;
+            var edgeY = edge.EdgeY;
+            var lineX = edge.LineX;
+            var lineY = edge.LineY;
+            var lineOffset = edge.LineOffset;
+            var start = Vector<float>.Zero;
+            var end = Vector<float>.One;
+            for (var vertex = verticesB; vertex != endB; ++vertex)
+            {
+                Clip(x * vertex->LineX + y * vertex->LineY + vertex->WideLineOffset, edgeX * vertex->LineX + edgeY * vertex->LineY,
+                    half, ref start, ref end);
+                vertex->Inside = Wide.Min(lineX * vertex->X + lineY * vertex->Y + lineOffset, vertex->Inside);
+            }
+            var isInside = mask & Vector.LessThanOrEqual(start, end) & Vector.LessThan(new Vector<int>(i), A.Feature.VertexCount);
+            AddOnEdge(edge, B, start, isInside, 2 * i);
+            AddOnEdge(edge, B, end, isInside & Vector.LessThan(end, Vector<float>.One), 2 * i + 1);
+        }
+        for (int i = 0; i < B.Count; ++i)
+        {
+            ref var vertex = ref verticesB[i];
+            var isInside = mask & Vector.GreaterThan(vertex.Inside, half) & Vector.LessThan(new Vector<int>(i), B.Feature.VertexCount);
+            Add(vertex.X, vertex.Y, vertex.Height + A.HeightAt(vertex.X, vertex.Y), isInside, VertexName + i);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
+    {
+        ref var edge = ref segment.Vertices[0];
+        var half = Border * new Vector<float>(0.5f);
+        var start = Vector<float>.Zero;
+        var end = Vector<float>.One;
+        for (int i = 0; i < polygon.Count; ++i)
+        {
+            ref var other = ref polygon.Vertices[i];
+            Clip(edge.X * other.LineX + edge.Y * other.LineY + (other.LineOffset + Border),
+                edge.EdgeX * other.LineX + edge.EdgeY * other.LineY, half, ref start, ref end);
+        }
+        var isInside = mask & Vector.LessThanOrEqual(start, end);
+        AddOnEdge(edge, polygon, start, isInside, name);
+        AddOnEdge(edge, polygon, end, isInside, name + 1);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ClipSegments(Vector<int> mask)
+    {
+        ref var a = ref A.Vertices[0];
+        ref var b = ref B.Vertices[0];
+        var deviation = Wide.Max(Wide.Min(A.Feature.Roundness, B.Feature.Roundness) * new Vector<float>(SideDeviation), Border);
+        var half = Border * new Vector<float>(0.5f);
+        var start = Vector<float>.Zero;
+        var end = Vector<float>.One;
+        // Within the deviation of B's line. Of a segment that is a point in this view there is no line.
+        var length = Vector.SquareRoot(b.EdgeX * b.EdgeX + b.EdgeY * b.EdgeY);
+        var inverse = Wide.DivideOrZero(Vector<float>.One, length);
+        var alongX = b.EdgeX * inverse;
+        var alongY = b.EdgeY * inverse;
+        var x = a.X - b.X;
+        var y = a.Y - b.Y;
+        var side = alongX * y - alongY * x;
+        var sideSpeed = alongX * a.EdgeY - alongY * a.EdgeX;
+        Clip(deviation + side, sideSpeed, half, ref start, ref end);
+        Clip(deviation - side, -sideSpeed, half, ref start, ref end);
+        // And between its ends.
+        var place = alongX * x + alongY * y;
+        var placeSpeed = alongX * a.EdgeX + alongY * a.EdgeY;
+        Clip(Border + place, placeSpeed, half, ref start, ref end);
+        Clip(Border + length - place, -placeSpeed, half, ref start, ref end);
+        var together = (end - start) * Vector.SquareRoot(a.EdgeX * a.EdgeX + a.EdgeY * a.EdgeY);
+        var isInside = mask & Vector.GreaterThan(together, deviation * new Vector<float>(MinimumSegmentLength));
+        AddOnEdge(a, B, start, isInside, 0);
+        AddOnEdge(a, B, end, isInside, 1);
+    }
+
+    /// <summary>Cuts an interval of a line to what is inside of a half plane.</summary>
+    /// <param name="distance">How far the line's origin is inside.</param>
+    /// <param name="speed">How much farther it gets inside until the line's end.</param>
+    /// <param name="floor">Least speed that counts; positive.</param>
+    /// <param name="start">Start of the interval.</param>
+    /// <param name="end">End of the interval.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Clip(Vector<float> distance, Vector<float> speed, Vector<float> floor, ref Vector<float> start, ref Vector<float> end)
+    {
+        var leaves = Vector.LessThan(speed, Vector<float>.Zero);
+        var divisor = Wide.Select(leaves, Wide.Max(-speed, floor), -Wide.Max(speed, floor));
+        var crossing = distance / divisor;
+        start = Wide.Max(start, Wide.Select(leaves, start, crossing));
+        end = Wide.Min(end, Wide.Select(leaves, crossing, end));
+    }
+
+    /// <summary>Adds a point of an edge of one feature that is inside of the other.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void AddOnEdge(in FaceVertex edge, in FacePolygon other, Vector<float> t, Vector<int> exists, int name)
+    {
+        var x = edge.X + edge.EdgeX * t;
+        var y = edge.Y + edge.EdgeY * t;
+        Add(x, y, edge.Height + edge.EdgeHeight * t + other.HeightAt(x, y), exists, name);
+    }
+
+    // What no lane has takes no place, and is overwritten by the next.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void Add(Vector<float> x, Vector<float> y, Vector<float> depth, Vector<int> exists, int name)
+    {
+        ref var candidate = ref Candidates[CandidateCount];
+        exists &= Vector.GreaterThanOrEqual(depth, MinimumDepth);
+        candidate.X = x;
+        candidate.Y = y;
+        candidate.Depth = Wide.Select(exists, Wide.Min(depth, PairDepth), new Vector<float>(FaceCandidate.None));
+        candidate.Name = new Vector<int>(name);
+        CandidateCount += Vector.EqualsAll(exists, Vector<int>.Zero) ? 0 : 1;
+    }
+}

@@ -1,0 +1,167 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A vertex of a feature seen along the normal, and the edge to the next.</summary>
+struct FaceVertex
+{
+    /// <summary>Place across the normal, from the witness, m.</summary>
+    public Vector<float> X, Y;
+    /// <summary>Height of the surface over the witness of A, along the direction out of its own shape, m.</summary>
+    public Vector<float> Height;
+    /// <summary>From here to the next vertex.</summary>
+    public Vector<float> EdgeX, EdgeY, EdgeHeight;
+    /// <summary>A point is this far inside of the edge: LineX x + LineY y + LineOffset, in m. An edge without a length has all inside.</summary>
+    public Vector<float> LineX, LineY, LineOffset;
+    /// <summary><see cref="LineOffset"/> of a polygon that is wider by a border.</summary>
+    public Vector<float> WideLineOffset;
+    /// <summary>How far the vertex is inside of the other polygon, m.</summary>
+    public Vector<float> Inside;
+}
+
+/// <summary>A frame in that features are seen along the normal, in the coordinates of one of the two shapes.</summary>
+struct FaceFrame
+{
+    /// <summary>Axes across the normal. These two and the normal from B to A are right-handed.</summary>
+    public Vector3Wide X, Y;
+    /// <summary>Direction out of the shape, along the normal.</summary>
+    public Vector3Wide Outwards;
+    /// <summary>Witness on A's surface.</summary>
+    public Vector3Wide Origin;
+}
+
+/// <summary>The features of a bundle of shapes, seen along the normal.</summary>
+unsafe struct FacePolygon
+{
+    // Cosine of the angle of a plane to the normal below which its slope says more about rounding than about the surface: at this one,
+    // of 87 degrees, the tolerance of a border becomes that of a depth.
+    const float SteepCosine = 0.05f;
+    // Distance inside of an edge that is none.
+    const float Everything = 1e30f;
+
+    /// <summary>Vertices; those of a lane repeat from its count on.</summary>
+    public FaceVertex* Vertices;
+    /// <summary>Greatest number of vertices in the bundle.</summary>
+    public int Count;
+    /// <summary>What the shape said of its feature; a steep polygon has become a segment.</summary>
+    public ContactFeatureWide Feature;
+    /// <summary>Height of the feature's plane: SlopeX x + SlopeY y + SlopeHeight.</summary>
+    public Vector<float> SlopeX, SlopeY, SlopeHeight;
+    /// <summary>Extent across the normal, m.</summary>
+    public Vector<float> Extent;
+    /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
+    public Vector<int> IsPolygon, IsSegment;
+
+    /// <summary>Height of the feature's plane at a place.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<float> HeightAt(Vector<float> x, Vector<float> y) => SlopeX * x + SlopeY * y + SlopeHeight;
+
+    /// <summary>Projects the vertices of a feature.</summary>
+    /// <param name="points">Vertices in the shape's frame.</param>
+    /// <param name="frame">Frame to project to.</param>
+    /// <param name="winding">1 where counter-clockwise seen from outside is counter-clockwise in the frame as well, else -1.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void Project(Vector3Wide* points, in FaceFrame frame, float winding)
+    {
+        var vertices = Vertices;
+        var margin = Feature.Margin;
+        var turn = new Vector<float>(winding);
+        var extent = Vector<float>.Zero;
+        var point = points[0];
+        for (int i = 0; i < Count; ++i)
+        {
+            var next = points[i + 1 < Count ? i + 1 : 0];
+            ref var vertex = ref vertices[i];
+            var offset = point - frame.Origin;
+            vertex.X = Vector3Wide.Dot(offset, frame.X);
+            vertex.Y = Vector3Wide.Dot(offset, frame.Y);
+            vertex.Height = Vector3Wide.Dot(offset, frame.Outwards) + margin;
+            // Not the difference of the projections: short edges of large faces keep their directions.
+            var edge = next - point;
+            var edgeX = Vector3Wide.Dot(edge, frame.X);
+            var edgeY = Vector3Wide.Dot(edge, frame.Y);
+            vertex.EdgeX = edgeX;
+            vertex.EdgeY = edgeY;
+            vertex.EdgeHeight = Vector3Wide.Dot(edge, frame.Outwards);
+            var lengthSquared = edgeX * edgeX + edgeY * edgeY;
+            var inverse = Wide.DivideOrZero(turn, Vector.SquareRoot(lengthSquared));
+            vertex.LineX = -edgeY * inverse;
+            vertex.LineY = edgeX * inverse;
+            vertex.LineOffset = Wide.Select(Vector.Equals(inverse, Vector<float>.Zero), new Vector<float>(Everything),
+                -(vertex.LineX * vertex.X + vertex.LineY * vertex.Y));
+            extent = Wide.Max(Vector.Abs(vertex.X - vertices[0].X) + Vector.Abs(vertex.Y - vertices[0].Y), extent);
+            point = next;
+        }
+        Extent = extent;
+        FindSlope(frame);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void FindSlope(in FaceFrame frame)
+    {
+        var along = Vector3Wide.Dot(Feature.PlaneNormal, frame.Outwards);
+        var acrossX = Vector3Wide.Dot(Feature.PlaneNormal, frame.X);
+        var acrossY = Vector3Wide.Dot(Feature.PlaneNormal, frame.Y);
+        var isSteep = IsSteep(along, acrossX * acrossX + acrossY * acrossY);
+        var isSegment = Vector.Equals(Feature.VertexCount, new Vector<int>(2));
+        var isPolygon = Vector.GreaterThan(Feature.VertexCount, new Vector<int>(2));
+        var inverse = Vector<float>.One / along;
+        SlopeX = -acrossX * inverse;
+        SlopeY = -acrossY * inverse;
+        SlopeHeight = Vertices[0].Height - (SlopeX * Vertices[0].X + SlopeY * Vertices[0].Y);
+        IsPolygon = Vector.AndNot(isPolygon, isSteep);
+        IsSegment = Vector.AndNot(isSegment, isSteep);
+        var becomesSegment = isPolygon & isSteep;
+        if (!Vector.EqualsAll(becomesSegment, Vector<int>.Zero))
+            KeepHighestEdge(becomesSegment);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsSteep(Vector<float> along, Vector<float> acrossSquared)
+    {
+        var limit = new Vector<float>(SteepCosine * SteepCosine);
+        return Vector.LessThanOrEqual(along, Vector<float>.Zero) |
+            Vector.LessThan(along * along, (along * along + acrossSquared) * limit);
+    }
+
+    /// <summary>Makes a segment of a polygon that stands on edge: that of its edges whose ends are highest together.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void KeepHighestEdge(Vector<int> becomesSegment)
+    {
+        var score = new Vector<float>(-float.MaxValue);
+        var best = Vertices[0];
+        for (int i = 0; i < Count; ++i)
+        {
+            ref var vertex = ref Vertices[i];
+            var height = vertex.Height + vertex.Height + vertex.EdgeHeight;
+            var hasLength = Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
+            var better = hasLength & Vector.GreaterThan(height, score);
+            score = Wide.Select(better, height, score);
+            Select(better, vertex, ref best);
+        }
+        ref var first = ref Vertices[0];
+        Select(becomesSegment, best, ref first);
+        Feature.VertexCount = Wide.Select(becomesSegment, new Vector<int>(2), Feature.VertexCount);
+        // Along the segment as high as it is, across it level.
+        var lengthSquared = first.EdgeX * first.EdgeX + first.EdgeY * first.EdgeY;
+        var slope = Wide.DivideOrZero(first.EdgeHeight, lengthSquared);
+        SlopeX = Wide.Select(becomesSegment, first.EdgeX * slope, SlopeX);
+        SlopeY = Wide.Select(becomesSegment, first.EdgeY * slope, SlopeY);
+        SlopeHeight = Wide.Select(becomesSegment, first.Height - (SlopeX * first.X + SlopeY * first.Y), SlopeHeight);
+        var isSteep = IsSteep(Vector.SquareRoot(lengthSquared), first.EdgeHeight * first.EdgeHeight);
+        IsSegment |= Vector.AndNot(becomesSegment, isSteep);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Select(Vector<int> mask, in FaceVertex source, ref FaceVertex target)
+    {
+        target.X = Wide.Select(mask, source.X, target.X);
+        target.Y = Wide.Select(mask, source.Y, target.Y);
+        target.Height = Wide.Select(mask, source.Height, target.Height);
+        target.EdgeX = Wide.Select(mask, source.EdgeX, target.EdgeX);
+        target.EdgeY = Wide.Select(mask, source.EdgeY, target.EdgeY);
+        target.EdgeHeight = Wide.Select(mask, source.EdgeHeight, target.EdgeHeight);
+    }
+}

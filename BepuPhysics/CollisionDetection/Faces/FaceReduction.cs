@@ -1,0 +1,174 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The choice of four corners of the overlap of two features, and of the witness where they are not deep enough.</summary>
+// The deepest; the one farthest from it; the ones farthest to either side of the line through both. Corners that come twice do not
+// matter, as the second has no distance, or no area, to add.
+static unsafe class FaceReduction
+{
+    // Corners that are equally deep, to this part of their distance, are told apart by their place, so that the same is first each time.
+    const float PlaceWeight = 2e-5f;
+    // Part of the size of the smaller shape by which the deepest corner may be less deep than the pair.
+    const float DepthTolerance = 2e-4f;
+    // Squared part of the border's tolerance: contacts nearer to each other are one.
+    const float MinimumDistanceSquared = 100f;
+    // Part of the distance of the first two contacts: a corner that is nearer to their line adds nothing.
+    const float MinimumHeight = 1e-3f;
+    // Name of the witness.
+    const int WitnessName = 255;
+    // Bits of a feature id: the corner, A's feature, B's feature.
+    const int NameBits = 8;
+    const int FeatureBits = 11;
+
+    struct Choice
+    {
+        public Vector<float> Score, X, Y, Depth;
+        public Vector<int> Name;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Offer(Vector<float> score, in FaceCandidate candidate)
+        {
+            var better = Vector.GreaterThan(score, Score);
+            Score = Wide.Select(better, score, Score);
+            X = Wide.Select(better, candidate.X, X);
+            Y = Wide.Select(better, candidate.Y, Y);
+            Depth = Wide.Select(better, candidate.Depth, Depth);
+            Name = Wide.Select(better, candidate.Name, Name);
+        }
+    }
+
+    /// <summary>Chooses the contacts of a bundle and writes them.</summary>
+    /// <param name="overlap">The features and the corners of their overlap.</param>
+    /// <param name="frame">The frame in A's coordinates.</param>
+    /// <param name="orientationA">Axes of A in the world, in the rows.</param>
+    /// <param name="near">All bits set where the pair has contacts.</param>
+    /// <param name="manifold">The contacts.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void Reduce(in FaceOverlap overlap, in FaceFrame frame, in Matrix3x3Wide orientationA, Vector<int> near,
+        ref ConvexManifoldWide<Few4<ContactWide>> manifold)
+    {
+        ChooseDeepest(overlap, frame, out var deepest);
+        ChooseFarthest(overlap, deepest, out var farthest);
+        var lineX = farthest.X - deepest.X;
+        var lineY = farthest.Y - deepest.Y;
+        ChooseSides(overlap, deepest, lineX, lineY, out var left, out var right);
+
+        var farEnough = overlap.Border * overlap.Border * new Vector<float>(MinimumDistanceSquared);
+        var areaEnough = (lineX * lineX + lineY * lineY) * new Vector<float>(MinimumHeight);
+        var secondExists = near & Vector.GreaterThan(farthest.Score, farEnough);
+        var writer = new Writer(overlap, frame, orientationA);
+        manifold.Normal = writer.Normal;
+        writer.Write(deepest, near, ref manifold.Contacts[0]);
+        writer.Write(farthest, secondExists, ref manifold.Contacts[1]);
+        writer.Write(left, secondExists & Vector.GreaterThan(left.Score, areaEnough), ref manifold.Contacts[2]);
+        writer.Write(right, secondExists & Vector.GreaterThan(right.Score, areaEnough), ref manifold.Contacts[3]);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseDeepest(in FaceOverlap overlap, in FaceFrame frame, out Choice choice)
+    {
+        Choice best;
+        best.Score = new Vector<float>(float.MinValue);
+        best.Depth = new Vector<float>(FaceCandidate.None);
+        best.X = best.Y = Vector<float>.Zero;
+        best.Name = Vector<int>.Zero;
+        // A direction that is fixed to A, not to the frame, whose axes may turn over when the normal moves a little.
+        var placeX = new Vector<float>(PlaceWeight * 0.9f);
+        var placeY = new Vector<float>(PlaceWeight * 0.4f);
+        var placeZ = new Vector<float>(PlaceWeight * 0.17f);
+        var weightX = frame.X.X * placeX + frame.X.Y * placeY + frame.X.Z * placeZ;
+        var weightY = frame.Y.X * placeX + frame.Y.Y * placeY + frame.Y.Z * placeZ;
+        var end = overlap.Candidates + overlap.CandidateCount;
+        for (var candidate = overlap.Candidates; candidate != end; ++candidate)
+            best.Offer(candidate->Depth + (candidate->X * weightX + candidate->Y * weightY), *candidate);
+        choice = best;
+        // The features need not hold the points that are nearest: the face whose normal is nearest to the direction need not be the one
+        // with the farthest vertex, and round ones are cut short. The pair is never less deep for it.
+        var size = Wide.Min(overlap.A.Feature.Size, overlap.B.Feature.Size);
+        var isWitness = Vector.LessThan(choice.Depth, overlap.PairDepth - size * new Vector<float>(DepthTolerance));
+        choice.X = Wide.Select(isWitness, Vector<float>.Zero, choice.X);
+        choice.Y = Wide.Select(isWitness, Vector<float>.Zero, choice.Y);
+        choice.Depth = Wide.Select(isWitness, overlap.PairDepth, choice.Depth);
+        choice.Name = Wide.Select(isWitness, new Vector<int>(WitnessName), choice.Name);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseFarthest(in FaceOverlap overlap, in Choice deepest, out Choice choice)
+    {
+        // Locals, not the result itself: these stay in registers.
+        var best = deepest;
+        best.Score = Vector<float>.Zero;
+        var fromX = deepest.X;
+        var fromY = deepest.Y;
+        var end = overlap.Candidates + overlap.CandidateCount;
+        for (var candidate = overlap.Candidates; candidate != end; ++candidate)
+        {
+            var x = candidate->X - fromX;
+            var y = candidate->Y - fromY;
+            best.Offer(Wide.Mask(Exists(*candidate), x * x + y * y), *candidate);
+        }
+        choice = best;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseSides(in FaceOverlap overlap, in Choice deepest, Vector<float> lineX, Vector<float> lineY,
+        out Choice left, out Choice right)
+    {
+        var most = deepest;
+        most.Score = Vector<float>.Zero;
+        var least = most;
+        var fromX = deepest.X;
+        var fromY = deepest.Y;
+        var end = overlap.Candidates + overlap.CandidateCount;
+        for (var candidate = overlap.Candidates; candidate != end; ++candidate)
+        {
+            var area = Wide.Mask(Exists(*candidate), lineX * (candidate->Y - fromY) - lineY * (candidate->X - fromX));
+            most.Offer(area, *candidate);
+            least.Offer(-area, *candidate);
+        }
+        left = most;
+        right = least;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Exists(in FaceCandidate candidate) => Vector.GreaterThan(candidate.Depth, new Vector<float>(FaceCandidate.None));
+
+    /// <summary>What takes a chosen corner to the world.</summary>
+    readonly struct Writer
+    {
+        public readonly Vector3Wide Normal;
+        readonly Vector3Wide axisX, axisY, origin;
+        readonly Vector<float> slopeX, slopeY, slopeHeight;
+        readonly Vector<int> features;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Writer(in FaceOverlap overlap, in FaceFrame frame, in Matrix3x3Wide orientationA)
+        {
+            Normal = Matrix3x3Wide.TransposeTimes(orientationA, -frame.Outwards);
+            axisX = Matrix3x3Wide.TransposeTimes(orientationA, frame.X);
+            axisY = Matrix3x3Wide.TransposeTimes(orientationA, frame.Y);
+            origin = Matrix3x3Wide.TransposeTimes(orientationA, frame.Origin);
+            slopeX = overlap.A.SlopeX;
+            slopeY = overlap.A.SlopeY;
+            slopeHeight = overlap.A.SlopeHeight;
+            var mask = new Vector<int>((1 << FeatureBits) - 1);
+            features = (overlap.A.Feature.Id & mask) << NameBits | (overlap.B.Feature.Id & mask) << (NameBits + FeatureBits);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Write(in Choice choice, Vector<int> exists, ref ContactWide contact)
+        {
+            // A's surface is as high as its feature, and at the witness where that is.
+            var isWitness = Vector.Equals(choice.Name, new Vector<int>(WitnessName));
+            var height = Wide.Select(isWitness, Vector<float>.Zero, slopeX * choice.X + slopeY * choice.Y + slopeHeight);
+            var halfway = choice.Depth * new Vector<float>(0.5f) - height;
+            contact.OffsetA = origin + axisX * choice.X + axisY * choice.Y + Normal * halfway;
+            contact.Depth = choice.Depth;
+            contact.FeatureId = features | choice.Name;
+            contact.Exists = exists;
+        }
+    }
+}

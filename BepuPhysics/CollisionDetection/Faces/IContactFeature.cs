@@ -1,0 +1,30 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Says which feature of a shape faces a direction: the polygon, segment or point that contacts are found on.</summary>
+/// <remarks>What a lane returns depends on that lane's inputs alone; lanes without a shape may hold anything and must not trap.</remarks>
+/// <typeparam name="TShapeWide">Wide form of the shape.</typeparam>
+public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
+{
+    /// <summary>Greatest number of vertices of a feature, 1 to 64.</summary>
+    static abstract int MaximumVertexCount { get; }
+
+    /// <summary>Finds the feature that faces a direction.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="direction">Unit directions out of the shapes, in their frames.</param>
+    /// <param name="done">All bits set in lanes whose feature is not wanted.</param>
+    /// <param name="vertices">
+    /// First of <see cref="MaximumVertexCount"/> places for vertices in the shape's frame, counter-clockwise seen from outside; those from
+    /// the count of a lane on repeat its first, up to the greatest count of the bundle.
+    /// </param>
+    /// <param name="feature">What else there is to say of the feature.</param>
+    static abstract void Find(in TShapeWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,
+        out ContactFeatureWide feature);
+
+    /// <summary>Lanes whose shape is never touched from the side that a direction out of the shape looks to.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="direction">Unit directions out of the shapes, in their frames.</param>
+    static virtual Vector<int> RejectsNormal(in TShapeWide shape, in Vector3Wide direction) => Vector<int>.Zero;
+}

@@ -1,0 +1,26 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>What a test knows of a pair besides its contacts.</summary>
+struct PairMeasures
+{
+    /// <summary>Upper bound of the pair's depth, m: shapes are apart by at least its negation.</summary>
+    public float Depth;
+    /// <summary>Distance from A's centre to the farthest point of A, m.</summary>
+    public float ReachA;
+    /// <summary>Distance from B's centre to the farthest point of B, m.</summary>
+    public float ReachB;
+}
+
+/// <summary>A bundle of <see cref="PairMeasures"/>.</summary>
+struct PairMeasuresWide : IWide<PairMeasures>
+{
+    /// <inheritdoc cref="PairMeasures.Depth"/>
+    public Vector<float> Depth;
+    /// <inheritdoc cref="PairMeasures.ReachA"/>
+    public Vector<float> ReachA;
+    /// <inheritdoc cref="PairMeasures.ReachB"/>
+    public Vector<float> ReachB;
+}

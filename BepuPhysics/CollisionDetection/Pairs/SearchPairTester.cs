@@ -1,0 +1,54 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>
+/// Finds the contacts of any two convex shapes: the depth search gives normal, depth and one contact, the features that face each other
+/// along the normal give the others.
+/// </summary>
+/// <typeparam name="TShapeWideA">Wide form of A's shape.</typeparam>
+/// <typeparam name="TSupportA">Farthest points of A.</typeparam>
+/// <typeparam name="TFeatureA">Features of A.</typeparam>
+/// <typeparam name="TShapeWideB">Wide form of B's shape.</typeparam>
+/// <typeparam name="TSupportB">Farthest points of B.</typeparam>
+/// <typeparam name="TFeatureB">Features of B.</typeparam>
+readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB, TSupportB, TFeatureB>
+    : ISearchingPairTester<TShapeWideA, TShapeWideB, Few4<ContactWide>>
+    where TShapeWideA : unmanaged where TSupportA : unmanaged, ISupport<TShapeWideA> where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
+    where TShapeWideB : unmanaged where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
+{
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void Test(in TShapeWideA a, in TShapeWideB b, in PairPoseWide pose, Vector<float> speculativeMargin,
+        ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<Few4<ContactWide>> manifold)
+    {
+        Unsafe.SkipInit(out manifold);
+        var axesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
+        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
+        var localOffsetB = axesA * pose.OffsetB;
+        var localAxesB = new Matrix3x3Wide { X = axesA * axesB.X, Y = axesA * axesB.Y, Z = axesA * axesB.Z };
+        DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Find(
+            a, b, localOffsetB, localAxesB, speculativeMargin, ref state, out var found);
+        measures.Depth = found.Depth;
+        measures.ReachA = Reach<TShapeWideA, TSupportA>(a);
+        measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
+        if (found.Near == Vector<int>.Zero)
+        {
+            for (int i = 0; i < Few4<ContactWide>.Count; ++i)
+                manifold.Contacts[i].Exists = Vector<int>.Zero;
+            return;
+        }
+        FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(a, b, localOffsetB, localAxesB, found.Normal, found.Depth,
+            found.PointOnA, found.Near, speculativeMargin, axesA, out manifold);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Reach<TShapeWide, TSupport>(in TShapeWide shape)
+        where TShapeWide : unmanaged where TSupport : unmanaged, ISupport<TShapeWide>
+    {
+        TSupport.GetExtents(shape, out var center, out _, out var outer);
+        return center.Length() + outer + TSupport.Margin(shape);
+    }
+}
