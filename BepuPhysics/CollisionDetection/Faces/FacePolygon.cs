@@ -49,7 +49,7 @@ unsafe struct FacePolygon
     public ContactFeatureWide Feature;
     /// <summary>Height of the feature's plane: SlopeX x + SlopeY y + SlopeHeight.</summary>
     public Vector<float> SlopeX, SlopeY, SlopeHeight;
-    /// <summary>Extent across the normal, m.</summary>
+    /// <summary>Greatest distance of a vertex from the first, its two parts added, m.</summary>
     public Vector<float> Extent;
     /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
     public Vector<int> IsPolygon, IsSegment;
@@ -111,7 +111,8 @@ unsafe struct FacePolygon
         SlopeX = -acrossX * inverse;
         SlopeY = -acrossY * inverse;
         SlopeHeight = Vertices[0].Height - (SlopeX * Vertices[0].X + SlopeY * Vertices[0].Y);
-        IsPolygon = Vector.AndNot(isPolygon, isSteep);
+        // A polygon that is one point has no edge to be outside of.
+        IsPolygon = Vector.AndNot(isPolygon, isSteep) & Vector.GreaterThan(Extent, Vector<float>.Zero);
         IsSegment = Vector.AndNot(isSegment, isSteep);
         var becomesSegment = isPolygon & isSteep;
         if (!Vector.EqualsAll(becomesSegment, Vector<int>.Zero))
