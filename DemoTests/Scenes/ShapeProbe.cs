@@ -19,11 +19,11 @@ sealed class ShapeProbe : IDisposable
     readonly BufferPool pool = new();
     readonly DepthLog log = new();
 
-    public ShapeProbe(SceneDescription scene)
+    public ShapeProbe(SceneDescription scene, int substeps = 4)
     {
         Simulation = Simulation.Create(
             pool, new LoggingCallbacks(log, new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring)),
-            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping), new SolveDescription(1, 4));
+            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping), new SolveDescription(1, substeps));
         SceneBuilder.Build(scene, Simulation, EngineDefaults.JointSpring, new ContactRecorder(1));
     }
 
