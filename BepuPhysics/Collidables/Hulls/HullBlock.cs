@@ -8,6 +8,9 @@ namespace BepuPhysics.Collidables;
 /// <summary>Fills the memory of a hull.</summary>
 static unsafe class HullBlock
 {
+    /// <summary>Products of vertices and faces up to which every vertex is held against every plane: some ten milliseconds.</summary>
+    const long AffordableCount = 8_000_000;
+
     /// <summary>Takes memory and writes the counts; all else is to be written.</summary>
     public static HullHeader* Allocate(int vertexCount, int faceCount, int faceVertexCount, BufferPool pool, out ConvexHull hull)
     {
@@ -35,7 +38,9 @@ static unsafe class HullBlock
         Lanes.Write(point, ref hull->Points[bundle], lane);
     }
 
-    /// <summary>Writes the plane of a face: of a normal, through the farthest vertex of the face.</summary>
+    /// <summary>Writes the plane of a face: of a normal, through the farthest vertex of the face, or of the hull if that is affordable.</summary>
+    // The normal of a single triangle has the whole hull on one side. The mean of several may not: that of a narrow face, joined of slivers
+    // within the tolerance, may be tilted enough to cut off something at the far end.
     public static void SetPlane(HullHeader* hull, int face, in HullPoint normal)
     {
         BundleIndexing.GetBundleIndices(face, out var bundle, out var lane);
@@ -46,8 +51,11 @@ static unsafe class HullBlock
         for (int i = hull->FaceStarts[face]; i < hull->FaceStarts[face + 1]; ++i)
         {
             var point = hull->GetPoint(hull->FaceVertices[i].Number);
-            offset = Math.Max(offset, (double)rounded.X * point.X + (double)rounded.Y * point.Y + (double)rounded.Z * point.Z);
+            offset = Math.Max(offset, Along(rounded, point));
         }
+        var isJoined = hull->FaceStarts[face + 1] - hull->FaceStarts[face] > 3;
+        for (int i = 0; isJoined && (long)hull->VertexCount * hull->FaceCount <= AffordableCount && i < hull->VertexCount; ++i)
+            offset = Math.Max(offset, Along(rounded, hull->GetPoint(i)));
         GatherScatter.Get(ref plane.Offset, lane) = RoundUp(offset);
     }
 
@@ -77,6 +85,9 @@ static unsafe class HullBlock
             hull->InnerRadius = offset < hull->InnerRadius ? offset : hull->InnerRadius;
         }
     }
+
+    static double Along(in Vector3 normal, in Vector3 point) =>
+        (double)normal.X * point.X + (double)normal.Y * point.Y + (double)normal.Z * point.Z;
 
     /// <summary>Least float that is not below a number.</summary>
     static float RoundUp(double value)

@@ -9,7 +9,6 @@ unsafe partial struct HullBuilder
     readonly void AddOutside(int point, int firstTriangle, int endTriangle)
     {
         var position = grid.Points[point];
-        var nothing = Math.Min(Negligible, 0.5 * Tolerance);
         var chosen = None;
         for (int i = firstTriangle; i < endTriangle; ++i)
         {
@@ -20,7 +19,7 @@ unsafe partial struct HullBuilder
                 chosen = i;
                 break;
             }
-            if (height > nothing && chosen == None)
+            if (height > Negligible && chosen == None)
                 chosen = i;
         }
         if (chosen != None)
@@ -66,8 +65,10 @@ unsafe partial struct HullBuilder
         ++stamp;
         seenCount = 0;
         MarkSeen(first);
-        var highest = None;
-        var greatest = Tolerance;
+        // The first one too: a point may have been moved there from an earlier triangle's list a moment ago.
+        var firstHeight = HeightOver(Triangles[first], point) * Triangles[first].InverseLength;
+        var highest = firstHeight > Tolerance ? first : None;
+        var greatest = Math.Max(firstHeight, Tolerance);
         for (int i = 0; i < seenCount; ++i)
         {
             for (int edge = 0; edge < 3; ++edge)

@@ -18,8 +18,9 @@ namespace BepuPhysics.Collidables;
 unsafe partial struct HullBuilder
 {
     const int None = -1;
-    /// <summary>Height at which a point is on a triangle: what moving points about makes of points in one plane, cells.</summary>
-    const double Negligible = 256;
+    /// <summary>Height below which a point is on a triangle, cells: a multiple of what a height is rounded by, and no more, because near a
+    /// sharp edge the hull may be a hundred thousand times as far.</summary>
+    const double Negligible = 1;
 
     readonly BufferPool pool;
     readonly HullGrid grid;

@@ -306,7 +306,7 @@ unsafe struct HullFaces
                 if (counts[corner] != 2 || first[corner] != halfEdge)
                     continue;
                 int other = second[corner], otherFace = faceOfTriangle[other / 3];
-                if (CornerCounts[face] == 3 || CornerCounts[otherFace] == 3)
+                if (CornerCounts[face] == 3 || CornerCounts[otherFace] == 3 || !IsStraight(halfEdge))
                     continue;
                 Drop(halfEdge, face);
                 Drop(other, otherFace);
@@ -314,6 +314,14 @@ unsafe struct HullFaces
         }
         pool.Return(ref first);
         pool.Return(ref second);
+    }
+
+    // Two faces that are nearly one may share an edge that is bent, within their planes.
+    readonly bool IsStraight(int halfEdge)
+    {
+        var before = points[Corner(previous[halfEdge])];
+        var line = points[Corner(next[halfEdge])] - before;
+        return HullPoint.Length(HullPoint.Cross(line, points[Corner(halfEdge)] - before)) <= tolerance * HullPoint.Length(line);
     }
 
     // The half-edge itself still knows the one after it.
