@@ -1,7 +1,5 @@
-using System;
 using System.Collections.Generic;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using DemoTests.CollisionDetection.References;
@@ -9,7 +7,7 @@ using DemoTests.CollisionDetection.References;
 namespace DemoTests.CollisionDetection;
 
 /// <summary>A feature of one shape.</summary>
-record FaceFeature(Vector3[] Vertices, Vector3[] Padding, Vector3 PlaneNormal, int Id, float Margin, float Roundness, float Size)
+sealed record FaceFeature(Vector3[] Vertices, Vector3[] Padding, Vector3 PlaneNormal, int Id, float Margin, float Roundness, float Size)
 {
     /// <summary>Asks for a feature in one lane of a bundle; the others are not wanted.</summary>
     public static FaceFeature Find<TShape, TShapeWide, TFeature>(TShape shape, Vector3 direction, int lane = 0)

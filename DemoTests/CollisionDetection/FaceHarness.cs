@@ -17,7 +17,7 @@ record struct FacePair<TShapeA, TShapeB>(TShapeA A, TShapeB B, Vector3 LocalOffs
 record struct FaceContact(Double3 Offset, double Depth, int FeatureId);
 
 /// <summary>The contacts of a pair in A's frame.</summary>
-record FaceContacts(Double3 Normal, FaceContact[] Contacts)
+sealed record FaceContacts(Double3 Normal, FaceContact[] Contacts)
 {
     public double Deepest => Contacts.Max(contact => contact.Depth);
 

@@ -38,7 +38,7 @@ public class FaceManifoldPropertyTests(ITestOutputHelper output)
     static Vector3 Tilt(ref PairRandom random, Vector3 direction, double most) =>
         Vector3.Normalize(direction + Vector3.Cross(direction, random.NextDirection()) * random.Next(0, most));
 
-    static IEnumerable<Double3> VerticesOf(in FaceTestPolygon polygon, Vector3 offset, Quaternion orientation)
+    static List<Double3> VerticesOf(in FaceTestPolygon polygon, Vector3 offset, Quaternion orientation)
     {
         Double3 x = Double3.RotatedAxis(orientation, 0), y = Double3.RotatedAxis(orientation, 1), z = Double3.RotatedAxis(orientation, 2);
         List<Double3> vertices = [];
