@@ -1,10 +1,14 @@
 using BenchmarkDotNet.Running;
 using Benchmarks.Compare;
+using Benchmarks.Pairs;
+using Benchmarks.Pairs.Shared;
 using Benchmarks.Smoke;
 
 return args switch
 {
     ["compare", ..] => CompareCommand.Run(args[1..]),
+    ["pairs", ..] => PairCommand.Run(args[1..]),
+    [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
     ["smoke"] => SmokeCommand.Run(),
     _ => Measure(args),
 };

@@ -5,7 +5,7 @@ using System.IO;
 
 namespace Benchmarks.Compare;
 
-/// <summary>A program that runs scenes and writes their figures; each run is a process of its own.</summary>
+/// <summary>A program that runs scenes, or tests pairs, and writes their figures; each run is a process of its own.</summary>
 sealed class SceneProgram(string assemblyPath)
 {
     /// <summary>Exit status of a run whose bodies did not all stay where bodies can be: slow or fast, it has to be told.</summary>
@@ -38,6 +38,21 @@ sealed class SceneProgram(string assemblyPath)
         {
             File.Delete(path);
         }
+    }
+
+    /// <summary>Runs anything else, which has to end well, and is compiled once and for all.</summary>
+    public void Do(params string[] arguments)
+    {
+        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
+        start.ArgumentList.Add(assemblyPath);
+        foreach (string argument in arguments)
+            start.ArgumentList.Add(argument);
+        // As the programs of Demos and Peer are set up; this one is not, since BenchmarkDotNet has its own way.
+        start.Environment["DOTNET_TieredCompilation"] = "0";
+        start.Environment["DOTNET_TieredPGO"] = "0";
+        int status = Execute(start, out string messages);
+        if (status != 0)
+            throw new CompareException($"{assemblyPath} ended with status {status}: {messages.Trim()}");
     }
 
     /// <summary>Builds the peer program against the engine of a folder.</summary>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Numerics;
 using BenchmarkDotNet.Attributes;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
@@ -19,10 +20,16 @@ public class PairBenchmarks : IDisposable
             SphereCapsuleTester>(NextSphere, NextCapsule),
         [nameof(SphereBoxTester)] = () => PairFixture.Create<Sphere, SphereWide, Box, BoxWide, Few1<ContactWide>,
             SphereBoxTester>(NextSphere, NextBox),
+        [nameof(SphereTriangleTester)] = () => PairFixture.Create<Sphere, SphereWide, Triangle, TriangleWide, Few1<ContactWide>,
+            SphereTriangleTester>(NextSphere, NextTriangle),
+        [nameof(SphereCylinderTester)] = () => PairFixture.Create<Sphere, SphereWide, Cylinder, CylinderWide, Few1<ContactWide>,
+            SphereCylinderTester>(NextSphere, NextCylinder),
         [nameof(CapsuleCapsuleTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Capsule, CapsuleWide, Few2<ContactWide>,
             CapsuleCapsuleTester>(NextCapsule, NextCapsule),
         [nameof(CapsuleBoxTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Box, BoxWide, Few2<ContactWide>,
             CapsuleBoxTester>(NextCapsule, NextBox),
+        [nameof(CapsuleTriangleTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Triangle, TriangleWide, Few2<ContactWide>,
+            CapsuleTriangleTester>(NextCapsule, NextTriangle),
         [nameof(BoxBoxTester)] = () => PairFixture.Create<Box, BoxWide, Box, BoxWide, Few4<ContactWide>,
             BoxBoxTester>(NextBox, NextBox),
     };
@@ -58,6 +65,11 @@ public class PairBenchmarks : IDisposable
     static Capsule NextCapsule(Random random) => new(NextSize(random), 2 * NextSize(random));
 
     static Box NextBox(Random random) => new(2 * NextSize(random), 2 * NextSize(random), 2 * NextSize(random));
+
+    static Cylinder NextCylinder(Random random) => new(NextSize(random), 2 * NextSize(random));
+
+    static Triangle NextTriangle(Random random) => new(
+        new Vector3(NextSize(random), 0, 0), new Vector3(0, NextSize(random), 0), new Vector3(0, 0, NextSize(random)));
 
     static float NextSize(Random random) => 0.25f + 0.5f * random.NextSingle();
 }

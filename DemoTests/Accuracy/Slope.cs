@@ -24,6 +24,13 @@ sealed class Slope
             world.AddStatic(plank, Pose(60, -1));
     }
 
+    /// <summary>A static slope of the same extent whose surface is one of <see cref="Floors.Flat"/>.</summary>
+    public Slope(Solids solids, double angle, string floor)
+    {
+        this.angle = angle;
+        Floors.Add(solids, floor, Pose(0, 0), -10, 130, 10);
+    }
+
     public Double3 Downhill => new(Math.Cos(angle), -Math.Sin(angle), 0);
 
     /// <summary>A pose with the slope's axes: X downhill, Y its normal. Computed in double, rounded once.</summary>
@@ -42,8 +49,15 @@ sealed class Slope
         return pose with { Orientation = new((float)turned.X, (float)turned.Y, (float)turned.Z, (float)turned.W) };
     }
 
-    /// <summary>A pose for a capsule whose axis points downhill.</summary>
+    /// <summary>A pose for a capsule or cylinder whose axis points downhill.</summary>
     public RigidPose LyingPose(double height) => Pose(0, height) with { Orientation = Turn(-angle - Math.PI / 2) };
+
+    /// <summary>A pose for a capsule or cylinder whose axis lies across the slope.</summary>
+    public RigidPose CrossPose(double height)
+    {
+        var turned = DoubleQuaternion.FromAxisAngle(new(0, 0, 1), -angle) * DoubleQuaternion.FromAxisAngle(new(1, 0, 0), Math.PI / 2);
+        return Pose(0, height) with { Orientation = new((float)turned.X, (float)turned.Y, (float)turned.Z, (float)turned.W) };
+    }
 
     static Quaternion Turn(double angle)
     {

@@ -30,6 +30,9 @@ public class BoundsTests
     public void BoxExpansionCoversEveryRotation() => ExpansionCoversEveryRotation(ShapeGenerators.Boxes);
 
     [Fact]
+    public void CylinderExpansionCoversEveryRotation() => ExpansionCoversEveryRotation(ShapeGenerators.Cylinders);
+
+    [Fact]
     public void SphereLanesAreIndependent() => LanesAreIndependent<Sphere, SphereWide>(ShapeGenerators.Spheres);
 
     [Fact]
@@ -37,6 +40,9 @@ public class BoundsTests
 
     [Fact]
     public void BoxLanesAreIndependent() => LanesAreIndependent<Box, BoxWide>(ShapeGenerators.Boxes);
+
+    [Fact]
+    public void CylinderLanesAreIndependent() => LanesAreIndependent<Cylinder, CylinderWide>(ShapeGenerators.Cylinders);
 
     /// <summary>All of the surface is inside the box, and each side of the box is touched.</summary>
     static void BoundsAreTight<TShape>(Gen<TShape> shapes) where TShape : unmanaged, IConvexShape =>

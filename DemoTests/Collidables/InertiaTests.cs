@@ -29,6 +29,15 @@ public class InertiaTests
         AgreesWithIntegration(new Box(3 * scale, 0.1f * scale, scale));
     }
 
+    [Theory]
+    [MemberData(nameof(Scales))]
+    public void CylindersAgreeWithNumericalIntegration(float scale)
+    {
+        AgreesWithIntegration(new Cylinder(scale, 2 * scale));
+        AgreesWithIntegration(new Cylinder(scale, 0.05f * scale));
+        AgreesWithIntegration(new Cylinder(0.1f * scale, 3 * scale));
+    }
+
     [Fact]
     public void ACapsuleWithoutLengthIsASphere()
     {

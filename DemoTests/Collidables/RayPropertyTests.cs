@@ -23,6 +23,9 @@ public class RayPropertyTests
     public void BoxRaysAgreeWithTheDistanceField() => RaysAgree(ShapeGenerators.Boxes);
 
     [Fact]
+    public void CylinderRaysAgreeWithTheDistanceField() => RaysAgree(ShapeGenerators.Cylinders);
+
+    [Fact]
     public void SphereLanesAreIndependent() => LanesAreIndependent<Sphere, SphereWide>(ShapeGenerators.Spheres);
 
     [Fact]
@@ -30,6 +33,9 @@ public class RayPropertyTests
 
     [Fact]
     public void BoxLanesAreIndependent() => LanesAreIndependent<Box, BoxWide>(ShapeGenerators.Boxes);
+
+    [Fact]
+    public void CylinderLanesAreIndependent() => LanesAreIndependent<Cylinder, CylinderWide>(ShapeGenerators.Cylinders);
 
     sealed record Case<TShape>(TShape Shape, RigidPose Pose, Vector3 Origin, Vector3 Direction);
 

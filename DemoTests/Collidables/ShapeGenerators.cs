@@ -38,6 +38,12 @@ static class ShapeGenerators
         from ratio in Uniform(-5, 95)
         select new Capsule(radius, radius * Math.Max(0, ratio));
 
+    /// <summary>Cylinders from coins to rods, a hundred times as wide as long and the other way round.</summary>
+    public static Gen<Cylinder> Cylinders =>
+        from radius in Sizes
+        from exponent in Uniform(-2, 2)
+        select new Cylinder(radius, 2 * radius * (float)Math.Pow(10, exponent));
+
     /// <summary>Boxes with sides up to a hundred times as long as others.</summary>
     public static Gen<Box> Boxes =>
         from size in Sizes

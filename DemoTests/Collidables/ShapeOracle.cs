@@ -14,6 +14,7 @@ static class ShapeOracle
         Sphere sphere => p.Length - sphere.Radius,
         Capsule capsule => (p with { Y = p.Y - Math.Clamp(p.Y, -capsule.HalfLength, capsule.HalfLength) }).Length - capsule.Radius,
         Box box => BoxDistance(box, p),
+        Cylinder cylinder => CylinderDistance(cylinder, p),
         _ => throw new NotSupportedException(),
     };
 
@@ -25,6 +26,8 @@ static class ShapeOracle
         Box box => (
             new Double3(box.HalfWidth, box.HalfHeight, box.HalfLength).Length,
             Math.Min(box.HalfWidth, Math.Min(box.HalfHeight, box.HalfLength))),
+        Cylinder cylinder => (
+            new Double3(cylinder.Radius, cylinder.HalfLength, 0).Length, Math.Min(cylinder.Radius, cylinder.HalfLength)),
         _ => throw new NotSupportedException(),
     };
 
@@ -124,6 +127,13 @@ static class ShapeOracle
         var z = Math.Abs(p.Z) - box.HalfLength;
         var outside = new Double3(Math.Max(x, 0), Math.Max(y, 0), Math.Max(z, 0)).Length;
         return outside > 0 ? outside : Math.Max(x, Math.Max(y, z));
+    }
+
+    static double CylinderDistance(Cylinder cylinder, Double3 p)
+    {
+        var side = Math.Sqrt(p.X * p.X + p.Z * p.Z) - cylinder.Radius;
+        var end = Math.Abs(p.Y) - cylinder.HalfLength;
+        return side > 0 && end > 0 ? Math.Sqrt(side * side + end * end) : Math.Max(side, end);
     }
 
     /// <summary>Where a condition that is false at the low end and true at the high end becomes true.</summary>

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;

@@ -45,7 +45,12 @@ sealed class ConvexPairTally
     /// <summary>How far the worst result is below the reference: above zero the reference itself is wrong.</summary>
     public double BelowReference { get; private set; }
 
+    /// <summary>How far the worst contact is from a surface beyond halfway.</summary>
+    public double WorstOutside { get; private set; }
+
     public string? WorstPose { get; private set; }
+
+    public string? WorstOutsidePose { get; private set; }
 
     double worst;
 
@@ -94,7 +99,15 @@ sealed class ConvexPairTally
                 return;
             }
             ++ContactCount;
-            OutsideCount += reference.InsideBoth(place, offset, Math.Abs(contact.Depth) * 0.5 + tolerance) ? 0 : 1;
+            var outside = Math.Max(reference.A.SignedDistance(place), reference.B.SignedDistance(reference.Rotation.RotateBack(place - offset)))
+                - Math.Abs(contact.Depth) * 0.5;
+            OutsideCount += outside > tolerance ? 1 : 0;
+            if (outside / size > WorstOutside)
+            {
+                WorstOutside = outside / size;
+                WorstOutsidePose = $"{Describe(reference, pose, found)}, contact {i} of {manifold.Count} {contact.Offset} depth {contact.Depth:g9} "
+                    + $"normal {contact.Normal}";
+            }
         }
         // Apart at corners an axis shows less than the distance, and contacts must agree with what the axis shows.
         var error = isExact ? Math.Abs(deepest - depth) / size : Math.Max(0, deepest - along) / size;
@@ -105,9 +118,7 @@ sealed class ConvexPairTally
         if (Math.Max(error, isExact ? excess : 0) > worst)
         {
             worst = Math.Max(error, isExact ? excess : 0);
-            WorstPose = $"A {Describe(reference.A)} B {Describe(reference.B)} {pose} depth {depth:g9} normal "
-                + $"{ConvexGenerator.ToVector(found.Normal)}, found "
-                + $"{deepest:g9} {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
+            WorstPose = $"{Describe(reference, pose, found)}, found {deepest:g9} {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
         }
     }
 
@@ -121,6 +132,9 @@ sealed class ConvexPairTally
             return 0;
         return found.Normals.Min(n => Math.Atan2(Double3.Cross(n, normal).Length, Double3.Dot(n, normal))) * 180 / Math.PI;
     }
+
+    static string Describe(ConvexReference reference, in ConvexPose pose, in ConvexDepth found) =>
+        $"A {Describe(reference.A)} B {Describe(reference.B)} {pose} depth {found.Depth:g9} normal {ConvexGenerator.ToVector(found.Normal)}";
 
     static string Describe(ConvexShape s) => s.Kind switch
     {
@@ -142,10 +156,10 @@ sealed class ConvexPairTally
     }
 
     public const string Header = "| pair | regime | poses | contacts | depth p50 | p99 | p99.9 | worst | excess worst | normal p95 "
-        + "| wrong | missed | unseen | ghosts | outside | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+        + "| wrong | missed | unseen | ghosts | outside | worst | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
     public string ToRow(string pair, string regime) => string.Create(CultureInfo.InvariantCulture,
         $"| {pair} | {regime} | {PoseCount} | {ContactCount} | {DepthError(.5):e1} | {DepthError(.99):e1} | {DepthError(.999):e1} "
         + $"| {DepthError(1):e1} | {Excess(1):e1} | {AngleError(.95):f2} | {WrongMinimumCount} | {MissedCount} | {UnseenCount} "
-        + $"| {GhostCount} | {OutsideCount} | {BrokenCount} |");
+        + $"| {GhostCount} | {OutsideCount} | {WorstOutside:e1} | {BrokenCount} |");
 }

@@ -74,7 +74,7 @@ public class ConvexPairTests(ITestOutputHelper output)
         if (tally.BrokenCount > 0)
             yield return $"{tally.BrokenCount} broken manifolds";
         if (tally.OutsideCount > 0)
-            yield return $"{tally.OutsideCount} contacts outside";
+            yield return $"{tally.OutsideCount} contacts outside: {tally.WorstOutsidePose}";
         if (tally.DepthError(.99) > ConvexPairTally.Tolerance)
             yield return $"depth p99 {tally.DepthError(.99):e1}";
         if (tally.Excess(.99) > ConvexPairTally.Tolerance)

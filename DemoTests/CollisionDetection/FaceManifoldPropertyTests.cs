@@ -160,6 +160,122 @@ public class FaceManifoldPropertyTests(ITestOutputHelper output)
         Assert.True(shares.Min() > 0.3, $"area {shares.Min()}");
     }
 
+    /// <summary>The same pair with B first; contacts in A's frame again.</summary>
+    static FaceContacts RunSwapped(in Pair pair)
+    {
+        var toB = Quaternion.Conjugate(pair.LocalOrientationB);
+        var pointOnB = pair.PointOnA + pair.Normal * pair.Depth;
+        var (offset, orientation) = (pair.LocalOffsetB, pair.LocalOrientationB);
+        var contacts = Harness.Run(new Pair(pair.B, pair.A, Vector3.Transform(-offset, toB), toB, pair.OrientationA,
+            Vector3.Transform(-pair.Normal, toB), pair.Depth, Vector3.Transform(pointOnB - offset, toB), pair.SpeculativeMargin));
+        Double3 x = Double3.RotatedAxis(orientation, 0), y = Double3.RotatedAxis(orientation, 1), z = Double3.RotatedAxis(orientation, 2);
+        return new(x * contacts.Normal.X + y * contacts.Normal.Y + z * contacts.Normal.Z, [.. contacts.Contacts.Select(contact => contact with
+        {
+            Offset = new Double3(offset) + x * contact.Offset.X + y * contact.Offset.Y + z * contact.Offset.Z,
+        })]);
+    }
+
+    [Fact]
+    public void TheOtherWayRoundTheContactsAreTheSame()
+    {
+        var compared = 0;
+        foreach (var pair in CreateMany(11, 4000, 0.3, 0.1, float.MaxValue, allowSegments: true))
+        {
+            var contacts = Harness.Run(pair);
+            var swapped = RunSwapped(pair);
+            var size = Math.Min(Extent(pair.A), Extent(pair.B));
+            var tolerance = 3e-4 * size + 1e-5 * Math.Max(pair.A.Size, pair.B.Size);
+            Assert.True((contacts.Normal + swapped.Normal).Length < 1e-5);
+            Assert.Equal(contacts.Deepest, swapped.Deepest, 2e-4 * size);
+            var reference = Reference(pair);
+            var corners = reference.Corners;
+            // Of more corners other four may be kept, and of corners that are close together another one.
+            if (corners.Count > 4 || !AreApart(corners, 0.05 * size))
+                continue;
+            ++compared;
+            Assert.Equal(contacts.Contacts.Length, swapped.Contacts.Length);
+            foreach (var contact in contacts.Contacts)
+            {
+                Assert.Contains(swapped.Contacts, other =>
+                    (other.Offset - contact.Offset).Length < tolerance && Math.Abs(other.Depth - contact.Depth) < tolerance);
+            }
+        }
+        Assert.True(compared > 300, $"{compared}");
+    }
+
+    static bool AreApart(IReadOnlyList<FacePoint> corners, double distance)
+    {
+        for (int i = 0; i < corners.Count; ++i)
+        {
+            FacePoint p = corners[i], q = corners[(i + 1) % corners.Count], r = corners[(i + 2) % corners.Count];
+            var pq = new Double3(q.X - p.X, q.Y - p.Y, 0);
+            var qr = new Double3(r.X - q.X, r.Y - q.Y, 0);
+            // Where edges meet at a small angle the border moves their corner far.
+            if (pq.Length < distance || (corners.Count > 2 && Double3.Cross(pq, qr).Length < 0.1 * pq.Length * qr.Length))
+                return false;
+        }
+        return true;
+    }
+
+    [Fact]
+    public void FeatureIdsStayTheSameUnderSmallMotion()
+    {
+        var random = new PairRandom(12);
+        int all = 0, kept = 0, near = 0;
+        foreach (var pair in CreateMany(13, 3000, 0.01, 0.1, float.MaxValue, allowSegments: true))
+        {
+            var size = (float)Math.Min(Extent(pair.A), Extent(pair.B));
+            var moved = pair;
+            var motion = 1e-4f * size;
+            moved.LocalOffsetB += random.NextDirection() * motion;
+            var pose = Reference(moved);
+            if (pose.Corners.Count == 0)
+                continue;
+            var (depth, point) = pose.FindDeepest();
+            moved.Depth = (float)depth;
+            moved.PointOnA = new((float)point.X, (float)point.Y, (float)point.Z);
+            var before = Harness.Run(pair);
+            var after = Harness.Run(moved);
+            foreach (var contact in before.Contacts)
+            {
+                ++all;
+                var same = after.Contacts.Where(other => other.FeatureId == contact.FeatureId).ToArray();
+                if (same.Length == 0)
+                    continue;
+                ++kept;
+                near += (same[0].Offset - contact.Offset).Length < 20 * motion ? 1 : 0;
+            }
+        }
+        output.WriteLine($"{all} contacts, {kept} kept their id, {near} of these are near to where they were");
+        Assert.True(kept > 0.97 * all);
+        Assert.True(near > 0.97 * kept);
+    }
+
+    [Fact]
+    public void PolygonsWithoutAnAreaHaveTheirWitness()
+    {
+        var square = new FaceTestPolygon([new(-1, 0, 1), new(1, 0, 1), new(1, 0, -1), new(-1, 0, -1)], Vector3.UnitY);
+        var normal = -Vector3.UnitY;
+        FaceTestPolygon[] shapes =
+        [
+            new([new(0.2f, 0, 0.3f), new(0.2f, 0, 0.3f), new(0.2f, 0, 0.3f)], normal),
+            new([new(0.2f, 0, 0.3f), new(0.4f, 0, 0.3f), new(0.2f, 0, 0.3f), new(0.2f, 0, 0.3f)], normal),
+            new([new(0.2f, 0, 0.3f), new(0.4f, 0, 0.5f), new(0.3f, 0, 0.4f)], Vector3.Zero),
+            new([new(0.2f, 0, 0.3f), new(0.2f, 1, 0.3f)], normal),
+            new([new(0.2f, 0, 0.3f), new(0.2f, 0, 0.3f)], Vector3.Zero),
+            new([new(0.2f, 0, 0.3f)], normal),
+        ];
+        foreach (var shape in shapes)
+        {
+            var pair = new Pair(shape, square, default, Quaternion.Identity, Quaternion.Identity, Vector3.UnitY, 0, new(0.2f, 0, 0.3f), 0.1f);
+            var contacts = Harness.Run(pair);
+            Assert.NotEmpty(contacts.Contacts);
+            Assert.Contains(contacts.Contacts, contact => (contact.Offset - new Double3(0.2f, 0, 0.3f)).Length < 1e-6);
+            Assert.All(contacts.Contacts, contact => Assert.Equal(0, contact.Depth, 1e-6));
+            Assert.NotEmpty(RunSwapped(pair).Contacts);
+        }
+    }
+
     static double Extent(in FaceTestPolygon polygon)
     {
         double extent = 0;

@@ -64,6 +64,7 @@ sealed unsafe class SceneWorld : IDisposable
 
     public void Dispose()
     {
+        Simulation.DisposeHulls();
         Simulation.Dispose();
         pool.AssertEmpty();
         dispatcher?.WorkerPools.AssertEmpty();

@@ -1,4 +1,7 @@
+using System.Globalization;
+using System.Linq;
 using System.Numerics;
+using System.Text;
 using Demos.Scenes;
 
 namespace DemoTests.Scenes;
@@ -44,6 +47,69 @@ static class SmallScenes
         }
         return scene;
     }
+
+    /// <summary>A built-in pile with fewer bodies, in a pit, so that all of them meet and none rolls away.</summary>
+    /// <param name="name">"shape-pile" or "hull-pile".</param>
+    /// <param name="columns">Bodies along each side of the pit.</param>
+    /// <param name="layers">Bodies on each other.</param>
+    public static SceneDescription Pile(string name, int columns, int layers)
+    {
+        var whole = SceneLibrary.Load(name, 1);
+        const float spacing = 1.3f;
+        var scene = new SceneDescription { Name = $"small {name}", Friction = whole.Friction, Damping = whole.Damping };
+        scene.Shapes.AddRange(whole.Shapes);
+        Demos.Scenes.BuiltIn.Pit.Add(scene, columns * spacing / 2 + .2f);
+        var bodies = whole.Bodies.FindAll(body => body.Kind == SceneBodyKind.Dynamic);
+        for (int i = 0; i < columns * columns * layers; ++i)
+        {
+            int x = i % columns, z = i / columns % columns, y = i / (columns * columns);
+            var position = new Vector3(x - (columns - 1) * .5f, .8f + y, z - (columns - 1) * .5f) * spacing;
+            scene.AddDynamic(bodies[i].Children[0].Shape, bodies[i].Mass, position, bodies[i].Orientation);
+        }
+        return scene;
+    }
+
+    /// <summary>The text of a scene without joints; every number comes back as it was.</summary>
+    public static string Write(SceneDescription scene)
+    {
+        var text = new StringBuilder();
+        text.Append(CultureInfo.InvariantCulture, $"scene 1 name {scene.Name.Replace(' ', '-')} steps {scene.Steps}");
+        text.Append(CultureInfo.InvariantCulture, $" friction {scene.Friction} damping {scene.Damping} sleep {(scene.Sleep ? 1 : 0)}\n");
+        text.Append(CultureInfo.InvariantCulture, $"shapes {scene.Shapes.Count}\n");
+        foreach (var shape in scene.Shapes)
+        {
+            text.Append(shape.Word);
+            switch (shape.Kind)
+            {
+                case SceneShapeKind.Box:
+                    text.Append(Text(shape.Size));
+                    break;
+                case SceneShapeKind.Sphere:
+                    text.Append(CultureInfo.InvariantCulture, $" {shape.Size.X}");
+                    break;
+                case SceneShapeKind.Hull:
+                    text.Append(CultureInfo.InvariantCulture, $" {shape.Points.Length}").AppendJoin("", shape.Points.Select(Text));
+                    break;
+                default:
+                    text.Append(CultureInfo.InvariantCulture, $" {shape.Size.X} {shape.Size.Y}");
+                    break;
+            }
+            text.Append('\n');
+        }
+        text.Append(CultureInfo.InvariantCulture, $"bodies {scene.Bodies.Count}\n");
+        foreach (var body in scene.Bodies)
+        {
+            text.Append(CultureInfo.InvariantCulture, $"{(int)body.Kind} 1 {body.Children[0].Shape} 0 0 0 0 0 0 1 {body.Mass}");
+            text.Append(Text(body.Position)).Append(Text(body.Orientation));
+            text.Append(Text(body.LinearVelocity)).Append(Text(body.AngularVelocity));
+            text.Append(CultureInfo.InvariantCulture, $" {body.Group}\n");
+        }
+        return text.Append("joints 0\n").ToString();
+    }
+
+    static string Text(Vector3 v) => string.Create(CultureInfo.InvariantCulture, $" {v.X} {v.Y} {v.Z}");
+
+    static string Text(Quaternion q) => string.Create(CultureInfo.InvariantCulture, $" {q.X} {q.Y} {q.Z} {q.W}");
 
     static void Link(SceneDescription scene, int width, int body, int x, int z)
     {

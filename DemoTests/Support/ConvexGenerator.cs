@@ -14,7 +14,7 @@ public enum ConvexForm
     Flat,
 
     /// <summary>A needle, a rod: one size is 100 times the others. For triangles, two corners nearly coincide.</summary>
-    Long,
+    Slender,
 }
 
 /// <summary>Random convex shapes with an outer radius of about a given size.</summary>
@@ -22,7 +22,7 @@ public static class ConvexGenerator
 {
     /// <summary>Half of the shapes are fat.</summary>
     public static ConvexForm NextForm(ConvexRandom random) =>
-        random.Next(4) switch { 0 => ConvexForm.Flat, 1 => ConvexForm.Long, _ => ConvexForm.Fat };
+        random.Next(4) switch { 0 => ConvexForm.Flat, 1 => ConvexForm.Slender, _ => ConvexForm.Fat };
 
     public static ConvexShape Create(ConvexKind kind, ConvexForm form, double size, ConvexRandom random)
     {
@@ -35,14 +35,14 @@ public static class ConvexGenerator
             case ConvexKind.Capsule:
                 return form switch
                 {
-                    ConvexForm.Long => ConvexShape.Capsule((float)thin, (float)(2 * size)),
+                    ConvexForm.Slender => ConvexShape.Capsule((float)thin, (float)(2 * size)),
                     ConvexForm.Flat => ConvexShape.Capsule((float)(size * random.Next(0.3, 1)), (float)(random.Next(2) * thin)),
                     _ => ConvexShape.Capsule((float)(size * random.Next(0.1, 0.5)), (float)(size * random.Next(0.2, 1.5))),
                 };
             case ConvexKind.Cylinder:
                 return form switch
                 {
-                    ConvexForm.Long => ConvexShape.Cylinder((float)thin, (float)(2 * size)),
+                    ConvexForm.Slender => ConvexShape.Cylinder((float)thin, (float)(2 * size)),
                     ConvexForm.Flat => ConvexShape.Cylinder((float)(size * random.Next(0.5, 1)), (float)(2 * thin)),
                     _ => ConvexShape.Cylinder((float)(size * random.Next(0.2, 0.8)), (float)(size * random.Next(0.2, 1.6))),
                 };
@@ -51,7 +51,7 @@ public static class ConvexGenerator
         }
         var extents = form switch
         {
-            ConvexForm.Long => new Double3(size, thin, thin * random.Next(0.5, 1)),
+            ConvexForm.Slender => new Double3(size, thin, thin * random.Next(0.5, 1)),
             ConvexForm.Flat => new Double3(size * random.Next(0.4, 1), thin, size),
             _ => new Double3(size * random.Next(0.2, 1), size * random.Next(0.2, 1), size),
         };
@@ -68,9 +68,9 @@ public static class ConvexGenerator
         v *= 1 / v.Length;
         var (a, b, c) = form switch
         {
-            // Flat: the third corner close to the opposite edge. Long: two corners close to each other.
+            // Flat: the third corner close to the opposite edge. Slender: two corners close to each other.
             ConvexForm.Flat => (u * size, u * -size, v * thin + u * (size * random.Next(-0.8, 0.8))),
-            ConvexForm.Long => (u * size, u * -size, v * thin - u * size),
+            ConvexForm.Slender => (u * size, u * -size, v * thin - u * size),
             _ => (u * size, u * (size * random.Next(-1, -0.3)), v * (size * random.Next(0.5, 1))),
         };
         return ConvexShape.Triangle(ToVector(a + origin), ToVector(b + origin), ToVector(c + origin));

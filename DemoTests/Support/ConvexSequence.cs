@@ -37,13 +37,12 @@ public static class ConvexSequence
     }
 }
 
-/// <summary>Counts how often normals jump, and how often that was not called for.</summary>
+/// <summary>Counts how often normals and depths jump, beside how often the reference's own do.</summary>
 /// <remarks>Add the frames of one sequence in order, and <see cref="Restart"/> before the next.</remarks>
 public sealed class ConvexSequenceTally
 {
     const double FlipDegrees = 20;
     const double SuboptimalExcess = 0.01;
-    const double KeepableExcess = 1e-3;
 
     Double3? lastNormal;
     Double3? lastReference;
@@ -57,9 +56,6 @@ public sealed class ConvexSequenceTally
 
     /// <summary>As often did the reference's best normal.</summary>
     public int ReferenceFlipCount { get; private set; }
-
-    /// <summary>Flips away from a normal that was still within a thousandth of the smaller size of the best.</summary>
-    public int NeedlessFlipCount { get; private set; }
 
     /// <summary>Frames in which the depth changed by a hundredth of the smaller size more than that of the reference.</summary>
     public int JumpCount { get; private set; }
@@ -92,20 +88,15 @@ public sealed class ConvexSequenceTally
         SuboptimalCount += frame.Reference.DepthAlong(found, frame.LocalOffsetB) - frame.Depth.Depth > SuboptimalExcess * size ? 1 : 0;
         if (lastNormal is { } last)
         {
-            if (Turned(last, found))
-            {
-                ++FlipCount;
-                var kept = frame.Reference.DepthAlong(last, frame.LocalOffsetB) - frame.Depth.Depth;
-                NeedlessFlipCount += kept < KeepableExcess * size ? 1 : 0;
-            }
+            FlipCount += Turned(last, found) ? 1 : 0;
             var change = Math.Abs(depth - lastDepth) - Math.Abs(frame.Depth.Depth - lastReferenceDepth);
             JumpCount += change > 0.01 * size ? 1 : 0;
         }
         (lastNormal, lastDepth, lastReferenceDepth) = (found, depth, frame.Depth.Depth);
     }
 
-    public override string ToString() => $"{FrameCount} frames: {FlipCount} flips ({NeedlessFlipCount} needless), reference "
-        + $"{ReferenceFlipCount}; {JumpCount} jumps, {SuboptimalCount} suboptimal, {MissedCount} missed";
+    public override string ToString() => $"{FrameCount} frames: {FlipCount} flips, reference {ReferenceFlipCount}; {JumpCount} jumps, "
+        + $"{SuboptimalCount} suboptimal, {MissedCount} missed";
 
     static bool Turned(Double3 a, Double3 b) => Math.Atan2(Double3.Cross(a, b).Length, Double3.Dot(a, b)) > FlipDegrees * Math.PI / 180;
 }

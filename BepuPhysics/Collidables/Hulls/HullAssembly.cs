@@ -9,6 +9,8 @@ static unsafe class HullAssembly
 {
     // How far the normal of a face that is computed from its corners may be from the one that the builder knows.
     const double SameNormal = 1e-7;
+    // Factor on the tolerance where the hull has too many vertices otherwise: points may be outside by 9e-5 of the size then.
+    const double Coarse = 3;
 
     /// <summary>Finds the hull of points. The normals are those of the faces, as the builder knows them.</summary>
     public static HullFailure TryFind(ReadOnlySpan<Vector3> points, BufferPool pool, out HullData data, out Buffer<HullPoint> normals)
@@ -18,7 +20,13 @@ static unsafe class HullAssembly
         var failure = HullGrid.TryCreate(points, pool, out var grid);
         if (failure != HullFailure.None)
             return failure;
-        failure = HullBuilder.TryBuild(grid, pool, out var builder);
+        failure = HullBuilder.TryBuild(grid, 1, pool, out var builder);
+        if (failure == HullFailure.TooManyVertices)
+        {
+            // Finer than it can be told apart: a hundred thousand points on a sphere become half as many.
+            builder.Dispose();
+            failure = HullBuilder.TryBuild(grid, Coarse, pool, out builder);
+        }
         if (failure == HullFailure.None)
         {
             var faces = HullFaces.Create(grid, builder, pool);

@@ -15,12 +15,15 @@ namespace BepuPhysics.Collidables;
 /// for any input. All tolerances only decide which points are left out.
 /// A pass over the triangles in the order of their creation ends when the last one has nothing above it; each insertion uses up a point.
 /// </remarks>
-unsafe struct HullBuilder
+unsafe partial struct HullBuilder
 {
     const int None = -1;
+    /// <summary>Height at which a point is on a triangle: what moving points about makes of points in one plane, cells.</summary>
+    const double Negligible = 256;
 
     readonly BufferPool pool;
     readonly HullGrid grid;
+    readonly double coarseness;
     /// <summary>The triangles, dead ones among them.</summary>
     public Buffer<HullTriangle> Triangles;
     /// <summary>Number of triangles, dead ones included.</summary>
@@ -35,9 +38,10 @@ unsafe struct HullBuilder
     Buffer<int> seen, border;
     int seenCount, borderCount;
 
-    HullBuilder(in HullGrid grid, BufferPool pool)
+    HullBuilder(in HullGrid grid, double coarseness, BufferPool pool)
     {
         this.grid = grid;
+        this.coarseness = coarseness;
         this.pool = pool;
         pool.Take(grid.Points.Length, out nextOutside);
         pool.Take(grid.Points.Length, out triangleAtStart);
@@ -47,24 +51,30 @@ unsafe struct HullBuilder
     }
 
     /// <summary>Builds the hull; there is something to dispose even when there is none.</summary>
-    public static HullFailure TryBuild(in HullGrid grid, BufferPool pool, out HullBuilder builder)
+    /// <param name="grid">The points.</param>
+    /// <param name="coarseness">Factor on the tolerance.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <param name="builder">The hull, as triangles.</param>
+    public static HullFailure TryBuild(in HullGrid grid, double coarseness, BufferPool pool, out HullBuilder builder)
     {
-        builder = new(grid, pool);
+        builder = new(grid, coarseness, pool);
         var failure = builder.TryStart();
         if (failure != HullFailure.None)
             return failure;
-        while (builder.current < builder.TriangleCount)
+        do
         {
-            // A triangle that had its point chosen is dead, or the point was found not to be above it after all: then the next one is.
-            if (builder.Triangles[builder.current].Dead || builder.Triangles[builder.current].FirstOutside == None)
-                ++builder.current;
-            else
-                builder.InsertFarthest();
-            // A closed surface of triangles has half as many vertices as triangles, and two.
-            if (builder.TriangleCount - builder.deadCount > 4 * ConvexHull.MaximumVertexCount)
-                return HullFailure.TooManyVertices;
+            while (builder.current < builder.TriangleCount)
+            {
+                // A triangle whose point was inserted is dead.
+                if (builder.Triangles[builder.current].Dead || !builder.TryInsertFarthest())
+                    ++builder.current;
+                // A closed surface of triangles has half as many vertices as triangles, and two.
+                if (builder.TriangleCount - builder.deadCount > 2 * ConvexHull.MaximumVertexCount)
+                    return HullFailure.TooManyVertices;
+            }
+            builder.RemoveDead();
         }
-        builder.RemoveDead();
+        while (builder.FindHidden());
         return HullFailure.None;
     }
 
@@ -111,7 +121,7 @@ unsafe struct HullBuilder
         if (thickness < grid.FlatThickness)
             return HullFailure.AllPointsInAPlane;
 
-        Tolerance = grid.Tolerance(thickness);
+        Tolerance = grid.Tolerance(thickness) * coarseness;
         if (isAbove)
             (b, c) = (c, b);
         // d is below a, b, c.
@@ -138,21 +148,6 @@ unsafe struct HullBuilder
         return farthest;
     }
 
-    /// <summary>Puts a point into the list of the first of some triangles that it is above, if there is one.</summary>
-    readonly void AddOutside(int point, int firstTriangle, int endTriangle)
-    {
-        var position = grid.Points[point];
-        for (int i = firstTriangle; i < endTriangle; ++i)
-        {
-            ref var triangle = ref Triangles[i];
-            if (HeightOver(triangle, position) * triangle.InverseLength <= Tolerance)
-                continue;
-            nextOutside[point] = triangle.FirstOutside;
-            triangle.FirstOutside = point;
-            return;
-        }
-    }
-
     readonly double HeightOver(in HullTriangle triangle, in HullPoint point) =>
         HullPoint.Dot(triangle.Normal, point - grid.Points[triangle.Corners[0]]);
 
@@ -164,11 +159,12 @@ unsafe struct HullBuilder
         return HullPoint.Side(grid.Points[triangle.Corners[0]], grid.Points[triangle.Corners[1]], grid.Points[triangle.Corners[2]], eye) >= 0;
     }
 
-    void InsertFarthest()
+    /// <summary>Inserts the farthest point above the current triangle, if there is one above it by more than the tolerance.</summary>
+    bool TryInsertFarthest()
     {
         var eye = TakeFarthest(ref Triangles[current]);
-        if (!Sees(grid.Points[eye], Triangles[current]))
-            return;
+        if (eye == None || !Sees(grid.Points[eye], Triangles[current]))
+            return false;
         FindSeen(eye);
         var firstNew = TriangleCount;
         JoinBorder(eye);
@@ -186,33 +182,7 @@ unsafe struct HullBuilder
         deadCount += seenCount;
         if (deadCount > 1024 && deadCount > TriangleCount / 2)
             RemoveDead();
-    }
-
-    /// <summary>Takes the farthest point out of the list of a triangle.</summary>
-    // Of points as far but for the tolerance, such as those along an edge parallel to the triangle, the one farthest from the middle: the
-    // end of the edge, which stays a vertex, and none between, which would end up as a bend of nothing in the edge.
-    readonly int TakeFarthest(ref HullTriangle triangle)
-    {
-        var greatest = 0.0;
-        for (int point = triangle.FirstOutside; point != None; point = nextOutside[point])
-            greatest = Math.Max(greatest, HeightOver(triangle, grid.Points[point]));
-        var enough = greatest - 0.5 * Tolerance / triangle.InverseLength;
-        int farthest = None, beforeFarthest = None, before = None;
-        var greatestDistance = -1.0;
-        for (int point = triangle.FirstOutside; point != None; before = point, point = nextOutside[point])
-        {
-            if (HeightOver(triangle, grid.Points[point]) < enough)
-                continue;
-            var offset = grid.Points[point] - grid.Middle;
-            var distance = HullPoint.Dot(offset, offset);
-            if (distance > greatestDistance)
-                (greatestDistance, farthest, beforeFarthest) = (distance, point, before);
-        }
-        if (beforeFarthest == None)
-            triangle.FirstOutside = nextOutside[farthest];
-        else
-            nextOutside[beforeFarthest] = nextOutside[farthest];
-        return farthest;
+        return true;
     }
 
     /// <summary>Finds all triangles that a point sees, beginning with the current one, and the border around them.</summary>

@@ -24,7 +24,7 @@ struct HullGrid
     /// <summary>The same relative to the size: no rounding, however large, excuses more.</summary>
     const double MaximumToleranceOfSize = 3e-5;
     /// <summary>The same relative to the thickness: no rounding excuses an error of the volume above a percent.</summary>
-    const double MaximumToleranceOfThickness = 2e-3;
+    const double MaximumToleranceOfThickness = 1e-3;
     /// <summary>Thickness below which points are flat, relative to the size.</summary>
     const double MinimumThickness = 1e-5;
     /// <summary>Rounding of a coordinate to a float, four times over, relative to the largest coordinate.</summary>

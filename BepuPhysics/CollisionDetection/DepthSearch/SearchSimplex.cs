@@ -33,6 +33,13 @@ struct SearchSimplex
 
     public SearchVertex A, B, C;
 
+    /// <summary>Whether a vertex is farther along a direction than a height, which no point of the difference is.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<int> IsBeyond(in Vector3Wide direction, Vector<float> height) =>
+        Vector.GreaterThan(Vector3Wide.Dot(A.Point, direction), height) |
+        Vector.GreaterThan(Vector3Wide.Dot(B.Point, direction), height) |
+        Vector.GreaterThan(Vector3Wide.Dot(C.Point, direction), height);
+
     /// <summary>
     /// Takes in a new vertex and keeps those that span, with it, what is closest to the target.
     /// </summary>

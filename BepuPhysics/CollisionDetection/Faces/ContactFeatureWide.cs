@@ -13,7 +13,7 @@ public struct ContactFeatureWide
     /// that is across it. Zero where there is none.
     /// </summary>
     public Vector3Wide PlaneNormal;
-    /// <summary>Names the feature among those of its shape; the lowest 12 bits are used.</summary>
+    /// <summary>Names the feature among those of its shape; the lowest 11 bits are used.</summary>
     public Vector<int> Id;
     /// <summary>How far the surface lies outside of the vertices, along the direction, m: the radius of a sphere or capsule, else zero.</summary>
     public Vector<float> Margin;

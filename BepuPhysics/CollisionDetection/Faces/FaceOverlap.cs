@@ -13,9 +13,9 @@ namespace BepuPhysics.CollisionDetection;
 // cut by is wider by a border. A vertex that is inside by at most half the border is found as a point of an edge, too, or only so.
 unsafe struct FaceOverlap
 {
-    // Part of the smaller feature, and of the size of the larger shape, by which a point outside of a feature still counts as inside. The
+    // Part of the sum of the smaller feature's two extents, and of the size of the larger shape, by which a point outside of a feature still counts as inside. The
     // second is a few roundings of a coordinate.
-    const float BorderTolerance = 1e-5f;
+    const float BorderTolerance = 5e-6f;
     const float BorderRounding = 2e-7f;
     // A contact may be where the other of two round segments is this part of the smaller radius to the side: the surface is farther there
     // by the square of it.
@@ -78,7 +78,9 @@ unsafe struct FaceOverlap
             vertex->WideLineOffset = vertex->LineOffset + border;
             vertex->Inside = new Vector<float>(float.MaxValue);
         }
-        for (int i = 0; i < A.Count; ++i)
+        var countA = A.Count;
+        var countB = B.Count;
+        for (int i = 0; i < countA; ++i)
         {
             ref var edge = ref A.Vertices[i];
             var x = edge.X;
@@ -100,7 +102,7 @@ unsafe struct FaceOverlap
             AddOnEdge(edge, B, start, isInside, 2 * i);
             AddOnEdge(edge, B, end, isInside & Vector.LessThan(end, Vector<float>.One), 2 * i + 1);
         }
-        for (int i = 0; i < B.Count; ++i)
+        for (int i = 0; i < countB; ++i)
         {
             ref var vertex = ref verticesB[i];
             var isInside = mask & Vector.GreaterThan(vertex.Inside, half) & Vector.LessThan(new Vector<int>(i), B.Feature.VertexCount);

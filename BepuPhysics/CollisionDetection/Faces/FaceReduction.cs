@@ -5,14 +5,17 @@ using BepuUtilities;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>The choice of four corners of the overlap of two features, and of the witness where they are not deep enough.</summary>
-// The deepest; the one farthest from it; the ones farthest to either side of the line through both. Corners that come twice do not
-// matter, as the second has no distance, or no area, to add.
+// The deepest; the one farthest from it; the ones farthest to either side of the line through both. Where the overlap is level, the
+// deepest is any of its corners, and the corner farthest from its opposite takes its place: the line is then as long as can be, and the
+// four span more. Corners that come twice do not matter, as the second has no distance, or no area, to add.
 static unsafe class FaceReduction
 {
     // Corners that are equally deep, to this part of their distance, are told apart by their place, so that the same is first each time.
     const float PlaceWeight = 2e-5f;
     // Part of the size of the smaller shape by which the deepest corner may be less deep than the pair.
     const float DepthTolerance = 2e-4f;
+    // Part of that size by which two corners may differ in depth and count as level.
+    const float LevelTolerance = 5e-5f;
     // Squared part of the border's tolerance: contacts nearer to each other are one.
     const float MinimumDistanceSquared = 100f;
     // Part of the distance of the first two contacts: a corner that is nearer to their line adds nothing.
@@ -51,7 +54,9 @@ static unsafe class FaceReduction
         ref ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         ChooseDeepest(overlap, frame, out var deepest);
-        ChooseFarthest(overlap, deepest, out var farthest);
+        ChooseFarthest(overlap, deepest, new Vector<float>(FaceCandidate.None), deepest, out var farthest);
+        var level = Wide.Min(overlap.A.Feature.Size, overlap.B.Feature.Size) * new Vector<float>(LevelTolerance);
+        ChooseFarthest(overlap, farthest, deepest.Depth - level, deepest, out deepest);
         var lineX = farthest.X - deepest.X;
         var lineY = farthest.Y - deepest.Y;
         ChooseSides(overlap, deepest, lineX, lineY, out var left, out var right);
@@ -96,19 +101,21 @@ static unsafe class FaceReduction
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ChooseFarthest(in FaceOverlap overlap, in Choice deepest, out Choice choice)
+    static void ChooseFarthest(in FaceOverlap overlap, in Choice from, Vector<float> depthAbove, in Choice otherwise, out Choice choice)
     {
         // Locals, not the result itself: these stay in registers.
-        var best = deepest;
-        best.Score = Vector<float>.Zero;
-        var fromX = deepest.X;
-        var fromY = deepest.Y;
+        var best = otherwise;
+        var fromX = from.X;
+        var fromY = from.Y;
+        var otherwiseX = otherwise.X - fromX;
+        var otherwiseY = otherwise.Y - fromY;
+        best.Score = otherwiseX * otherwiseX + otherwiseY * otherwiseY;
         var end = overlap.Candidates + overlap.CandidateCount;
         for (var candidate = overlap.Candidates; candidate != end; ++candidate)
         {
             var x = candidate->X - fromX;
             var y = candidate->Y - fromY;
-            best.Offer(Wide.Mask(Exists(*candidate), x * x + y * y), *candidate);
+            best.Offer(Wide.Mask(Vector.GreaterThan(candidate->Depth, depthAbove), x * x + y * y), *candidate);
         }
         choice = best;
     }

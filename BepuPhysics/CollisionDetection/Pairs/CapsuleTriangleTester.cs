@@ -31,16 +31,22 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
     // Cosine between the normals of contact and face below which the triangle is met edge on.
     const float EdgeOnCosine = 0.1f;
     // Part of the size of the pair that a segment may be beside the face and still be over it: along the face's border, contacts must not
-    // depend on rounding.
-    const float BorderTolerance = 1e-5f;
+    // depend on rounding. At the sharpest corner of a triangle that is a hundred times as long as thick, a contact may be a hundred times that
+    // beyond it.
+    const float BorderTolerance = 3e-6f;
     // Contacts nearer to each other than this part of the capsule's size are one.
     const float MinimumContactDistance = 0.02f;
 
+    // Part by which two squared distances may differ and be the same to rounding.
+    const float SameDistance = 4e-6f;
+
     struct Search
     {
-        /// <summary>From the triangle to the segment where they are nearest, and the place there on the segment.</summary>
+        /// <summary>
+        /// From the triangle to the segment where they are nearest, the place there on the segment, and how far apart they are along it.
+        /// </summary>
         public Vector3Wide Offset;
-        public Vector<float> SquaredDistance, Nearest;
+        public Vector<float> SquaredDistance, Nearest, Shown;
         /// <summary>The axis of least depth across the segment and an edge, and where the two pass each other.</summary>
         public Vector3Wide AxisNormal;
         public Vector<float> AxisDepth, AxisPlace;
@@ -66,27 +72,31 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
 
         Search search;
         search.SquaredDistance = search.AxisDepth = new Vector<float>(float.MaxValue);
-        search.Nearest = search.AxisPlace = zero;
+        search.Nearest = search.AxisPlace = search.Shown = zero;
         search.Offset = search.AxisNormal = Vector3Wide.Zero;
         VisitEdge(ab, b.C, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
         VisitEdge(bc, b.A, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
         VisitEdge(ca, b.B, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
 
         // The ends over the face, and the segment through it.
-        var toEnd = direction * a.HalfLength;
-        var lowHeight = VisitEnd(ab, bc, ca, front, center - toEnd, -a.HalfLength, ref search);
-        var highHeight = VisitEnd(ab, bc, ca, front, center + toEnd, a.HalfLength, ref search);
-        var crosses = Vector.LessThan(lowHeight * highHeight, zero);
+        var firstEnd = center - direction * a.HalfLength;
+        var secondEnd = center + direction * a.HalfLength;
+        var firstHeight = Vector3Wide.Dot(front, firstEnd - b.A);
+        var secondHeight = Vector3Wide.Dot(front, secondEnd - b.A);
+        var product = firstHeight * secondHeight;
+        Keep(front * firstHeight, -a.HalfLength, Wide.Min(firstHeight * firstHeight, product), IsOver(ab, bc, ca, firstEnd), ref search);
+        Keep(front * secondHeight, a.HalfLength, Wide.Min(secondHeight * secondHeight, product), IsOver(ab, bc, ca, secondEnd), ref search);
+        var crosses = Vector.LessThan(product, zero);
         // Opposite signs: the divisor is not zero.
-        var crossing = a.HalfLength * (lowHeight + highHeight) / (lowHeight - highHeight);
+        var crossing = a.HalfLength * (firstHeight + secondHeight) / (firstHeight - secondHeight);
         crosses &= IsOver(ab, bc, ca, center + direction * crossing);
         var nearest = Wide.Select(crosses, crossing, search.Nearest);
         var offset = Vector3Wide.Select(crosses, Vector3Wide.Zero, search.Offset);
         var distance = offset.Length();
 
         // The face's two normals; a one-sided triangle has the front's only.
-        var frontDepth = Wide.Max(-lowHeight, -highHeight);
-        var backDepth = Wide.Max(lowHeight, highHeight);
+        var frontDepth = Wide.Max(-firstHeight, -secondHeight);
+        var backDepth = Wide.Max(firstHeight, secondHeight);
         var useBack = Vector.LessThan(backDepth, frontDepth) & b.TwoSidedMask;
         var faceDepth = Wide.Select(useBack, backDepth, frontDepth);
         var faceNormal = Vector3Wide.Select(useBack, -front, front);
@@ -114,13 +124,13 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         ClipToEdge(ca, onFace, alongFace, border, ref start, ref end);
         var isOver = Vector.LessThanOrEqual(start, end) & Vector.GreaterThan(Vector.Abs(facing), new Vector<float>(EdgeOnCosine));
 
-        // The place of the pair's own depth. On a face it is the lowest part that is over it: as deep as the end of the segment, or else
-        // it is that end, where a one-sided triangle has refused a shorter way.
-        var falls = Vector.LessThan(slope, zero);
-        var lowestEnd = Wide.Select(falls, a.HalfLength, -a.HalfLength);
-        var lowest = Wide.Select(falls, end, start);
-        var isAsLow = isOver & Vector.LessThanOrEqual(slope * (lowest - lowestEnd), border);
-        var deepest = Wide.Select(usePoint, nearest, Wide.Select(useEdge, search.AxisPlace, Wide.Select(isAsLow, lowest, lowestEnd)));
+        // The place of the pair's own depth: the lower end of the segment on a face. Where it is beside the face, the nearest place over it is
+        // as deep, to rounding, unless a one-sided triangle has refused a shorter way.
+        var lowestEnd = Wide.Select(Vector.LessThan(slope, zero), a.HalfLength, -a.HalfLength);
+        var deepest = Wide.Select(usePoint, nearest, Wide.Select(useEdge, search.AxisPlace, lowestEnd));
+        var deepestOver = Wide.Clamp(deepest, start, end);
+        var isAsDeep = isOver & Vector.LessThanOrEqual(Vector.Abs(slope * (deepestOver - deepest)), border);
+        deepest = Wide.Select(isAsDeep, deepestOver, deepest);
         start = Wide.Select(isOver, Wide.Min(start, deepest), deepest);
         end = Wide.Select(isOver, Wide.Max(end, deepest), deepest);
         slope = Wide.Mask(isOver, slope);
@@ -148,6 +158,8 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
     {
         var zero = Vector<float>.Zero;
         var toStart = edge.Start - center;
+        var toEnd = toStart + edge.Direction * edge.Length;
+        var toOpposite = opposite - center;
         var cosine = Vector3Wide.Dot(direction, edge.Direction);
         // The part of the edge across the segment first, so that the cross product stays across the segment at small angles: an error in
         // the other direction only turns the axis around the segment.
@@ -172,11 +184,14 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         var innerEdge = Vector.GreaterThan(onEdge, zero) & Vector.LessThan(onEdge, edge.Length);
         offset -= direction * Wide.Mask(innerSegment, Vector3Wide.Dot(offset, direction));
         offset -= edge.Direction * Wide.Mask(innerEdge, Vector3Wide.Dot(offset, edge.Direction));
-        Keep(offset, place, Vector<int>.AllBitsSet, ref search);
+        // Along the offset, the edge's start, its end, and the opposite corner; the segment is nearer by what its ends fall.
+        var corners = Wide.Max(Wide.Max(Vector3Wide.Dot(offset, toStart), Vector3Wide.Dot(offset, toEnd)), Vector3Wide.Dot(offset, toOpposite));
+        var shown = -corners - halfLength * Vector.Abs(Vector3Wide.Dot(offset, direction));
+        Keep(offset, place, shown, Vector<int>.AllBitsSet, ref search);
 
         // Outwards is away from the opposite corner.
         var axis = cross * Vector.SquareRoot(inverseSquared);
-        var isInward = Vector.GreaterThan(Vector3Wide.Dot(axis, opposite - edge.Start), zero);
+        var isInward = Vector.GreaterThan(Vector3Wide.Dot(axis, toOpposite - toStart), zero);
         axis = Vector3Wide.Select(isInward, -axis, axis);
         var depth = Vector3Wide.Dot(axis, toStart);
         var isAllowed = twoSided | Vector.GreaterThanOrEqual(Vector3Wide.Dot(axis, front), new Vector<float>(-BehindTolerance));
@@ -186,30 +201,25 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         search.AxisPlace = Wide.Select(better, passing, search.AxisPlace);
     }
 
-    /// <summary>Tries the face as the nearest to an end of the segment.</summary>
-    /// <returns>Height of the end over the plane, on the front.</returns>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> VisitEnd(in TriangleEdgeWide ab, in TriangleEdgeWide bc, in TriangleEdgeWide ca, in Vector3Wide front,
-        in Vector3Wide point, Vector<float> place, ref Search search)
-    {
-        var height = Vector3Wide.Dot(front, point - ab.Start);
-        Keep(front * height, place, IsOver(ab, bc, ca, point), ref search);
-        return height;
-    }
-
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> IsOver(in TriangleEdgeWide ab, in TriangleEdgeWide bc, in TriangleEdgeWide ca, in Vector3Wide point) =>
         Vector.LessThanOrEqual(ab.GetBeyond(point), Vector<float>.Zero) & Vector.LessThanOrEqual(bc.GetBeyond(point), Vector<float>.Zero) &
         Vector.LessThanOrEqual(ca.GetBeyond(point), Vector<float>.Zero);
 
+    /// <summary>Keeps the shorter offset; of two that are equally long to rounding, that along which the shapes are farther apart.</summary>
+    // Around the nearest points the distance hardly changes, so it tells them to the square root of its rounding only. How far the shapes are
+    // apart along the offset, scaled by its length here, is never more than the distance, and falls short of it as the direction goes wrong.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Keep(in Vector3Wide offset, Vector<float> place, Vector<int> mask, ref Search search)
+    static void Keep(in Vector3Wide offset, Vector<float> place, Vector<float> shown, Vector<int> mask, ref Search search)
     {
         var squared = offset.LengthSquared();
-        var nearer = Vector.LessThan(squared, search.SquaredDistance) & mask;
-        search.Offset = Vector3Wide.Select(nearer, offset, search.Offset);
-        search.SquaredDistance = Wide.Select(nearer, squared, search.SquaredDistance);
-        search.Nearest = Wide.Select(nearer, place, search.Nearest);
+        var shorter = Vector.LessThan(squared, search.SquaredDistance * new Vector<float>(1 - SameDistance));
+        var asShort = Vector.LessThan(squared, search.SquaredDistance * new Vector<float>(1 + SameDistance));
+        var better = (shorter | (asShort & Vector.GreaterThan(shown, search.Shown))) & mask;
+        search.Offset = Vector3Wide.Select(better, offset, search.Offset);
+        search.SquaredDistance = Wide.Select(better, squared, search.SquaredDistance);
+        search.Nearest = Wide.Select(better, place, search.Nearest);
+        search.Shown = Wide.Select(better, shown, search.Shown);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -10,8 +10,6 @@ namespace DemoTests.Runner;
 public class SceneSupportTests
 {
     [Theory]
-    [InlineData("cylinder 0.5 0.5", "cylinder")]
-    [InlineData("hull 4 0 0 0 1 0 0 0 1 0 0 0 1", "hull")]
     [InlineData("mesh 3 1 0 0 0 1 0 0 0 0 1 0 1 2", "mesh")]
     public void A_shape_that_does_not_exist_is_named(string shape, string word)
     {
@@ -19,6 +17,37 @@ public class SceneSupportTests
 
         Assert.Equal($"line 4: '{word}' is not supported yet", error.Message);
         Assert.Equal(word, error.Token);
+    }
+
+    /// <summary>A body falls on a static of the same shape, and on a box.</summary>
+    [Theory]
+    [InlineData("box 0.5 0.5 0.5")]
+    [InlineData("sphere 0.5")]
+    [InlineData("capsule 0.5 0.25")]
+    [InlineData("cylinder 0.5 0.5")]
+    [InlineData("hull 4 0 0 0 1 0 0 0 1 0 0 0 1")]
+    [InlineData("hull 9 -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 0")]
+    public void A_shape_that_exists_loads_and_runs(string shape)
+    {
+        string text = $"scene 1 name n steps 60 friction 0.5 damping 0 sleep 0\nshapes 2\nbox 9 1 9\n{shape}\nbodies 3\n"
+            + "0 1 0 0 0 0 0 0 0 1 0 0 -1 0 0 0 0 1 0 0 0 0 0 0 0\n"
+            + "0 1 1 0 0 0 0 0 0 1 0 3 0.5 0 0 0 0 1 0 0 0 0 0 0 0\n"
+            + "2 1 1 0 0 0 0 0 0 1 2 3.1 2 0.1 0 0 0 1 0 0 0 0 0 0 0\njoints 0\n";
+        using var run = new SceneRun(SceneFile.Parse(Encoding.UTF8.GetBytes(text)), new RunSettings { Warmup = 0 });
+        RunResult result = run.Run();
+
+        Assert.Equal((60, 1, 2, 0, 0), (result.Steps, result.Bodies, result.Statics, result.Lost, result.NotFinite));
+        Assert.True(result.Contacts > 0, "It fell through both.");
+    }
+
+    [Theory]
+    [InlineData("hull 4 0 0 0 1 0 0 0 1 0 1 1 0")]
+    [InlineData("hull 5 0 0 0 1 1 1 2 2 2 3 3 3 4 4 4")]
+    public void A_hull_without_volume_is_refused_with_its_line(string shape)
+    {
+        var error = Assert.Throws<SceneException>(() => Build(shape, "2 1 1 0 0 0 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal((4, "hull"), (error.Line, error.Token));
     }
 
     [Theory]

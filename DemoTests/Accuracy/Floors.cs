@@ -1,0 +1,72 @@
+using System;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+
+namespace DemoTests.Accuracy;
+
+/// <summary>Static floors of every kind, their surfaces through the origin of a pose, its Y axis their normal.</summary>
+static class Floors
+{
+    public const string Box = "box";
+    public const string Hull = "hull";
+    public const string Triangle = "triangle";
+    public const string TwoSided = "two-sided triangle";
+    public const string Back = "back of a two-sided triangle";
+    public const string Pair = "two triangles";
+
+    public static readonly string[] Flat = [Box, Hull, Triangle, TwoSided, Back, Pair];
+
+    /// <summary>Adds a floor of at least this size.</summary>
+    /// <param name="solids">Owner of the floor's hull, if it has one.</param>
+    /// <param name="kind">One of <see cref="Flat"/>.</param>
+    /// <param name="surface">Pose of the surface.</param>
+    /// <param name="from">Least X that the floor reaches.</param>
+    /// <param name="to">Greatest X that the floor reaches.</param>
+    /// <param name="halfWidth">Greatest Z that the floor reaches.</param>
+    public static void Add(Solids solids, string kind, RigidPose surface, float from, float to, float halfWidth)
+    {
+        var world = solids.World;
+        // A triangle narrows towards its tip; where the floor ends it is still as wide as the others.
+        float tip = 2 * to - from;
+        var near = new Vector3(from, 0, -2 * halfWidth);
+        var far = new Vector3(from, 0, 2 * halfWidth);
+        var end = new Vector3(tip, 0, 0);
+        switch (kind)
+        {
+            case Box:
+                var center = new Vector3((from + to) / 2, -1, 0);
+                world.AddStatic(new Box(to - from, 2, 2 * halfWidth), surface with { Position = Place(surface, center) });
+                break;
+            case Hull:
+                Vector3[] corners =
+                [
+                    new(from, 0, -halfWidth), new(from, 0, halfWidth), new(to, 0, -halfWidth), new(to, 0, halfWidth),
+                    new(from, -2, -halfWidth), new(from, -2, halfWidth), new(to, -2, -halfWidth), new(to, -2, halfWidth),
+                ];
+                var hull = solids.Keep(corners, out var middle);
+                world.AddStatic(hull, surface with { Position = Place(surface, middle) });
+                break;
+            case Triangle:
+                world.AddStatic(new Triangle(near, end, far), surface);
+                break;
+            case TwoSided:
+                world.AddStatic(new Triangle(near, end, far) { TwoSided = true }, surface);
+                break;
+            case Back:
+                world.AddStatic(new Triangle(near, far, end) { TwoSided = true }, surface);
+                break;
+            case Pair:
+                // The edge between them runs straight under what lies at the origin, and not along an axis.
+                var first = new Vector3(from, 0, -halfWidth);
+                var second = new Vector3(to, 0, halfWidth);
+                world.AddStatic(new Triangle(first, second, new(from, 0, halfWidth)), surface);
+                world.AddStatic(new Triangle(first, new(to, 0, -halfWidth), second), surface);
+                break;
+            default:
+                throw new ArgumentOutOfRangeException(nameof(kind), kind, null);
+        }
+    }
+
+    static Vector3 Place(RigidPose pose, Vector3 local) => pose.Position + Vector3.Transform(local, pose.Orientation);
+}
