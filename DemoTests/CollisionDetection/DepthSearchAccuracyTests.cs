@@ -88,10 +88,12 @@ public class DepthSearchAccuracyTests(ITestOutputHelper output)
         excesses.Sort();
         if (excesses.Count == 0)
             return;
-        output.WriteLine($"{name,-32} n {excesses.Count,5}  excess p50 {excesses[excesses.Count / 2]:E1} p99 {excesses[(int)(excesses.Count * 0.99)]:E1} " +
-            $"max {excesses[^1]:E1}  evaluations mean {outcomes.Average(o => o.Evaluations):F1} max {outcomes.Max(o => o.Evaluations)} " +
+        output.WriteLine($"{name,-32} n {excesses.Count,5}  excess p50 {excesses[excesses.Count / 2]:E1} " +
+            $"p99 {excesses[(int)(excesses.Count * 0.99)]:E1} max {excesses[^1]:E1}  " +
+            $"evaluations mean {outcomes.Average(o => o.Evaluations):F1} max {outcomes.Max(o => o.Evaluations)} " +
             $"caps {outcomes.Sum(o => o.Caps)}  tetrahedra {outcomes.Sum(o => o.Freed)} of {outcomes.Sum(o => o.Tried)}  " +
-            $"expansions {outcomes.Sum(o => o.Expansions)} of {outcomes.Sum(o => o.ExpansionEvaluations)} evaluations, limits {outcomes.Sum(o => o.Limits)}");
+            $"expansions {outcomes.Sum(o => o.Expansions)} of {outcomes.Sum(o => o.ExpansionEvaluations)} evaluations, " +
+            $"limits {outcomes.Sum(o => o.Limits)}");
     }
 
     // The walk stops at a distance from its target. Where the cores are apart, a target is that close at an angle, too.
@@ -100,10 +102,16 @@ public class DepthSearchAccuracyTests(ITestOutputHelper output)
         // One walk in a hundred of deep cylinders ends at its limit: a little farther away.
         var tolerance = (outcome.Caps > 0 ? Excess : StopTolerance) * reference.Size + rounding;
         Double3 onA = outcome.PointOnA;
-        Assert.True(Math.Abs(reference.A.SignedDistance(onA)) < tolerance, $"{label}: {onA} is not on A, {reference.A.SignedDistance(onA)}, tolerance {tolerance}");
+        CheckOn(reference.A, onA, tolerance, label);
         var onB = reference.Rotation.RotateBack(onA + normal * outcome.Depth - offset);
         var apart = Math.Max(0, reference.A.Rounding + reference.B.Rounding - outcome.Depth);
         tolerance += Math.Sqrt(2 * tolerance * apart);
-        Assert.True(Math.Abs(reference.B.SignedDistance(onB)) < tolerance, $"{label}: {onB} is not on B, {reference.B.SignedDistance(onB)}, tolerance {tolerance}");
+        CheckOn(reference.B, onB, tolerance, label);
+    }
+
+    static void CheckOn(ConvexShape shape, Double3 point, double tolerance, string label)
+    {
+        var distance = shape.SignedDistance(point);
+        Assert.True(Math.Abs(distance) < tolerance, $"{label}: {point} is {distance} off the {shape.Kind}, allowed {tolerance}");
     }
 }

@@ -25,7 +25,7 @@ public class DepthSearchTests(ITestOutputHelper output)
     [InlineData(ConvexKind.Box, ConvexKind.Hull, ConvexForm.Fat, 1.1)]
     [InlineData(ConvexKind.Hull, ConvexKind.Hull, ConvexForm.Fat, 1.1)]
     [InlineData(ConvexKind.Box, ConvexKind.Box, ConvexForm.Flat, 1.1)]
-    [InlineData(ConvexKind.Hull, ConvexKind.Hull, ConvexForm.Long, 1.2)]
+    [InlineData(ConvexKind.Hull, ConvexKind.Hull, ConvexForm.Slender, 1.2)]
     [InlineData(ConvexKind.Cylinder, ConvexKind.Box, ConvexForm.Fat, 1.6)]
     [InlineData(ConvexKind.Cylinder, ConvexKind.Cylinder, ConvexForm.Fat, 1.6)]
     [InlineData(ConvexKind.Triangle, ConvexKind.Hull, ConvexForm.Fat, 1.1)]
@@ -59,7 +59,7 @@ public class DepthSearchTests(ITestOutputHelper output)
         Assert.InRange(counts.Average(), 1, evaluations);
         Assert.InRange(tally.FlipCount, 0, tally.ReferenceFlipCount + 1);
         Assert.Equal(0, tally.MissedCount);
-        Assert.InRange(tally.SuboptimalCount, 0, tally.FrameCount / (form == ConvexForm.Long ? 20 : 100));
+        Assert.InRange(tally.SuboptimalCount, 0, tally.FrameCount / (form == ConvexForm.Slender ? 20 : 100));
     }
 
     [Fact]

@@ -98,7 +98,8 @@ struct SearchSimplex
     }
 
     /// <summary>Weights of the vertices in the point of the simplex that is closest to the target.</summary>
-    // The simplex is what is closest, as a whole: the point is inside of it, to rounding.
+    // The simplex is what is closest, as a whole: the point is inside of it, to rounding. First across the longer edge, then along it, so that
+    // in a triangle as thin as a needle what rounding does to the one weight is made good by the other.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector3Wide GetWeights(in Vector3Wide target)
     {
@@ -107,24 +108,22 @@ struct SearchSimplex
         var q = target - A.Point;
         var b = B.Point - A.Point;
         var c = C.Point - A.Point;
-        var normal = Vector3Wide.Cross(b, c);
-        var determinant = normal.LengthSquared();
         var squaredB = b.LengthSquared();
         var squaredC = c.LengthSquared();
-        var inverse = one / determinant;
-        var weightB = Wide.Clamp(Vector3Wide.Dot(Vector3Wide.Cross(q, c), normal) * inverse, zero, one);
-        var weightC = Wide.Clamp(Vector3Wide.Dot(Vector3Wide.Cross(b, q), normal) * inverse, zero, one - weightB);
-        var isTriangle = Vector.GreaterThan(determinant, squaredB * squaredC * new Vector<float>(LeastSquaredSine));
-
-        // A segment: two of its three vertices are one, and either of B and C is as good as the other where they are it.
-        var useB = Vector.GreaterThanOrEqual(squaredB, squaredC);
-        var edge = Vector3Wide.Select(useB, b, c);
-        var squaredEdge = Wide.Select(useB, squaredB, squaredC);
-        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
-        var along = Wide.Clamp(Wide.Mask(hasEdge, Vector3Wide.Dot(q, edge) / squaredEdge), zero, one);
-        weightB = Wide.Select(isTriangle, weightB, Wide.Mask(useB, along));
-        weightC = Wide.Select(isTriangle, weightC, Wide.Mask(Vector.OnesComplement(useB), along));
-        return new(one - weightB - weightC, weightB, weightC);
+        var longIsB = Vector.GreaterThanOrEqual(squaredB, squaredC);
+        var longEdge = Vector3Wide.Select(longIsB, b, c);
+        var shortEdge = Vector3Wide.Select(longIsB, c, b);
+        var squaredLong = Wide.Select(longIsB, squaredB, squaredC);
+        var squaredShort = Wide.Select(longIsB, squaredC, squaredB);
+        var hasEdge = Vector.GreaterThan(squaredLong, new Vector<float>(LeastSquaredEdge));
+        var inverse = Wide.Mask(hasEdge, one / squaredLong);
+        var across = shortEdge - longEdge * (Vector3Wide.Dot(shortEdge, longEdge) * inverse);
+        across -= longEdge * (Vector3Wide.Dot(across, longEdge) * inverse);
+        var squaredAcross = across.LengthSquared();
+        var isTriangle = Vector.GreaterThan(squaredAcross, squaredShort * new Vector<float>(LeastSquaredSine));
+        var shortWeight = Wide.Clamp(Wide.Mask(isTriangle, Vector3Wide.Dot(q, across) / squaredAcross), zero, one);
+        var longWeight = Wide.Clamp(Vector3Wide.Dot(q - shortEdge * shortWeight, longEdge) * inverse, zero, one - shortWeight);
+        return new(one - longWeight - shortWeight, Wide.Select(longIsB, longWeight, shortWeight), Wide.Select(longIsB, shortWeight, longWeight));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
