@@ -10,6 +10,10 @@ namespace BepuPhysics.Collidables;
 /// <remarks>
 /// All of it is one block of a pool's memory, which copies of the struct share and <see cref="Dispose"/> returns.
 /// Shapes that no body or static uses any more are disposed by their owner or by <see cref="Shapes.RemoveAndDispose"/>.
+/// To be added as a shape, the distance from the centre of mass to the nearest face must be from 1e-6 to 1e7 m, as must half the extent.
+/// The axes of the frame are those of the points and no principal axes: the inverse inertia has products. As floats these keep what is
+/// left of the least inverse moment up to about a thousand times as long as thick; a hull thinner than that should have its length along an
+/// axis.
 /// </remarks>
 public unsafe struct ConvexHull : IConvexShape, IDisposableShape
 {
@@ -26,7 +30,9 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
     /// <param name="points">Points in any order and number, inside the hull or not, as often as they like.</param>
     /// <param name="pool">Source of the hull's memory and of temporary memory.</param>
     /// <param name="center">Centre of mass of the hull in the coordinates of the points; the hull's own coordinates begin there.</param>
-    /// <exception cref="ArgumentException">A point is not finite, or the points span no volume; the message says which.</exception>
+    /// <exception cref="ArgumentException">
+    /// A point is not finite, or the points span no volume; the message says which. <see cref="ConvexHullHelper"/> says what is no volume.
+    /// </exception>
     public ConvexHull(Span<Vector3> points, BufferPool pool, out Vector3 center)
     {
         if (!ConvexHullHelper.TryCreateShape(points, pool, out center, out this, out var failure))
@@ -176,8 +182,9 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
     /// <inheritdoc/>
     public readonly void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion)
     {
-        maximumRadius = Header->OuterRadius;
-        maximumAngularExpansion = Header->OuterRadius - Header->InnerRadius;
+        var header = Header;
+        maximumRadius = header == null ? 0 : header->OuterRadius;
+        maximumAngularExpansion = header == null ? 0 : header->OuterRadius - header->InnerRadius;
     }
 
     /// <inheritdoc/>

@@ -13,7 +13,7 @@ namespace BepuPhysics.Collidables;
 /// Points that are thinner in some direction than 1e-5 of their extent, or than four gaps between floats of their coordinates, span no
 /// volume.
 /// Time grows with n log n for points that a hull has few of or that are spread over it. Memory, all of it from the pool and returned at
-/// the end, is about 44 bytes per point and 1 kilobyte per vertex.
+/// the end, is up to 100 bytes per point and 1.5 kilobytes per vertex.
 /// The same points give the same hull on every machine and for every width of vectors; in another order they may give another hull within
 /// the same tolerance.
 /// </remarks>

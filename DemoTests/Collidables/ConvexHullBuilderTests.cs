@@ -74,4 +74,30 @@ public class ConvexHullBuilderTests(ITestOutputHelper output)
         hull.Dispose(pool);
         pool.AssertEmpty();
     }
+
+    /// <summary>Time is for the reader: what else the machine does is part of it.</summary>
+    [Fact]
+    public void TimeGrowsWithTheNumberOfPoints()
+    {
+        var random = new Random(7);
+        foreach (var count in (int[])[1000, 1000, 10_000, 100_000])
+        {
+            Measure("sphere", HullInputs.Sphere(count));
+            Measure("cube full", [.. Enumerable.Range(0, count).Select(_ => HullInputs.InCube(random))]);
+            Measure("cube surface", HullInputs.NoisyCube(count, 0, random));
+            Measure("disc", HullInputs.Prism(count / 2, 0.001f));
+            Measure("flat circle with an apex", [.. HullInputs.Prism(count / 2, 1).Select(p => p.Y > 0 ? p with { Y = -0.5f } : Vector3.UnitY)]);
+        }
+    }
+
+    void Measure(string name, Vector3[] points)
+    {
+        using var pool = new BufferPool();
+        var watch = Stopwatch.StartNew();
+        Assert.True(ConvexHullHelper.CreateShape(points, pool, out _, out var hull));
+        output.WriteLine($"{name}, {points.Length} points: {watch.Elapsed.TotalMilliseconds:f1} ms, {hull.VertexCount} V, {hull.FaceCount} F, " +
+            $"{pool.GetTotalAllocatedByteCount() / 1e6:f1} MB");
+        hull.Dispose(pool);
+        pool.AssertEmpty();
+    }
 }

@@ -213,6 +213,7 @@ public sealed class ConvexHullCreationTests(ITestOutputHelper output) : IDisposa
     [InlineData(2, 2, 2)]
     [InlineData(0.001f, 0.001f, 0.001f)]
     [InlineData(1, 10, 0.1f)]
+    [InlineData(1, 1000, 1)]
     [InlineData(-1, 1, 1)]
     [InlineData(-1, -3, -1)]
     public void CopiesAreTransformed(float x, float y, float z)
@@ -242,8 +243,8 @@ public sealed class ConvexHullCreationTests(ITestOutputHelper output) : IDisposa
     public void CopiesThroughMatricesWithoutAnInverseAreRefused()
     {
         var hull = new ConvexHull(HullInputs.Box(1, 1, 1), pool, out _);
-        foreach (var scale in (ReadOnlySpan<float>)[0, float.NaN, float.PositiveInfinity])
-            Assert.Throws<ArgumentException>(() => ConvexHullHelper.CreateTransformedCopy(hull, Matrix3x3.CreateScale(new(1, scale, 1)), pool, out _));
+        foreach (var scale in (ReadOnlySpan<float>)[0, float.NaN, float.PositiveInfinity, 3e38f])
+            Assert.Throws<ArgumentException>(() => ConvexHullHelper.CreateTransformedCopy(hull, Matrix3x3.CreateScale(new(scale, scale, 2)), pool, out _));
         hull.Dispose(pool);
         Assert.Throws<ArgumentException>(() => ConvexHullHelper.CreateTransformedCopy(hull, Matrix3x3.Identity, pool, out _));
     }

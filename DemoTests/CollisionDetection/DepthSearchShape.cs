@@ -41,7 +41,16 @@ struct LaneCounts : ISearchStatistics
 }
 
 /// <summary>Where B is in A's frame.</summary>
-readonly record struct SearchPlace(Vector3 Offset, Quaternion Orientation);
+readonly record struct SearchPlace(Vector3 Offset, Quaternion Orientation)
+{
+    public static SearchPlace Of(ConvexCase found)
+    {
+        var toA = (DoubleQuaternion)Quaternion.Conjugate(found.Pose.OrientationA);
+        var orientation = DoubleQuaternion.Normalize(toA * found.Pose.OrientationB);
+        return new(ConvexGenerator.ToVector(found.LocalOffsetB),
+            new((float)orientation.X, (float)orientation.Y, (float)orientation.Z, (float)orientation.W));
+    }
+}
 
 /// <summary>What a search returned for one pair, and what it took.</summary>
 readonly record struct SearchOutcome(Vector3 Normal, float Depth, Vector3 PointOnA, bool Near, int Evaluations, int Caps, int Tried, int Freed,
@@ -53,38 +62,35 @@ abstract class DepthSearchShape(ConvexShape reference)
     public ConvexShape Reference { get; } = reference;
 
     /// <summary>Finds the depth of pairs of this as A, in bundles in the order given; shapes of one type on each side.</summary>
-    /// <param name="count">Number of pairs.</param>
     /// <param name="a">Shape of A of each pair.</param>
     /// <param name="b">Shape of B of each pair.</param>
     /// <param name="places">Where B is.</param>
-    /// <param name="margin">Speculative margin.</param>
+    /// <param name="margins">Speculative margin of each pair.</param>
     /// <param name="states">States of the pairs, kept.</param>
     /// <param name="slots">Place of each pair among lanes of bundles; others hold garbage. Null: in order.</param>
     public static SearchOutcome[] Find(IReadOnlyList<DepthSearchShape> a, IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places,
-        float margin, DepthSearchState[]? states = null, int[]? slots = null) =>
-        a[0].FindA(b[0], a, b, places, margin, states ?? new DepthSearchState[a.Count], slots ?? [.. Enumerable.Range(0, a.Count)]);
+        float[] margins, DepthSearchState[]? states = null, int[]? slots = null) =>
+        a[0].FindA(b[0], a, b, places, margins, states ?? new DepthSearchState[a.Count], slots ?? [.. Enumerable.Range(0, a.Count)]);
 
     protected abstract SearchOutcome[] FindA(DepthSearchShape firstB, IReadOnlyList<DepthSearchShape> a, IReadOnlyList<DepthSearchShape> b,
-        IReadOnlyList<SearchPlace> places, float margin, DepthSearchState[] states, int[] slots);
+        IReadOnlyList<SearchPlace> places, float[] margins, DepthSearchState[] states, int[] slots);
 
     protected abstract SearchOutcome[] FindB<TShapeA, TShapeWideA, TSupportA>(IReadOnlyList<DepthSearchShape> a,
-        IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float margin, DepthSearchState[] states, int[] slots)
+        IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float[] margins, DepthSearchState[] states, int[] slots)
         where TShapeA : unmanaged where TShapeWideA : unmanaged, IWide<TShapeA> where TSupportA : struct, ISupport<TShapeWideA>;
 
-    public sealed class Typed<TShape, TShapeWide, TSupport>(TShape shape, ConvexShape reference, object? memory = null)
+    public sealed class Typed<TShape, TShapeWide, TSupport>(TShape shape, ConvexShape reference)
         : DepthSearchShape(reference)
         where TShape : unmanaged where TShapeWide : unmanaged, IWide<TShape> where TSupport : struct, ISupport<TShapeWide>
     {
         public TShape Shape { get; } = shape;
 
-        public object? Memory { get; } = memory;
-
         protected override SearchOutcome[] FindA(DepthSearchShape firstB, IReadOnlyList<DepthSearchShape> a, IReadOnlyList<DepthSearchShape> b,
-            IReadOnlyList<SearchPlace> places, float margin, DepthSearchState[] states, int[] slots) =>
-            firstB.FindB<TShape, TShapeWide, TSupport>(a, b, places, margin, states, slots);
+            IReadOnlyList<SearchPlace> places, float[] margins, DepthSearchState[] states, int[] slots) =>
+            firstB.FindB<TShape, TShapeWide, TSupport>(a, b, places, margins, states, slots);
 
         protected override SearchOutcome[] FindB<TShapeA, TShapeWideA, TSupportA>(IReadOnlyList<DepthSearchShape> a,
-            IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float margin, DepthSearchState[] states, int[] slots)
+            IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float[] margins, DepthSearchState[] states, int[] slots)
         {
             var outcomes = new SearchOutcome[a.Count];
             var bySlot = new int[(slots.Max() / Vector<float>.Count + 1) * Vector<float>.Count];
@@ -92,14 +98,12 @@ abstract class DepthSearchShape(ConvexShape reference)
             for (int i = 0; i < slots.Length; ++i)
                 bySlot[slots[i]] = i;
             for (int start = 0; start < bySlot.Length; start += Vector<float>.Count)
-                FindBundle<TShapeA, TShapeWideA, TSupportA>(bySlot.AsSpan(start, Vector<float>.Count), a, b, places, margin, states, outcomes);
-            GC.KeepAlive(a);
-            GC.KeepAlive(b);
+                FindBundle<TShapeA, TShapeWideA, TSupportA>(bySlot.AsSpan(start, Vector<float>.Count), a, b, places, margins, states, outcomes);
             return outcomes;
         }
 
         static void FindBundle<TShapeA, TShapeWideA, TSupportA>(ReadOnlySpan<int> pairs, IReadOnlyList<DepthSearchShape> a,
-            IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float margin, DepthSearchState[] states,
+            IReadOnlyList<DepthSearchShape> b, IReadOnlyList<SearchPlace> places, float[] margins, DepthSearchState[] states,
             SearchOutcome[] outcomes)
             where TShapeA : unmanaged where TShapeWideA : unmanaged, IWide<TShapeA> where TSupportA : struct, ISupport<TShapeWideA>
         {
@@ -116,6 +120,7 @@ abstract class DepthSearchShape(ConvexShape reference)
             Pollute(ref state);
             Pollute(ref offset);
             Pollute(ref orientation);
+            var margin = Vector<float>.Zero;
             for (int lane = 0; lane < pairs.Length; ++lane)
             {
                 if (pairs[lane] < 0)
@@ -126,10 +131,11 @@ abstract class DepthSearchShape(ConvexShape reference)
                 Lanes.Write(places[pair].Offset, ref offset, lane);
                 Lanes.Write(places[pair].Orientation, ref orientation, lane);
                 Lanes.Write(states[pair], ref state, lane);
+                GatherScatter.Get(ref margin, lane) = margins[pair];
             }
             LaneCounts counts = default;
             DepthSearch<TShapeWideA, TSupportA, TShapeWide, TSupport>.Find(wideA, wideB, offset, Matrix3x3Wide.FromQuaternion(orientation),
-                new(margin), ref state, ref counts, out var result);
+                margin, ref state, ref counts, out var result);
             for (int lane = 0; lane < pairs.Length; ++lane)
             {
                 if (pairs[lane] < 0)

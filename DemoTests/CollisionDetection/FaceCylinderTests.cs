@@ -143,4 +143,21 @@ public class FaceCylinderTests
         Assert.True((deepest.Offset - new Double3(offset.X + rim.X, -0.495, 0)).Length < 1e-5);
         Assert.Equal(contacts.Contacts.Length, contacts.Contacts.Select(contact => contact.FeatureId).Distinct().Count());
     }
+
+    [Fact]
+    public void OneSidedTrianglesOverAnEndAreTouchedFromTheFrontOnly()
+    {
+        // The triangle is A, above; its front has to look down.
+        var down = new Triangle(new(-0.2f, 0, 0.2f), new(0.2f, 0, 0.2f), new(0, 0, -0.2f));
+        var pair = new FacePair<Triangle, Cylinder>(down, new Cylinder(0.5f, 2), new(0, -0.99f, 0), Quaternion.Identity, somewhere, Vector3.UnitY,
+            0.01f, default, 0.1f);
+        Assert.Equal(3, Run(pair).Contacts.Length);
+        var up = new Triangle(down.A, down.C, down.B);
+        Assert.Empty(Run(pair with { A = up }).Contacts);
+        up.TwoSided = true;
+        Assert.Equal(3, Run(pair with { A = up }).Contacts.Length);
+
+        static FaceContacts Run(FacePair<Triangle, Cylinder> pair) =>
+            FaceHarness<Triangle, TriangleWide, TriangleFeature, Cylinder, CylinderWide, CylinderFeature>.Run(pair);
+    }
 }

@@ -97,6 +97,16 @@ public sealed class FaceShapePairTests : IDisposable
     }
 
     [Fact]
+    public void TheWitnessStandsIn()
+    {
+        FaceShapePairs<Box, BoxWide, BoxFeature, Cylinder, CylinderWide, CylinderFeature>.AssertTheWitnessStandsIn(BoxAt, CylinderAt);
+        FaceShapePairs<Capsule, CapsuleWide, CapsuleFeature, ConvexHull, ConvexHullWide, ConvexHullFeature>.AssertTheWitnessStandsIn(
+            CapsuleAt, HullAt);
+        FaceShapePairs<ConvexHull, ConvexHullWide, ConvexHullFeature, ConvexHull, ConvexHullWide, ConvexHullFeature>.AssertTheWitnessStandsIn(
+            HullAt, i => HullAt(i * 7));
+    }
+
+    [Fact]
     public void ManifoldsFitTheInliner()
     {
         // As the constraints' test: at other widths the gathers are longer.

@@ -91,6 +91,38 @@ static class FaceShapePairs<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWide
         return results.Count(contacts => contacts.Contacts.Length >= 2);
     }
 
+    /// <summary>Where the features hold no point that is as deep as the pair, the pair's own witness is a contact.</summary>
+    public static void AssertTheWitnessStandsIn(Func<int, TShapeA> a, Func<int, TShapeB> b)
+    {
+        var random = new PairRandom(79);
+        List<FacePair<TShapeA, TShapeB>> pairs = [];
+        List<double> sizes = [];
+        while (pairs.Count < 300)
+        {
+            var pair = CreateAny(ref random, a(pairs.Count), b(pairs.Count));
+            if (!TryPlace(ref pair, out _, out var size))
+                continue;
+            // As if there were a corner beyond the features, somewhat below A's.
+            var more = (float)size * random.Next(1e-3, 0.1);
+            pairs.Add(pair with
+            {
+                Depth = pair.Depth + more,
+                PointOnA = pair.PointOnA - pair.Normal * (more * 0.5f) + Vector3.Cross(pair.Normal, random.NextDirection()) * (float)size,
+            });
+            sizes.Add(size);
+        }
+        var results = Run(pairs);
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            var witness = Assert.Single(results[i].Contacts, contact => (contact.FeatureId & 255) == 255);
+            Assert.Equal(pairs[i].Depth, witness.Depth);
+            var place = pairs[i].PointOnA + pairs[i].Normal * (pairs[i].Depth * 0.5f);
+            Assert.True((witness.Offset - new Double3(place)).Length < 2e-6 * (1 + sizes[i]));
+            Assert.Equal(witness.Depth, results[i].Deepest);
+            Assert.Equal(results[i].Contacts.Length, results[i].Contacts.Select(contact => contact.FeatureId).Distinct().Count());
+        }
+    }
+
     /// <summary>Puts B where the features overlap and are a little deep, and says what a search would have found.</summary>
     static bool TryPlace(ref FacePair<TShapeA, TShapeB> pair, out FaceReference reference, out double size)
     {

@@ -8,6 +8,8 @@ namespace BepuPhysics.Collidables;
 /// <summary>Copies hulls through a linear map, which keeps the centre of mass where it is.</summary>
 static unsafe class HullTransform
 {
+    const double SameNormal = 1e-6;
+
     public static void Copy(HullHeader* source, in Matrix3x3 transform, BufferPool pool, out ConvexHull target)
     {
         HullPoint x = Widen(transform.X), y = Widen(transform.Y), z = Widen(transform.Z);
@@ -16,7 +18,11 @@ static unsafe class HullTransform
         var determinant = HullPoint.Dot(x, normalX);
         var isRegular = double.IsFinite(determinant) && determinant != 0;
         if (!isRegular)
-            throw new ArgumentException($"A convex hull is transformed by a finite matrix of full rank, not by {transform.X}, {transform.Y}, {transform.Z}.", nameof(transform));
+        {
+            throw new ArgumentException(
+                $"A convex hull is transformed by a finite matrix of full rank, not by {transform.X}, {transform.Y}, {transform.Z}.",
+                nameof(transform));
+        }
 
         var header = HullBlock.Allocate(source->VertexCount, source->FaceCount, source->FaceVertexCount, pool, out target);
         for (int i = 0; i < source->VertexCount; ++i)
@@ -34,11 +40,34 @@ static unsafe class HullTransform
             // A mirror turns faces around; the vertex that they begin with stays.
             for (int i = start + 1; i < end; ++i)
                 header->FaceVertices[i] = source->FaceVertices[determinant > 0 ? i : start + end - i];
-            source->GetPlane(face, out var normal, out _);
+            var normal = FindNormal(source, face);
             var moved = (normalX * normal.X + normalY * normal.Y + normalZ * normal.Z) * Math.Sign(determinant);
             HullBlock.SetPlane(header, face, moved * (1 / HullPoint.Length(moved)));
         }
         HullBlock.Finish(header);
+        if (float.IsFinite(header->OuterRadius) && header->InnerRadius > 0)
+            return;
+        target.Dispose(pool);
+        throw new ArgumentException("The transformed hull leaves the range of a float.", nameof(transform));
+    }
+
+    // A map that stretches makes more of the rounding of a normal; the vertices tell it without that, but for those of slivers.
+    static HullPoint FindNormal(HullHeader* hull, int face)
+    {
+        hull->GetPlane(face, out var rounded, out _);
+        var known = Widen(rounded);
+        int start = hull->FaceStarts[face], end = hull->FaceStarts[face + 1];
+        var origin = Widen(hull->GetPoint(hull->FaceVertices[start].Number));
+        var previous = Widen(hull->GetPoint(hull->FaceVertices[start + 1].Number)) - origin;
+        var normal = default(HullPoint);
+        for (int i = start + 2; i < end; ++i)
+        {
+            var current = Widen(hull->GetPoint(hull->FaceVertices[i].Number)) - origin;
+            normal += HullPoint.Cross(previous, current);
+            previous = current;
+        }
+        var length = HullPoint.Length(normal);
+        return length > 0 && HullPoint.Length(normal * (1 / length) - known) < SameNormal ? normal * (1 / length) : known;
     }
 
     static HullPoint Widen(in Vector3 v) => new(v.X, v.Y, v.Z);

@@ -30,7 +30,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             ExpandLane(a, b, frame, lane, wanted[lane], ref walk, ref statistics, ref switchedMask, ref seededMask);
         }
         if (switchedMask != Vector<int>.Zero)
-            Walk(a, b, frame, switchedMask, seededMask, ref walk, ref statistics);
+            Walk(a, b, frame, switchedMask, ref seededMask, ref walk, ref statistics);
     }
 
     /// <summary>Expands a polytope for one lane, and puts the lane's walk where it has found something better than wanted.</summary>

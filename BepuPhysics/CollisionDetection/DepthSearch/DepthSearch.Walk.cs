@@ -19,18 +19,22 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     /// <param name="b">Second shapes.</param>
     /// <param name="frame">Where B is, scale and tolerances.</param>
     /// <param name="activeMask">Lanes to walk in; nothing changes in others.</param>
-    /// <param name="knownMask">Lanes that have a simplex. The others start with the first support point.</param>
+    /// <param name="knownMask">
+    /// Lanes that have a simplex. The others start with the first support point, and so do those whose simplex turns out not to be of the
+    /// shapes as they are now.
+    /// </param>
     /// <param name="walk">Direction to start in, and simplex; direction, depth and simplex of the minimum.</param>
     /// <param name="statistics">Counts.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Walk<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, Vector<int> activeMask, Vector<int> knownMask,
-        ref SearchWalk walk, ref TStatistics statistics)
+    static void Walk<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, Vector<int> activeMask,
+        ref Vector<int> knownMask, ref SearchWalk walk, ref TStatistics statistics)
         where TStatistics : struct, ISearchStatistics
     {
         statistics.Evaluated(activeMask);
         Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out var vertex);
         var bestDirection = walk.Direction;
         var best = Wide.Select(activeMask, Vector3Wide.Dot(vertex.Point, bestDirection), walk.Depth);
+        knownMask = Vector.AndNot(knownMask, activeMask & walk.Simplex.IsBeyond(bestDirection, best + frame.Tolerance + frame.Rounding));
         var keepMask = knownMask | Vector.OnesComplement(activeMask);
         walk.Simplex.A.Keep(keepMask, vertex);
         walk.Simplex.B.Keep(keepMask, vertex);
@@ -47,7 +51,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             wholeMask = Vector<int>.Zero;
             var length = offset.Length();
             // As comparisons that NaN loses, so that lanes without a pair stop.
-            activeMask &= Vector.GreaterThan(length + Wide.Min(best, Vector<float>.Zero), frame.Tolerance) &
+            activeMask &= Vector.GreaterThan(length + Wide.Min(best, Vector<float>.Zero), frame.ToleranceAt(best)) &
                 Vector.GreaterThanOrEqual(best, frame.LeastDepth);
             if (activeMask == Vector<int>.Zero)
                 break;

@@ -57,7 +57,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             a, b, localOffsetB, localOrientationB, speculativeMargin);
         Unsafe.SkipInit(out SearchWalk walk);
         var knownMask = walk.Start(state, frame);
-        Walk(a, b, frame, Vector<int>.AllBitsSet, knownMask, ref walk, ref statistics);
+        Walk(a, b, frame, Vector<int>.AllBitsSet, ref knownMask, ref walk, ref statistics);
 
         var certified = Wide.Mask(knownMask, state.CertifiedDepth * frame.Scale);
         var deep = Vector.GreaterThan(walk.Depth, frame.CertificateSlack);

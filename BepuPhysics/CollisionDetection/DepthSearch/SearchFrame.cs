@@ -16,6 +16,8 @@ struct SearchFrame
     const float SmallerTolerance = 2e-5f;
     const float LargerTolerance = 1e-6f;
     const float DistanceTolerance = 5e-7f;
+    // Part of the depth itself: normals are right to 1.8 degrees.
+    const float DepthTolerance = 5e-4f;
     // Part of the smaller radius by which a deep result may exceed the least of all directions.
     const float CertificateTolerance = 2e-4f;
     // Part of the size of the difference that a support point must gain to be a new one.
@@ -72,6 +74,13 @@ struct SearchFrame
         frame.Rounding = frame.Span * new Vector<float>(SupportRounding);
         return frame;
     }
+
+    /// <summary>How far the search may stop from its target at a depth.</summary>
+    // A normal may be wrong by the square root of twice the ratio of tolerance and depth. Where shapes hardly touch, the depth would do
+    // with less than the normal.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<float> ToleranceAt(Vector<float> depth) =>
+        Wide.Min(Tolerance, Wide.Max(Vector.Abs(depth) * new Vector<float>(DepthTolerance), Rounding));
 
     /// <summary>A point of the difference, from a point of A in A's frame and one of B in B's frame.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

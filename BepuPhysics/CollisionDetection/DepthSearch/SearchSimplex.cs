@@ -28,8 +28,17 @@ struct SearchSimplex
     // Squared length, in units of the search, below which two vertices are one; squared sine below which three are on a line.
     const float LeastSquaredEdge = 1e-14f;
     const float LeastSquaredSine = 1e-12f;
+    // Part of an edge that rounding may move a point along it; less than what the walk tolerates.
+    const float GreatestSlip = 1e-5f;
 
     public SearchVertex A, B, C;
+
+    /// <summary>Whether a vertex is farther along a direction than a height, which no point of the difference is.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<int> IsBeyond(in Vector3Wide direction, Vector<float> height) =>
+        Vector.GreaterThan(Vector3Wide.Dot(A.Point, direction), height) |
+        Vector.GreaterThan(Vector3Wide.Dot(B.Point, direction), height) |
+        Vector.GreaterThan(Vector3Wide.Dot(C.Point, direction), height);
 
     /// <summary>
     /// Takes in a new vertex and keeps those that span, with it, what is closest to the target.
@@ -67,11 +76,13 @@ struct SearchSimplex
         var keepA = Vector.AndNot(useA, useBC) | useAB | useCA;
         var keepB = Vector.AndNot(useB, useCA) | useAB | useBC;
         var keepC = Vector.AndNot(useC, useAB) | useBC | useCA;
-        // An offset that is across a long edge to a part in 1e7 of the edge may be off by much of its own length: once more.
+        // An offset that is across a long edge to a part in 1e7 of the edge may be off by much of its own length: once more. An offset from
+        // the far end of an edge is not across it, and stays.
         var edge = Vector3Wide.Select(keepA, a, Vector3Wide.Select(keepB, b, c));
         var squaredEdge = Wide.Select(keepA, squaredA, Wide.Select(keepB, squaredB, squaredC));
         var hasEdge = (keepA | keepB | keepC) & Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
-        closest -= edge * Wide.Mask(hasEdge, Vector3Wide.Dot(closest, edge) / squaredEdge);
+        var slip = Vector3Wide.Dot(closest, edge) / squaredEdge;
+        closest -= edge * Wide.Mask(hasEdge & Vector.LessThan(Vector.Abs(slip), new Vector<float>(GreatestSlip)), slip);
         if (wholeMask != Vector<int>.Zero)
         {
             var whole = TryTriangle(target - A.Point, B.Point - A.Point, C.Point - A.Point,

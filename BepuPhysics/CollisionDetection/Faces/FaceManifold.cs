@@ -52,51 +52,77 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
             return;
         }
 
-        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write.
+        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write, so that
+        // all that is worked on is put at a cache line by hand.
         var memory = stackalloc byte[Scratch.ByteCount + CacheLine];
-        var scratch = new Scratch((byte*)(((nint)memory + CacheLine - 1) & -CacheLine));
-        Unsafe.SkipInit(out FaceOverlap overlap);
+        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        ref var overlap = ref scratch.Overlap;
+        var points = scratch.Points;
         overlap.Candidates = scratch.Candidates;
         overlap.PairDepth = depth;
         overlap.MinimumDepth = -speculativeMargin;
-        Unsafe.SkipInit(out FaceFrame frameA);
+        ref var frameA = ref scratch.FrameA;
         Vector3Wide.BuildOrthonormalBasis(normal, out frameA.X, out frameA.Y);
         frameA.Outwards = -normal;
         frameA.Origin = pointOnA;
-        TFeatureA.Find(a, frameA.Outwards, ~exists, ref *scratch.Points, out overlap.A.Feature);
-        overlap.A.Vertices = scratch.VerticesA;
-        overlap.A.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
-        overlap.A.Project(scratch.Points, frameA, -1);
+        TFeatureA.Find(a, frameA.Outwards, ~exists, ref *points, out overlap.A.Feature);
+        overlap.A.List.First = scratch.VerticesA;
+        overlap.A.List.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
+        overlap.A.Project(points, frameA, -1);
 
-        FaceFrame frameB;
+        ref var frameB = ref scratch.FrameB;
         frameB.X = localOrientationB * frameA.X;
         frameB.Y = localOrientationB * frameA.Y;
         frameB.Outwards = normalB;
         frameB.Origin = localOrientationB * (pointOnA - localOffsetB);
-        TFeatureB.Find(b, frameB.Outwards, ~exists, ref *scratch.Points, out overlap.B.Feature);
-        overlap.B.Vertices = scratch.VerticesB;
-        overlap.B.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
-        overlap.B.Project(scratch.Points, frameB, 1);
+        TFeatureB.Find(b, frameB.Outwards, ~exists, ref *points, out overlap.B.Feature);
+        overlap.B.List.First = scratch.VerticesB;
+        overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
+        overlap.B.Project(points, frameB, 1);
 
         overlap.FindCandidates(exists);
         FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref manifold);
     }
 
-    /// <summary>Parts of the memory that a bundle is worked on in.</summary>
-    readonly struct Scratch(byte* memory)
+    /// <summary>What a bundle is worked on in; arrays follow it, the ones that are always used first.</summary>
+    struct Scratch
     {
+        public FaceFrame FrameA, FrameB;
+        public FaceOverlap Overlap;
+        // Fills up the two words at the end of the overlap.
+        public fixed byte Padding[CacheLine - 2 * sizeof(long)];
+
         static int GreatestCount =>
             TFeatureA.MaximumVertexCount > TFeatureB.MaximumVertexCount ? TFeatureA.MaximumVertexCount : TFeatureB.MaximumVertexCount;
 
         static int CandidateCount => FaceOverlap.GreatestCount(TFeatureA.MaximumVertexCount, TFeatureB.MaximumVertexCount);
 
-        public static int ByteCount => GreatestCount * sizeof(Vector3Wide) + CandidateCount * sizeof(FaceCandidate) +
+        public static int ByteCount => sizeof(Scratch) + GreatestCount * sizeof(Vector3Wide) + CandidateCount * sizeof(FaceCandidate) +
             (TFeatureA.MaximumVertexCount + TFeatureB.MaximumVertexCount) * sizeof(FaceVertex);
 
-        public readonly FaceVertex* VerticesA = (FaceVertex*)memory;
-        public readonly FaceVertex* VerticesB = (FaceVertex*)memory + TFeatureA.MaximumVertexCount;
-        public Vector3Wide* Points => (Vector3Wide*)(VerticesB + TFeatureB.MaximumVertexCount);
-        public FaceCandidate* Candidates => (FaceCandidate*)(Points + GreatestCount);
+        public readonly FaceVertex* VerticesA
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => (FaceVertex*)((Scratch*)Unsafe.AsPointer(ref Unsafe.AsRef(in this)) + 1);
+        }
+
+        public readonly FaceVertex* VerticesB
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => VerticesA + TFeatureA.MaximumVertexCount;
+        }
+
+        public readonly Vector3Wide* Points
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => (Vector3Wide*)(VerticesB + TFeatureB.MaximumVertexCount);
+        }
+
+        public readonly FaceCandidate* Candidates
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => (FaceCandidate*)(Points + GreatestCount);
+        }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

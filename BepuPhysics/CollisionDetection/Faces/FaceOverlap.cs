@@ -78,7 +78,9 @@ unsafe struct FaceOverlap
             vertex->WideLineOffset = vertex->LineOffset + border;
             vertex->Inside = new Vector<float>(float.MaxValue);
         }
-        for (int i = 0; i < A.Count; ++i)
+        var countA = A.Count;
+        var countB = B.Count;
+        for (int i = 0; i < countA; ++i)
         {
             ref var edge = ref A.Vertices[i];
             var x = edge.X;
@@ -100,7 +102,7 @@ unsafe struct FaceOverlap
             AddOnEdge(edge, B, start, isInside, 2 * i);
             AddOnEdge(edge, B, end, isInside & Vector.LessThan(end, Vector<float>.One), 2 * i + 1);
         }
-        for (int i = 0; i < B.Count; ++i)
+        for (int i = 0; i < countB; ++i)
         {
             ref var vertex = ref verticesB[i];
             var isInside = mask & Vector.GreaterThan(vertex.Inside, half) & Vector.LessThan(new Vector<int>(i), B.Feature.VertexCount);

@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -19,6 +20,22 @@ struct FaceVertex
     public Vector<float> WideLineOffset;
     /// <summary>How far the vertex is inside of the other polygon, m.</summary>
     public Vector<float> Inside;
+}
+
+/// <summary>Where the vertices of a bundle of features are.</summary>
+// As large as a vector, so that what follows it in memory is aligned as what is before it.
+[StructLayout(LayoutKind.Explicit)]
+unsafe struct FaceVertexList
+{
+    /// <summary>Fills the struct up.</summary>
+    [FieldOffset(0)]
+    public Vector<int> Padding;
+    /// <summary>First vertices.</summary>
+    [FieldOffset(0)]
+    public FaceVertex* First;
+    /// <summary>Greatest number of vertices in the bundle.</summary>
+    [FieldOffset(8)]
+    public int Count;
 }
 
 /// <summary>A frame in that features are seen along the normal, in the coordinates of one of the two shapes.</summary>
@@ -42,9 +59,7 @@ unsafe struct FacePolygon
     const float Everything = 1e30f;
 
     /// <summary>Vertices; those of a lane repeat from its count on.</summary>
-    public FaceVertex* Vertices;
-    /// <summary>Greatest number of vertices in the bundle.</summary>
-    public int Count;
+    public FaceVertexList List;
     /// <summary>What the shape said of its feature; a steep polygon has become a segment.</summary>
     public ContactFeatureWide Feature;
     /// <summary>Height of the feature's plane: SlopeX x + SlopeY y + SlopeHeight.</summary>
@@ -53,6 +68,20 @@ unsafe struct FacePolygon
     public Vector<float> Extent;
     /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
     public Vector<int> IsPolygon, IsSegment;
+
+    /// <summary>First vertices.</summary>
+    public readonly FaceVertex* Vertices
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => List.First;
+    }
+
+    /// <summary>Greatest number of vertices in the bundle.</summary>
+    public readonly int Count
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => List.Count;
+    }
 
     /// <summary>Height of the feature's plane at a place.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -70,9 +99,10 @@ unsafe struct FacePolygon
         var turn = new Vector<float>(winding);
         var extent = Vector<float>.Zero;
         var point = points[0];
-        for (int i = 0; i < Count; ++i)
+        var count = Count;
+        for (int i = 0; i < count; ++i)
         {
-            var next = points[i + 1 < Count ? i + 1 : 0];
+            var next = points[i + 1 < count ? i + 1 : 0];
             ref var vertex = ref vertices[i];
             var offset = point - frame.Origin;
             vertex.X = Vector3Wide.Dot(offset, frame.X);

@@ -1,0 +1,109 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Numerics;
+using BepuUtilities.Memory;
+using DemoTests.Support;
+using Xunit;
+using Xunit.Abstractions;
+
+namespace DemoTests.CollisionDetection;
+
+/// <summary>Depth, normal and witnesses of single searches against the reference. PHYSICS_FULL_TESTS: many more pairs, of another seed.</summary>
+public class DepthSearchAccuracyTests(ITestOutputHelper output)
+{
+    // Parts of the smaller size: what a result may be above the least depth, and a contact point off the surface by.
+    const double Excess = 2.5e-4;
+    const double LimitExcess = 1e-3;
+    const double StopTolerance = 2.1e-5;
+    // Part of the larger size that is lost to rounding.
+    const double Rounding = 2e-6;
+
+    static bool IsFull => Environment.GetEnvironmentVariable("PHYSICS_FULL_TESTS") is { Length: > 0 };
+
+    static ulong Seed => IsFull ? ConvexPoses.VerificationSeed : ConvexPoses.DevelopmentSeed;
+
+    public static TheoryData<ConvexKind, ConvexKind> Pairs
+    {
+        get
+        {
+            var data = new TheoryData<ConvexKind, ConvexKind>();
+            foreach (var a in Enum.GetValues<ConvexKind>())
+            {
+                foreach (var b in Enum.GetValues<ConvexKind>().Where(b => b >= a))
+                    data.Add(a, b);
+            }
+            return data;
+        }
+    }
+
+    [Theory, MemberData(nameof(Pairs))]
+    public void Depth_is_the_least_of_all_directions(ConvexKind kindA, ConvexKind kindB)
+    {
+        foreach (var regime in Enum.GetValues<ConvexRegime>())
+        {
+            using var pool = new BufferPool();
+            var random = new ConvexRandom(Seed, (ulong)(((int)kindA * 6 + (int)kindB) * 6 + (int)regime));
+            List<DepthSearchShape> a = [], b = [];
+            List<ConvexCase> cases = [];
+            for (int i = 0; i < (IsFull ? 1000 : 30); ++i)
+            {
+                var (sizeA, sizeB) = ConvexPoses.NextSizes(random);
+                a.Add(DepthSearchShapes.Create(kindA, ConvexGenerator.NextForm(random), sizeA, random, pool));
+                b.Add(DepthSearchShapes.Create(kindB, ConvexGenerator.NextForm(random), sizeB, random, pool));
+                cases.Add(ConvexPoses.Create(a[i].Reference, b[i].Reference, regime, random));
+            }
+            Check($"{kindA} {kindB} {regime}", a, b, cases);
+        }
+    }
+
+    void Check(string name, List<DepthSearchShape> a, List<DepthSearchShape> b, List<ConvexCase> cases)
+    {
+        var margins = cases.Select(c => (float)(ConvexPoses.Margin * c.Reference.Size)).ToArray();
+        var outcomes = DepthSearchShape.Find(a, b, [.. cases.Select(SearchPlace.Of)], margins);
+        var excesses = new List<double>();
+        for (int i = 0; i < cases.Count; ++i)
+        {
+            var (reference, _, offset, expected) = cases[i];
+            var outcome = outcomes[i];
+            var reach = Math.Max(reference.LargerSize, Math.Max(offset.Length, Math.Max(reference.A.Middle.Length, reference.B.Middle.Length)));
+            var rounding = Rounding * reach;
+            var label = $"{name} {i}: {outcome}, expected {expected.Depth} along {expected.Normal}, size {reference.Size}";
+            if (Math.Abs(expected.Depth + margins[i]) > rounding)
+                Assert.True(outcome.Near == expected.Depth > -margins[i], label);
+            if (!outcome.Near)
+                continue;
+            Double3 normal = outcome.Normal;
+            Assert.True(Math.Abs(normal.Length - 1) < 1e-6, label);
+            normal *= 1 / normal.Length;
+            var along = reference.DepthAlong(normal, offset);
+            Assert.True(Math.Abs(outcome.Depth - along) < rounding, label);
+            var excess = along - expected.Depth;
+            excesses.Add((excess - rounding) / reference.Size);
+            // Where a search met its limit: still far from what is wrong.
+            var allowed = outcome.Limits > 0 ? LimitExcess : Excess;
+            Assert.True(excess < allowed * reference.Size + rounding, $"{label}: {excess} too deep");
+            CheckWitness(reference, offset, outcome, normal, rounding, label);
+        }
+        excesses.Sort();
+        if (excesses.Count == 0)
+            return;
+        output.WriteLine($"{name,-32} n {excesses.Count,5}  excess p50 {excesses[excesses.Count / 2]:E1} p99 {excesses[(int)(excesses.Count * 0.99)]:E1} " +
+            $"max {excesses[^1]:E1}  evaluations mean {outcomes.Average(o => o.Evaluations):F1} max {outcomes.Max(o => o.Evaluations)} " +
+            $"caps {outcomes.Sum(o => o.Caps)}  tetrahedra {outcomes.Sum(o => o.Freed)} of {outcomes.Sum(o => o.Tried)}  " +
+            $"expansions {outcomes.Sum(o => o.Expansions)} of {outcomes.Sum(o => o.ExpansionEvaluations)} evaluations, limits {outcomes.Sum(o => o.Limits)}");
+    }
+
+    // The walk stops at a distance from its target. Where the cores are apart, a target is that close at an angle, too.
+    static void CheckWitness(ConvexReference reference, Double3 offset, in SearchOutcome outcome, Double3 normal, double rounding, string label)
+    {
+        // One walk in a hundred of deep cylinders ends at its limit: a little farther away.
+        var tolerance = (outcome.Caps > 0 ? Excess : StopTolerance) * reference.Size + rounding;
+        Double3 onA = outcome.PointOnA;
+        Assert.True(Math.Abs(reference.A.SignedDistance(onA)) < tolerance, $"{label}: {onA} is not on A, {reference.A.SignedDistance(onA)}, tolerance {tolerance}");
+        var onB = reference.Rotation.RotateBack(onA + normal * outcome.Depth - offset);
+        var apart = Math.Max(0, reference.A.Rounding + reference.B.Rounding - outcome.Depth);
+        tolerance += Math.Sqrt(2 * tolerance * apart);
+        Assert.True(Math.Abs(reference.B.SignedDistance(onB)) < tolerance, $"{label}: {onB} is not on B, {reference.B.SignedDistance(onB)}, tolerance {tolerance}");
+    }
+}
