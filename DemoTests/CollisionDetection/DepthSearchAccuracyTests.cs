@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Numerics;
 using BepuUtilities.Memory;
 using DemoTests.Support;
 using Xunit;

@@ -35,7 +35,7 @@ static class DepthSearchShapes
     public static DepthSearchShape Create(ConvexKind kind, ConvexForm form, double size, ConvexRandom random, BufferPool pool) =>
         Create(ConvexGenerator.Create(kind, form, size, random), pool);
 
-    static DepthSearchShape CreateHull(Vector3[] points, BufferPool pool)
+    static DepthSearchShape.Typed<ConvexHull, ConvexHullWide, ConvexHullSupport> CreateHull(Vector3[] points, BufferPool pool)
     {
         var hull = new ConvexHull(points, pool, out _);
         var vertices = Enumerable.Range(0, hull.VertexCount).Select(i =>
