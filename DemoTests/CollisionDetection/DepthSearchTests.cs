@@ -26,8 +26,8 @@ public class DepthSearchTests(ITestOutputHelper output)
     [InlineData(ConvexKind.Hull, ConvexKind.Hull, ConvexForm.Fat, 1.1)]
     [InlineData(ConvexKind.Box, ConvexKind.Box, ConvexForm.Flat, 1.1)]
     [InlineData(ConvexKind.Hull, ConvexKind.Hull, ConvexForm.Slender, 1.2)]
-    [InlineData(ConvexKind.Cylinder, ConvexKind.Box, ConvexForm.Fat, 1.6)]
-    [InlineData(ConvexKind.Cylinder, ConvexKind.Cylinder, ConvexForm.Fat, 1.6)]
+    [InlineData(ConvexKind.Cylinder, ConvexKind.Box, ConvexForm.Fat, 2)]
+    [InlineData(ConvexKind.Cylinder, ConvexKind.Cylinder, ConvexForm.Fat, 2)]
     [InlineData(ConvexKind.Triangle, ConvexKind.Hull, ConvexForm.Fat, 1.1)]
     public void Slow_pairs_take_one_evaluation_and_keep_their_normal(ConvexKind kindA, ConvexKind kindB, ConvexForm form, double evaluations)
     {
