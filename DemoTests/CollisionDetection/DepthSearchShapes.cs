@@ -43,6 +43,6 @@ static class DepthSearchShapes
             hull.GetPoint(i, out var point);
             return point;
         });
-        return new DepthSearchShape.Typed<ConvexHull, ConvexHullWide, ConvexHullSupport>(hull, ConvexShape.Hull([.. vertices]));
+        return new(hull, ConvexShape.Hull([.. vertices]));
     }
 }
