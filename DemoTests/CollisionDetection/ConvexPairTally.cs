@@ -162,7 +162,7 @@ sealed class ConvexPairTally
     }
 
     public const string Header = "| pair | regime | poses | contacts | depth p50 | p99 | p99.9 | worst | excess worst | normal p95 "
-        + "| wrong | missed | unseen | ghosts | outside | worst | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+        + "| wrong | missed | unseen | ghosts | outside | farthest outside | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
     public string ToRow(string pair, string regime) => string.Create(CultureInfo.InvariantCulture,
         $"| {pair} | {regime} | {PoseCount} | {ContactCount} | {DepthError(.5):e1} | {DepthError(.99):e1} | {DepthError(.999):e1} "
