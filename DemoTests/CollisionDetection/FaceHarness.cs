@@ -57,6 +57,7 @@ static class FaceHarness<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWideB, 
         Matrix3x3Wide orientationA = new(offset, offset, offset), orientationB = orientationA;
         Vector<float> depth = new(fill), margin = depth;
         var near = Vector<int>.Zero;
+        var remembered = Vector<int>.Zero;
         for (int lane = 0; lane < order.Length; ++lane)
         {
             var pair = pairs[order[lane]];
@@ -72,7 +73,7 @@ static class FaceHarness<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWideB, 
             GatherScatter.Get(ref near, lane) = -1;
         }
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(
-            a, b, offset, orientationB, normal, depth, point, near, margin, orientationA, out var manifold);
+            a, b, offset, orientationB, normal, depth, point, near, margin, orientationA, ref remembered, out var manifold);
         for (int lane = 0; lane < order.Length; ++lane)
             results[order[lane]] = Read(ref manifold, lane, pairs[order[lane]].OrientationA);
     }
