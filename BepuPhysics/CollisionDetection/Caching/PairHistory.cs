@@ -18,7 +18,7 @@ namespace BepuPhysics.CollisionDetection;
 // The first three rows are gathered and scattered as bundles: size and alignment are multiples of a row of eight floats.
 unsafe struct PairHistory
 {
-    /// <summary>Where the depth search ended, and which corners were contacts.</summary>
+    /// <summary>Where the depth search ended, and which corners were the first contacts.</summary>
     public DepthSearchState Search;
 
     Quaternion orientationA;

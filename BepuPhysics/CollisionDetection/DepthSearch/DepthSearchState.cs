@@ -4,7 +4,7 @@ using BepuUtilities;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>
-/// What is remembered of a pair from step to step: where the depth search ended, and which corners were contacts. <c>default</c> knows
+/// What is remembered of a pair from step to step: where the depth search ended, and which corners were the first contacts. <c>default</c> knows
 /// nothing.
 /// </summary>
 // The triangle of the Minkowski difference is kept as the points of A and B that it came from, each in its own shape's frame: they are
@@ -30,7 +30,7 @@ public struct DepthSearchState
     /// <summary>Steps since then, more or less.</summary>
     public int Age;
     /// <summary>
-    /// Names of the corners that were contacts, eight bits each, in their order; a name is one more than in the feature id, and zero is none.
+    /// Names of the corners that were the first two contacts, eight bits each; a name is one more than in the feature id, and zero is none.
     /// The search leaves it alone: it belongs to <see cref="FaceManifold{TShapeWideA, TFeatureA, TShapeWideB, TFeatureB}"/>.
     /// </summary>
     public int Contacts;

@@ -27,7 +27,7 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
     /// <param name="speculativeMargin">Greatest distance at which a contact exists, m; zero or more.</param>
     /// <param name="orientationA">Axes of A in the world, in the rows.</param>
     /// <param name="remembered">
-    /// What <see cref="DepthSearchState.Contacts"/> holds: corners that are preferred to others that are as good; zero for a pair that is new.
+    /// What <see cref="DepthSearchState.Contacts"/> holds: two corners that are preferred to others that are as good; zero for a pair that is new.
     /// Pairs without contacts leave it as it is.
     /// </param>
     /// <param name="manifold">The contacts.</param>

@@ -9,8 +9,8 @@ namespace BepuPhysics.CollisionDetection;
 // deepest is any of its corners, and the corner farthest from its opposite takes its place: the line is then as long as can be, and the
 // four span more. Corners that come twice do not matter, as the second has no distance, or no area, to add.
 // Of more than four corners that are as good, rounding would choose, and choose others each time: a stack would never be still. So the
-// corners of the last time are preferred, by more than rounding and less than matters. The deepest, from which all else follows, keeps its
-// place first of all; where it is gone, one of the other three takes it.
+// first two of the last time, from which the others follow, are preferred by more than rounding and less than matters. Not by more: what
+// becomes a contact late is already deep, and pushes what it holds up; and four that were kept for their own sake are less even.
 static unsafe class FaceReduction
 {
     // Corners that are equally deep, to this part of their distance, are told apart by their place, so that the same is first each time.
@@ -23,13 +23,12 @@ static unsafe class FaceReduction
     const float MinimumDistanceSquared = 100f;
     // Part of the distance of the first two contacts: a corner that is nearer to their line adds nothing.
     const float MinimumHeight = 1e-3f;
-    // Parts of that size by which the deepest corner of the last time, and the other three, count as deeper. More than the place is worth
-    // over the whole of a shape, and far less than the tolerance.
-    const float DeepestPreference = 8e-5f;
-    const float OtherPreference = 4e-5f;
-    // What the squared distances and the areas of the last time's corners are multiplied by.
-    const float SpanPreference = 1.2f;
-    // Angle, rad, by which the line that sides are told by turns. Less than the height that is nothing.
+    // Part of that size by which the first corner of the last time counts as deeper. More than the place is worth over the whole of a shape,
+    // and far less than the tolerance.
+    const float DepthPreference = 8e-5f;
+    // What the squared distances of the first two corners of the last time are multiplied by.
+    const float SpanPreference = 1.05f;
+    // Angle, rad, by which the line turns that sides are told by.
     const float SideTurn = 5e-4f;
     // Name of the witness. It is not remembered: one more is zero in eight bits.
     const int WitnessName = 255;
@@ -60,7 +59,7 @@ static unsafe class FaceReduction
     /// <param name="frame">The frame in A's coordinates.</param>
     /// <param name="orientationA">Axes of A in the world, in the rows.</param>
     /// <param name="near">All bits set where the pair has contacts.</param>
-    /// <param name="remembered">Names of the last corners that were contacts, and of these.</param>
+    /// <param name="remembered">Names of the first two corners of the last time, and of these.</param>
     /// <param name="manifold">The contacts.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Reduce(in FaceOverlap overlap, in FaceFrame frame, in Matrix3x3Wide orientationA, Vector<int> near,
@@ -74,8 +73,9 @@ static unsafe class FaceReduction
         ChooseFarthest(overlap, farthest, level, deepest, out deepest);
         var lineX = farthest.X - deepest.X;
         var lineY = farthest.Y - deepest.Y;
-        // Of corners that are as far to a side, as in a regular hexagon, the two that are opposite to each other: three contacts at one end of
-        // the overlap and one at the other give way unevenly.
+        // Of corners that are as far to a side, as in a regular hexagon, the left one nearest to the first contact and the right one nearest to
+        // the second, so that these two are opposite to each other: three contacts at one end of the overlap and one at the other give way
+        // unevenly.
         var turn = new Vector<float>(SideTurn);
         ChooseSides(overlap, deepest, lineX - lineY * turn, lineY + lineX * turn, out var left, out var right);
 
@@ -84,15 +84,15 @@ static unsafe class FaceReduction
         var secondExists = near & Vector.GreaterThan(farthest.Score, farEnough);
         var writer = new Writer(overlap, frame, orientationA);
         manifold.Normal = writer.Normal;
-        var leftExists = secondExists & Vector.GreaterThan(left.Score, areaEnough);
-        var rightExists = secondExists & Vector.GreaterThan(right.Score, areaEnough);
+        var leftArea = lineX * (left.Y - deepest.Y) - lineY * (left.X - deepest.X);
+        var rightArea = lineX * (right.Y - deepest.Y) - lineY * (right.X - deepest.X);
+        var leftExists = secondExists & Vector.GreaterThan(leftArea, areaEnough);
+        var rightExists = secondExists & Vector.LessThan(rightArea, -areaEnough);
         writer.Write(deepest, near, ref manifold.Contacts[0]);
         writer.Write(farthest, secondExists, ref manifold.Contacts[1]);
         writer.Write(left, leftExists, ref manifold.Contacts[2]);
         writer.Write(right, rightExists, ref manifold.Contacts[3]);
-        var names = Remember(deepest, near) | Remember(farthest, secondExists) << NameBits |
-            Remember(left, leftExists) << (2 * NameBits) | Remember(right, rightExists) << (3 * NameBits);
-        remembered = Wide.Select(near, names, remembered);
+        remembered = Wide.Select(near, Remember(deepest, near) | Remember(farthest, secondExists) << NameBits, remembered);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -121,20 +121,15 @@ static unsafe class FaceReduction
         // No corner has the name of what was not a contact.
         var name0 = Recall(remembered);
         var name1 = Recall(remembered >>> NameBits);
-        var name2 = Recall(remembered >>> (2 * NameBits));
-        var name3 = Recall(remembered >>> (3 * NameBits));
-        var deepestPreference = size * new Vector<float>(DeepestPreference);
-        var otherPreference = size * new Vector<float>(OtherPreference);
+        var preference = size * new Vector<float>(DepthPreference);
         for (var candidate = overlap.Candidates; candidate != end; ++candidate)
         {
-            var name = candidate->Name;
-            var wasDeepest = Vector.Equals(name, name0);
-            var wasOther = Vector.Equals(name, name1) | Vector.Equals(name, name2) | Vector.Equals(name, name3);
-            candidate->Weight = Wide.Select(wasDeepest | wasOther, new Vector<float>(SpanPreference), Vector<float>.One);
+            var wasFirst = Vector.Equals(candidate->Name, name0);
+            var wasSecond = Vector.Equals(candidate->Name, name1);
+            candidate->Weight = Wide.Select(wasFirst | wasSecond, new Vector<float>(SpanPreference), Vector<float>.One);
             // What is not deep enough must not hide what is.
-            var preference = Wide.Mask(Vector.GreaterThanOrEqual(candidate->Depth, deepEnough),
-                Wide.Select(wasDeepest, deepestPreference, Wide.Mask(wasOther, otherPreference)));
-            best.Offer(candidate->Depth + (candidate->X * weightX + candidate->Y * weightY) + preference, *candidate);
+            var preferred = Wide.Mask(wasFirst & Vector.GreaterThanOrEqual(candidate->Depth, deepEnough), preference);
+            best.Offer(candidate->Depth + (candidate->X * weightX + candidate->Y * weightY) + preferred, *candidate);
         }
         choice = best;
         // The features need not hold the points that are nearest: the face whose normal is nearest to the direction need not be the one
@@ -178,7 +173,7 @@ static unsafe class FaceReduction
         var end = overlap.Candidates + overlap.CandidateCount;
         for (var candidate = overlap.Candidates; candidate != end; ++candidate)
         {
-            var area = Wide.Mask(Exists(*candidate), (lineX * (candidate->Y - fromY) - lineY * (candidate->X - fromX)) * candidate->Weight);
+            var area = Wide.Mask(Exists(*candidate), lineX * (candidate->Y - fromY) - lineY * (candidate->X - fromX));
             most.Offer(area, *candidate);
             least.Offer(-area, *candidate);
         }
