@@ -29,7 +29,7 @@ static unsafe class FaceReduction
     // What the squared distances of the first two corners of the last time are multiplied by.
     const float SpanPreference = 1.05f;
     // Angle, rad, by which the line turns that sides are told by.
-    const float SideTurn = 5e-4f;
+    const float SideTurn = 1e-4f;
     // Name of the witness. It is not remembered: one more is zero in eight bits.
     const int WitnessName = 255;
     // Bits of a feature id: the corner, A's feature, B's feature.
