@@ -52,6 +52,8 @@ sealed class ConvexPairTally
 
     public string? WorstOutsidePose { get; private set; }
 
+    public string? WorstBelowPose { get; private set; }
+
     double worst;
 
     /// <param name="pair">Pose and reference.</param>
@@ -86,7 +88,11 @@ sealed class ConvexPairTally
         normal *= 1 / normal.Length;
         var along = reference.DepthAlong(normal, offset);
         var excess = (along - depth) / size;
-        BelowReference = Math.Max(BelowReference, -excess);
+        if (-excess > BelowReference)
+        {
+            BelowReference = -excess;
+            WorstBelowPose = $"{Describe(reference, pose, found)}, found {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
+        }
         var deepest = double.MinValue;
         for (int i = 0; i < manifold.Count; ++i)
         {
@@ -156,7 +162,7 @@ sealed class ConvexPairTally
     }
 
     public const string Header = "| pair | regime | poses | contacts | depth p50 | p99 | p99.9 | worst | excess worst | normal p95 "
-        + "| wrong | missed | unseen | ghosts | outside | worst | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+        + "| wrong | missed | unseen | ghosts | outside | farthest outside | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
     public string ToRow(string pair, string regime) => string.Create(CultureInfo.InvariantCulture,
         $"| {pair} | {regime} | {PoseCount} | {ContactCount} | {DepthError(.5):e1} | {DepthError(.99):e1} | {DepthError(.999):e1} "

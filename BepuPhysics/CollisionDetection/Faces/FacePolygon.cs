@@ -128,6 +128,50 @@ unsafe struct FacePolygon
         FindSlope(frame);
     }
 
+    /// <summary>Makes the polygon wider by a border.</summary>
+    // Edges that are each moved out by a border meet farther beyond their corner; a thousand borders at the tip of a needle. The edges of a
+    // corner below 41 degrees get so much less that they meet no more than 2.8 borders beyond it. Edges without a length make no corner.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public readonly void Widen(Vector<float> border)
+    {
+        var vertices = Vertices;
+        var lastX = Vector<float>.Zero;
+        var lastY = Vector<float>.Zero;
+        for (int i = 0; i < Count; ++i)
+            Follow(vertices[i], ref lastX, ref lastY);
+        for (int i = 0; i < Count; ++i)
+        {
+            ref var vertex = ref vertices[i];
+            vertex.WideLineOffset = Bluntness(vertex, lastX, lastY);
+            Follow(vertex, ref lastX, ref lastY);
+        }
+        var nextX = Vector<float>.Zero;
+        var nextY = Vector<float>.Zero;
+        for (int i = Count - 1; i >= 0; --i)
+            Follow(vertices[i], ref nextX, ref nextY);
+        for (int i = Count - 1; i >= 0; --i)
+        {
+            ref var vertex = ref vertices[i];
+            var bluntness = Wide.Min(vertex.WideLineOffset, Bluntness(vertex, nextX, nextY));
+            var share = Vector.SquareRoot(Wide.Clamp(bluntness * new Vector<float>(4), Vector<float>.Zero, Vector<float>.One));
+            vertex.WideLineOffset = vertex.LineOffset + border * share;
+            Follow(vertex, ref nextX, ref nextY);
+        }
+    }
+
+    /// <summary>Twice the squared sine of half the angle of the corner between two edges, at most 1.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Bluntness(in FaceVertex vertex, Vector<float> otherX, Vector<float> otherY) =>
+        Vector<float>.One + Wide.Min(vertex.LineX * otherX + vertex.LineY * otherY, Vector<float>.Zero);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Follow(in FaceVertex vertex, ref Vector<float> x, ref Vector<float> y)
+    {
+        var hasLength = Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
+        x = Wide.Select(hasLength, vertex.LineX, x);
+        y = Wide.Select(hasLength, vertex.LineY, y);
+    }
+
     [MethodImpl(MethodImplOptions.NoInlining)]
     void FindSlope(in FaceFrame frame)
     {
