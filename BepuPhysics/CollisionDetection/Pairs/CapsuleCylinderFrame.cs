@@ -61,9 +61,9 @@ struct CapsuleCylinderFrame
         directionZ *= inverseRun;
         var across = x * directionZ - z * directionX;
         var along = x * directionX + z * directionZ;
-        var above = run * y - rise * along;
-
-        var upsideDown = Vector.LessThan(above, zero);
+        // The line of a parallel segment passes the axis nowhere, and has no place across it to be nearest to the rim.
+        var above = Wide.Mask(frame.HasPassing, run * y - rise * along);
+        var upsideDown = Vector.LessThan(Wide.Select(frame.HasPassing, above, y), zero);
         frame.AxisY = Vector3Wide.Select(upsideDown, -axisY, axisY);
         y = Wide.Select(upsideDown, -y, y);
         rise = Wide.Select(upsideDown, -rise, rise);

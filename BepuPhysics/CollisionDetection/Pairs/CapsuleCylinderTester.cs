@@ -20,9 +20,9 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
     const float AxisTolerance = 1e-6f;
     // Part of the size of the pair that a segment may be beside a face and still be over it: along the face's border, contacts must not
     // depend on rounding.
-    const float BorderTolerance = 1e-5f;
-    // Part of the radius that a contact may lie beside the line of the side that faces the capsule: the surface is farther there by half the
-    // square of it.
+    const float BorderTolerance = 3e-6f;
+    // How far a contact may lie beside the line of the side that faces the capsule, as part of the radius, or of its mean with a smaller
+    // capsule's size: the surface is farther there by half the square of it.
     const float SideDeviation = 0.02f;
     // Contacts nearer to each other than this part of the capsule's size are one; on the side, of the smaller of that and the radius.
     const float MinimumEndDistance = 0.02f;
@@ -161,7 +161,10 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
         var end = Wide.Min(middle + reach, a.HalfLength);
         // On the side, only as far as the segment stays with the line.
         var turn = Wide.Max(Vector.Abs(faceX * frame.Run), new Vector<float>(1e-6f));
-        var deviation = Wide.Select(useEnd, a.HalfLength + a.HalfLength, b.Radius * new Vector<float>(SideDeviation) / turn);
+        var capsuleSize = a.HalfLength + a.Radius;
+        var sideSize = Wide.Min(capsuleSize, b.Radius);
+        var deviation = Vector.SquareRoot(b.Radius * sideSize) * new Vector<float>(SideDeviation) / turn;
+        deviation = Wide.Select(useEnd, a.HalfLength + a.HalfLength, deviation);
         start = Wide.Max(start, least.Place - deviation);
         end = Wide.Min(end, least.Place + deviation);
         var isOver = Vector.AndNot(Vector.LessThanOrEqual(start, end), misses);
@@ -173,9 +176,8 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
         deepest = Wide.Select(isAsDeep, deepestOver, deepest);
         start = Wide.Select(isOver, Wide.Min(start, deepest), deepest);
         end = Wide.Select(isOver, Wide.Max(end, deepest), deepest);
-        var capsuleSize = a.HalfLength + a.Radius;
-        var leastDistance = Wide.Select(useEnd, capsuleSize * new Vector<float>(MinimumEndDistance),
-            Wide.Min(capsuleSize, b.Radius) * new Vector<float>(MinimumSideDistance));
+        var leastDistance = Wide.Select(
+            useEnd, capsuleSize * new Vector<float>(MinimumEndDistance), sideSize * new Vector<float>(MinimumSideDistance));
         // A segment that stands on the face is over one place of it.
         var extent = end - start;
         var two = Vector.GreaterThan(extent * extent * alongFace.LengthSquared(), leastDistance * leastDistance);
