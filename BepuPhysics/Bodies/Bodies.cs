@@ -104,6 +104,7 @@ public sealed unsafe partial class Bodies
         set.IndexToHandle[index] = handle;
         set.MotionStates[index] = new() { Pose = description.Pose, Velocity = description.Velocity };
         set.LocalInertias[index] = description.LocalInertia;
+        set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
         set.Constraints[index] = new QuickList<BodyConstraintReference>(MinimumConstraintCapacityPerBody, Pool);
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };
         WriteSettings(index, description);
@@ -281,6 +282,7 @@ public sealed unsafe partial class Bodies
         ref var current = ref ActiveSet.LocalInertias[index];
         var changesKind = IsKinematic(current) != IsKinematic(localInertia);
         current = localInertia;
+        ActiveSet.EnsurePrincipalFrames(localInertia.InverseInertiaTensor, Pool);
         if (!changesKind)
             return;
         solver.Recolor(handle);

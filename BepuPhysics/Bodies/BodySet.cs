@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Runtime.InteropServices;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -63,6 +64,9 @@ public struct BodySet
     internal Buffer<StepOrigin> Origins;
     /// <summary>Geometric stiffness of each body in the place of an inertia tensor; allocated only once a joint can add to it.</summary>
     internal Buffer<BodyInertia> Stiffness;
+    /// <summary>Principal frames of the bodies, as far as they are known; allocated only once a body's inertia is not diagonal.</summary>
+    // They say themselves what they are of: they need not move with the bodies.
+    internal Buffer<PrincipalFrame> PrincipalFrames;
     /// <summary>Shape and collision settings of each body.</summary>
     public Buffer<Collidable> Collidables;
     /// <summary>Progress of each body towards sleep.</summary>
@@ -83,6 +87,8 @@ public struct BodySet
         ResizeZeroed(ref Origins, capacity, Count, pool);
         if (Stiffness.Allocated)
             ResizeZeroed(ref Stiffness, capacity, Count, pool);
+        if (PrincipalFrames.Allocated)
+            ResizeZeroed(ref PrincipalFrames, capacity, Count, pool);
         ResizeZeroed(ref Collidables, capacity, Count, pool);
         ResizeZeroed(ref Activity, capacity, Count, pool);
         ResizeZeroed(ref Constraints, capacity, Count, pool);
@@ -93,6 +99,14 @@ public struct BodySet
     {
         if (!Stiffness.Allocated)
             ResizeZeroed(ref Stiffness, Capacity, 0, pool);
+    }
+
+    /// <summary>Makes room for principal frames, if this is the first body whose inertia is not diagonal.</summary>
+    internal void EnsurePrincipalFrames(in Symmetric3x3 inverseInertia, BufferPool pool)
+    {
+        var isDiagonal = inverseInertia.YX == 0 && inverseInertia.ZX == 0 && inverseInertia.ZY == 0;
+        if (!isDiagonal && !PrincipalFrames.Allocated)
+            ResizeZeroed(ref PrincipalFrames, Capacity, 0, pool);
     }
 
     static void ResizeZeroed<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged
@@ -149,6 +163,8 @@ public struct BodySet
         pool.Return(ref Origins);
         if (Stiffness.Allocated)
             pool.Return(ref Stiffness);
+        if (PrincipalFrames.Allocated)
+            pool.Return(ref PrincipalFrames);
         pool.Return(ref Collidables);
         pool.Return(ref Activity);
         pool.Return(ref Constraints);

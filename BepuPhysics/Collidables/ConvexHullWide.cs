@@ -96,15 +96,9 @@ public unsafe struct ConvexHullWide : IShapeWide<ConvexHull>
             least = Wide.Min(along, least);
             greatest = Wide.Max(along, greatest);
         }
-        float low = least[0], high = greatest[0];
-        for (int i = 1; i < Vector<float>.Count; ++i)
-        {
-            low = least[i] < low ? least[i] : low;
-            high = greatest[i] > high ? greatest[i] : high;
-        }
         // Of zeros of both signs, which one is found depends on the order: adding zero leaves the positive one.
-        GatherScatter.Get(ref min, lane) = low + 0f;
-        GatherScatter.Get(ref max, lane) = high + 0f;
+        GatherScatter.Get(ref min, lane) = 0f - Wide.SpreadGreatest(-least)[0];
+        GatherScatter.Get(ref max, lane) = Wide.SpreadGreatest(greatest)[0] + 0f;
     }
 
     /// <summary>Part of a line that is inside all planes, and the face by which it enters.</summary>

@@ -45,7 +45,10 @@ public class ConvexShapeBatch<TShape, TShapeWide> : ShapeBatch<TShape>, IConvexS
         Check.That(shapeIndices.Length <= Vector<float>.Count);
         var bundle = default(TShapeWide);
         for (int lane = 0; lane < shapeIndices.Length; ++lane)
-            Lanes.Write(Get(shapeIndices[lane]), ref bundle, lane);
+        {
+            if (shapeIndices[lane] >= 0)
+                Lanes.Write(Get(shapeIndices[lane]), ref bundle, lane);
+        }
         bundle.GetBounds(orientations, out maximumRadius, out maximumAngularExpansion, out min, out max);
     }
 }

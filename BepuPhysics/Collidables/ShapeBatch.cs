@@ -182,7 +182,10 @@ public abstract unsafe class ShapeBatch
     private protected abstract void* GetPointer(int shapeIndex);
 
     /// <summary>Bounds of a bundle of shapes, as <see cref="IShapeWide{TShape}.GetBounds"/>.</summary>
-    /// <param name="shapeIndices">Index per lane, at most as many as there are lanes; results of the lanes beyond mean nothing.</param>
+    /// <param name="shapeIndices">
+    /// Index per lane, at most as many as there are lanes; negative for a lane without shape. Results of such lanes, and of those beyond, mean
+    /// nothing.
+    /// </param>
     /// <param name="orientations">Rotation per lane.</param>
     /// <param name="maximumRadius">Distance from the centre to the farthest point.</param>
     /// <param name="maximumAngularExpansion">How far rotation carries the surface beyond the box.</param>

@@ -25,6 +25,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     // What a worker has found; its memory is its own.
     struct Worker
     {
+        public PairQueue Queue;
         public CollisionBatcher<Completion> Batcher;
         public QuickList<TestedPair> TestedPairs;
         public QuickList<PendingPair> Pending;
@@ -84,7 +85,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     // Receives overlapping pairs of the broad phase.
     readonly struct Overlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase) : IBroadPhaseOverlapHandler
     {
-        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic) => narrowPhase.TestPair(
+        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic) => narrowPhase.Enqueue(
             workerIndex, broadPhase.ActiveLeaves[leafA], bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB]);
     }
 
@@ -101,6 +102,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         for (int i = 0; i < count; ++i)
         {
             ref var worker = ref workers[i];
+            worker.Queue = default;
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
                 Pairs.Histories.Memory);
@@ -133,16 +135,29 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         public readonly int StageCount => 1;
         public readonly int GetBlockCount(int stage) => WorkerCount;
         // A batcher may be emptied by another worker than filled it: one batcher is one block, so no two touch it at once.
-        public readonly void Execute(int stage, int block, int workerIndex) => NarrowPhase.workers[block].Batcher.Flush();
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
+                NarrowPhase.TestPair(block, pair.A, pair.B);
+            NarrowPhase.workers[block].Batcher.Flush();
+        }
     }
 
-    void TestPair(int workerIndex, CollidableReference a, CollidableReference b)
+    void Enqueue(int workerIndex, CollidableReference a, CollidableReference b)
     {
         // Statics come second, then kinematics, then the larger handle: the constraint of a pair has its bodies in one order for ever.
         if (a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.RawHandleValue > b.RawHandleValue))
             (a, b) = (b, a);
         if (a.Mobility != CollidableMobility.Dynamic)
             return;
+        ref var queue = ref workers[workerIndex].Queue;
+        queue.Add(Pairs, new(a, b));
+        if (queue.TryTake(out var pair))
+            TestPair(workerIndex, pair.A, pair.B);
+    }
+
+    void TestPair(int workerIndex, CollidableReference a, CollidableReference b)
+    {
         ref var set = ref Simulation.Bodies.ActiveSet;
         var handleToLocation = Simulation.Bodies.HandleToLocation;
         var indexA = handleToLocation[a.RawHandleValue].Index;

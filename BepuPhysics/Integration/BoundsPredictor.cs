@@ -47,13 +47,13 @@ unsafe struct BoundsPredictor : IStagedWork
         {
             if ((done & 1 << first) != 0 || collidables[first].BroadPhaseIndex < 0)
                 continue;
-            // All lanes of this shape type at once. Lanes of other types compute with the first lane's shape and are not used.
+            // All lanes of this shape type at once. The others have no shape.
             var type = collidables[first].Shape.Type;
             int lanes = 0;
             for (int i = 0; i < Vector<float>.Count; ++i)
             {
                 var same = i >= first && i < count && collidables[i].BroadPhaseIndex >= 0 && collidables[i].Shape.Type == type;
-                shapeIndices[i] = collidables[same ? i : first].Shape.Index;
+                shapeIndices[i] = same ? collidables[i].Shape.Index : -1;
                 if (same)
                     lanes |= 1 << i;
             }

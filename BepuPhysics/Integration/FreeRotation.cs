@@ -50,8 +50,15 @@ static class FreeRotation
     }
 
     /// <summary>Turns a free body, with its angular momentum and its energy kept.</summary>
+    /// <param name="inverseInertia">In the bodies' frames.</param>
+    /// <param name="frames">Principal frames of all bodies, as far as they are known; null where there is no room for them.</param>
+    /// <param name="indices">Indices of the bodies.</param>
+    /// <param name="dt">Time, s.</param>
+    /// <param name="orientation">Orientation.</param>
+    /// <param name="angular">Angular velocity.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal static void Tumble(in Symmetric3x3Wide inverseInertia, Vector<float> dt, ref QuaternionWide orientation, ref Vector3Wide angular)
+    internal static unsafe void Tumble(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
+        ref QuaternionWide orientation, ref Vector3Wide angular)
     {
         var turned = Turn(orientation, angular, dt);
         var tumbles = CanTumble(inverseInertia);
@@ -60,7 +67,7 @@ static class FreeRotation
             orientation = turned;
             return;
         }
-        PrincipalAxes.Find(inverseInertia, tumbles, out var toBody, out var principal);
+        PrincipalAxes.Find(inverseInertia, tumbles, frames, indices, out var toBody, out var principal);
         var frame = QuaternionWide.Concatenate(toBody, orientation);
         var local = QuaternionWide.Conjugate(frame) * angular;
 

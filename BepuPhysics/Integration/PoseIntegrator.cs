@@ -53,7 +53,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             if (stage == IntegrationStage.First)
                 Begin(origins, displacements, indices, pose.Position);
             else
-                MovePoses(motions, origins, displacements, indices, wideDt, localInertia, ref pose, ref velocity);
+                MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
             if (stage == IntegrationStage.Last)
             {
                 End(origins, displacements, indices, pose.Position);
@@ -167,8 +167,8 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void MovePoses(
-        float* motions, float* origins, float* displacements, Vector<int> indices, Vector<float> dt, in BodyInertiaWide localInertia,
-        ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+        float* motions, float* origins, float* displacements, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
+        in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
@@ -190,7 +190,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 FreeRotation.TurnKeepingMomentum(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
                 break;
             case AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque:
-                FreeRotation.Tumble(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
+                FreeRotation.Tumble(inverseInertia, frames, indices, dt, ref pose.Orientation, ref velocity.Angular);
                 break;
             default:
                 pose.Orientation = FreeRotation.Turn(pose.Orientation, velocity.Angular, dt);

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics;
@@ -13,24 +14,50 @@ static class PrincipalAxes
     /// <summary>Principal frame and moments of a bundle of tensors. Diagonal ones, as of most shapes, cost a comparison.</summary>
     /// <param name="tensor">The tensors.</param>
     /// <param name="mask">Lanes that are asked for.</param>
+    /// <param name="known">What was found for the bodies before, a row for each; null where there is no room for it.</param>
+    /// <param name="indices">Indices of the bodies.</param>
     /// <param name="toBody">Rotation from the principal frame to the frame of the tensor; the identity where that is diagonal.</param>
     /// <param name="principal">Diagonal of the tensor in the principal frame.</param>
-    internal static void Find(in Symmetric3x3Wide tensor, Vector<int> mask, out QuaternionWide toBody, out Vector3Wide principal)
+    internal static unsafe void Find(
+        in Symmetric3x3Wide tensor, Vector<int> mask, PrincipalFrame* known, Vector<int> indices, out QuaternionWide toBody, out Vector3Wide principal)
     {
         toBody = QuaternionWide.Identity;
         principal = new(tensor.XX, tensor.YY, tensor.ZZ);
         var zero = Vector<float>.Zero;
-        var offDiagonal = mask & ~(Vector.Equals(tensor.YX, zero) & Vector.Equals(tensor.ZX, zero) & Vector.Equals(tensor.ZY, zero));
-        if (Vector.EqualsAll(offDiagonal, Vector<int>.Zero))
+        var isTilted = mask & ~(Vector.Equals(tensor.YX, zero) & Vector.Equals(tensor.ZX, zero) & Vector.Equals(tensor.ZY, zero));
+        if (Vector.EqualsAll(isTilted, Vector<int>.Zero))
             return;
+        var unknown = isTilted;
+        if (known != null)
+        {
+            var row = Transpose.Gather((float*)known, Rows8.Count, indices);
+            var isKnown = isTilted & Vector.Equals(row.R4, tensor.YX) & Vector.Equals(row.R5, tensor.ZX) & Vector.Equals(row.R6, tensor.ZY) &
+                Vector.Equals(row.R7, PrincipalFrame.DiagonalKey(tensor));
+            toBody = QuaternionWide.Select(isKnown, new(row.R0, row.R1, row.R2, row.R3), toBody);
+            unknown = Vector.AndNot(isTilted, isKnown);
+        }
+        if (!Vector.EqualsAll(unknown, Vector<int>.Zero))
+            FindUnknown(tensor, unknown, known, indices, ref toBody);
+        // The same expression for found and for known frames, or a body would move otherwise for having been here before.
+        var axes = Matrix3x3Wide.FromQuaternion(toBody);
+        principal = new(
+            Vector3Wide.Dot(axes.X, tensor * axes.X), Vector3Wide.Dot(axes.Y, tensor * axes.Y), Vector3Wide.Dot(axes.Z, tensor * axes.Z));
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static unsafe void FindUnknown(
+        in Symmetric3x3Wide tensor, Vector<int> mask, PrincipalFrame* known, Vector<int> indices, ref QuaternionWide toBody)
+    {
         var copy = tensor;
+        var keys = PrincipalFrame.DiagonalKey(tensor);
         for (int lane = 0; lane < Vector<float>.Count; ++lane)
         {
-            if (offDiagonal[lane] == 0)
+            if (mask[lane] == 0)
                 continue;
-            Find(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref copy, lane), out var rotation, out var moments);
+            Find(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref copy, lane), out var rotation, out _);
             Lanes.Write(rotation, ref toBody, lane);
-            Lanes.Write(moments, ref principal, lane);
+            if (known != null && indices[lane] >= 0)
+                known[indices[lane]] = new(rotation, new(tensor.YX[lane], tensor.ZX[lane], tensor.ZY[lane]), keys[lane]);
         }
     }
 

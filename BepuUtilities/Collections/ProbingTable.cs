@@ -32,7 +32,7 @@ static class ProbingTable
 
     /// <summary>Where the probe for a key begins.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static int GetHome<TKey, TComparer>(ref TKey key, int mask, ref TComparer comparer) where TComparer : IEqualityComparerRef<TKey>
+    public static int GetHome<TKey, TComparer>(ref TKey key, int mask, ref TComparer comparer) where TComparer : IEqualityComparerRef<TKey>
     {
         // Hashes of handles and indices are runs of integers, pairs of them packed in high and low halves: a multiplication carries
         // all bits upwards, the shift brings them down to where the mask looks (2^32 over the golden ratio, Knuth 6.4).

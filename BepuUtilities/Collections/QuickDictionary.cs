@@ -119,6 +119,32 @@ public partial struct QuickDictionary<TKey, TValue, TComparer>
     public bool GetTableIndices(in TKey key, out int tableIndex, out int elementIndex) =>
         ProbingTable.Find(Table, TableMask, Keys, ref Unsafe.AsRef(in key), ref EqualityComparer, out tableIndex, out elementIndex);
 
+    /// <summary>Asks the processor to load the slot that a lookup of a key will begin with. Changes no result.</summary>
+    /// <param name="key">The key.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly unsafe void PrefetchSlot(in TKey key)
+    {
+        var comparer = EqualityComparer;
+        Prefetch.Read(Table.Memory + ProbingTable.GetHome(ref Unsafe.AsRef(in key), TableMask, ref comparer));
+    }
+
+    /// <summary>Asks the processor to load the key and the value that a lookup will most likely end with. Changes no result.</summary>
+    /// <param name="key">The key, whose slot should be loaded.</param>
+    /// <returns>Index of the element in question, which may be another's; -1 where there is none.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly unsafe int PrefetchElement(in TKey key)
+    {
+        var comparer = EqualityComparer;
+        var index = Table[ProbingTable.GetHome(ref Unsafe.AsRef(in key), TableMask, ref comparer)] - 1;
+        if (index >= 0)
+        {
+            Prefetch.Read(Keys.Memory + index);
+            Prefetch.Read(Values.Memory + index);
+        }
+        return index;
+    }
+
+
     /// <summary>Index of a key, or -1.</summary>
     public int IndexOf(in TKey key) => GetTableIndices(in key, out _, out var index) ? index : -1;
 

@@ -95,4 +95,26 @@ public static partial class Wide
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<float> NormalizingPowerOfTwo(Vector<float> value) =>
         Vector.AsVectorSingle(new Vector<int>(254 << 23) - (Vector.AsVectorInt32(value) & new Vector<int>(0xFF << 23)));
+
+    /// <summary>The greatest of all lanes, in all lanes. Of zeros of both signs either may be it.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> SpreadGreatest(Vector<float> v)
+    {
+        if (Vector<float>.Count == 8)
+        {
+            var all = v.AsVector256();
+            v = Max(v, Vector256.Create(all.GetUpper(), all.GetLower()).AsVector());
+            v = Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(2, 3, 0, 1, 6, 7, 4, 5)).AsVector());
+            return Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(1, 0, 3, 2, 5, 4, 7, 6)).AsVector());
+        }
+        if (Vector<float>.Count == 4)
+        {
+            v = Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(2, 3, 0, 1)).AsVector());
+            return Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(1, 0, 3, 2)).AsVector());
+        }
+        var greatest = v[0];
+        for (int i = 1; i < Vector<float>.Count; ++i)
+            greatest = v[i] > greatest ? v[i] : greatest;
+        return new(greatest);
+    }
 }

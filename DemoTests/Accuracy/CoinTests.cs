@@ -113,7 +113,6 @@ public class CoinTests(ITestOutputHelper output)
             .Limit("speed", speed, .001, "m/s")
             .Limit("height", height, .001, "m")
             .Limit("lean", lean, .5, "degrees")
-            // The fastest still spin: air alone, with a damping of 0.05/s, has left them half of their spin after 15 s.
-            .Finish(output, enforce: false);
+            .Finish(output, enforce: true);
     }
 }

@@ -27,7 +27,7 @@ public class PairHistoryTests
         public Vector3 PointA, PointB;
         public PairHistory History;
 
-        public Found(bool touching = true, float depth = 0.002f)
+        public Found(bool touching = true, float depth = 0.002f, int leastCarriedCount = 1)
         {
             B = new(new Vector3(3.4f, 0.3f, 4.8f), Turn(new Vector3(-0.4f, 0.1f, 0.6f)));
             // The surface points lie half the depth to either side of the contact, A's towards B.
@@ -37,7 +37,8 @@ public class PairHistoryTests
             var manifold = new ConvexContactManifold { Count = touching ? 1 : 0, OffsetB = B.Position - A.Position, Normal = Normal };
             manifold.Contact0 = new ConvexContact { Offset = contact - A.Position, Depth = depth, FeatureId = 42 };
             History.Identify(shapeA, shapeB);
-            History.Record(manifold, new PairMeasures { Depth = depth, ReachA = ReachA, ReachB = ReachB }, A.Orientation, B.Orientation, Margin);
+            History.Record(manifold, new PairMeasures { Depth = depth, ReachA = ReachA, ReachB = ReachB }, A.Orientation, B.Orientation, Margin,
+                leastCarriedCount);
         }
 
         public bool Reuse(in RigidPose a, in RigidPose b, out ConvexContactManifold manifold, float margin = Margin)
@@ -151,6 +152,16 @@ public class PairHistoryTests
         Assert.False(found.Reuse(found.A, found.B, out _, Margin * 2));
         // Contacts farther apart than the pair may move unnoticed are of no interest.
         Assert.True(found.Reuse(found.A, found.B, out _, PairHistory.Tolerance * ReachB * 0.5f));
+    }
+
+    [Fact]
+    public void Contacts_of_what_may_roll_are_not_carried()
+    {
+        var rolling = new Found(leastCarriedCount: 3);
+        var apart = new Found(touching: false, depth: -1, leastCarriedCount: 3);
+
+        Assert.False(rolling.Reuse(rolling.A, rolling.B, out _));
+        Assert.True(apart.Reuse(apart.A, apart.B, out _));
     }
 
     [Fact]

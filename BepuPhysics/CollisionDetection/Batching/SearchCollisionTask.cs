@@ -89,6 +89,6 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             (orientationA, orientationB) = (orientationB, orientationA);
             (measures.ReachA, measures.ReachB) = (measures.ReachB, measures.ReachA);
         }
-        history.Record(manifold, measures, orientationA, orientationB, Lane(ref bundle.SpeculativeMargin, lane));
+        history.Record(manifold, measures, orientationA, orientationB, Lane(ref bundle.SpeculativeMargin, lane), TTester.LeastCarriedContactCount);
     }
 }

@@ -71,6 +71,14 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
 
+    /// <summary>Asks the processor to load a pair's history, if it has one. Changes no result.</summary>
+    public readonly void PrefetchHistory(int index)
+    {
+        var history = Pairs.Values[index].History;
+        if (history >= 0)
+            Histories.Prefetch(history);
+    }
+
     /// <summary>Adds a pair without constraint that has been seen in this step.</summary>
     public void Add(CollidablePair pair, bool keepsHistory, BufferPool pool)
     {

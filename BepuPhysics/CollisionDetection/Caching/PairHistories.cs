@@ -18,6 +18,16 @@ unsafe struct PairHistories
     /// <summary>Whether an index is that of a history in use, as far as can be told.</summary>
     public readonly bool MayExist(int index) => index > 0 && index <= ids.HighestPossiblyClaimedId + 1;
 
+    /// <summary>Asks the processor to load what decides whether there will be a test. Changes no result.</summary>
+    public readonly void Prefetch(int index)
+    {
+        // The state of the search, one line and a half, is read in bundles.
+        const int line = 64;
+        var history = (byte*)(histories.Memory + index);
+        for (int offset = line; offset < sizeof(PairHistory); offset += line)
+            BepuUtilities.Memory.Prefetch.Read(history + offset);
+    }
+
     /// <summary>Takes a history that knows nothing.</summary>
     public int Take(BufferPool pool)
     {

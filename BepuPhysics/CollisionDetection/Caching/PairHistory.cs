@@ -66,7 +66,9 @@ unsafe struct PairHistory
     /// <param name="turnA">Orientation of A.</param>
     /// <param name="turnB">Orientation of B.</param>
     /// <param name="speculativeMargin">Margin of the test.</param>
-    public void Record(in ConvexContactManifold found, in PairMeasures measures, in Quaternion turnA, in Quaternion turnB, float speculativeMargin)
+    /// <param name="leastCarriedCount">Number of contacts from which on they may be carried along.</param>
+    public void Record(in ConvexContactManifold found, in PairMeasures measures, in Quaternion turnA, in Quaternion turnB, float speculativeMargin,
+        int leastCarriedCount)
     {
         manifold = found;
         orientationA = turnA;
@@ -75,7 +77,7 @@ unsafe struct PairHistory
         margin = speculativeMargin;
         reachA = measures.ReachA;
         reachB = measures.ReachB;
-        remaining = Lifetime;
+        remaining = found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0;
     }
 
     /// <summary>Finds the contacts without a test, if the bodies have hardly moved since the last one.</summary>

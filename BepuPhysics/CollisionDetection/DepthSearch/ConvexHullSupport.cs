@@ -70,7 +70,7 @@ public readonly unsafe struct ConvexHullSupport : ISupport<ConvexHullWide>
             farthest = Wide.Select(farther, along, farthest);
             farthestBundle = Wide.Select(farther, bundle, farthestBundle);
         }
-        var bits = LanesOf(Vector.Equals(farthest, SpreadGreatest(farthest)));
+        var bits = LanesOf(Vector.Equals(farthest, Wide.SpreadGreatest(farthest)));
         // No lane at all where the direction is not a number.
         var lane = bits == 0 ? 0 : BitOperations.TrailingZeroCount(bits);
         var found = GatherScatter.Get(ref farthestBundle, lane);
@@ -85,28 +85,6 @@ public readonly unsafe struct ConvexHullSupport : ISupport<ConvexHullWide>
             }
         }
         return (float*)(points + found) + lane;
-    }
-
-    /// <summary>The greatest of all lanes, in all lanes.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> SpreadGreatest(Vector<float> v)
-    {
-        if (Vector<float>.Count == 8)
-        {
-            var all = v.AsVector256();
-            v = Wide.Max(v, Vector256.Create(all.GetUpper(), all.GetLower()).AsVector());
-            v = Wide.Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(2, 3, 0, 1, 6, 7, 4, 5)).AsVector());
-            return Wide.Max(v, Vector256.Shuffle(v.AsVector256(), Vector256.Create(1, 0, 3, 2, 5, 4, 7, 6)).AsVector());
-        }
-        if (Vector<float>.Count == 4)
-        {
-            v = Wide.Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(2, 3, 0, 1)).AsVector());
-            return Wide.Max(v, Vector128.Shuffle(v.AsVector128(), Vector128.Create(1, 0, 3, 2)).AsVector());
-        }
-        var greatest = v[0];
-        for (int i = 1; i < Vector<float>.Count; ++i)
-            greatest = v[i] > greatest ? v[i] : greatest;
-        return new(greatest);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -12,6 +12,9 @@ public readonly struct CapsuleFeature : IContactFeature<CapsuleWide>
     public static int MaximumVertexCount => 2;
 
     /// <inheritdoc/>
+    public static bool IsRound => true;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Find(in CapsuleWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,
         out ContactFeatureWide feature)

@@ -25,6 +25,9 @@ public readonly struct CylinderFeature : IContactFeature<CylinderWide>
     public static int MaximumVertexCount => CapVertexCount;
 
     /// <inheritdoc/>
+    public static bool IsRound => true;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Find(in CylinderWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,
         out ContactFeatureWide feature)

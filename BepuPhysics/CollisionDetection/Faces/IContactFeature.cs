@@ -11,6 +11,9 @@ public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
     /// <summary>Greatest number of vertices of a feature, 1 to 64.</summary>
     static abstract int MaximumVertexCount { get; }
 
+    /// <summary>Whether the shape can roll: its surface then turns away under a contact that stays where it is.</summary>
+    static virtual bool IsRound => false;
+
     /// <summary>Finds the feature that faces a direction.</summary>
     /// <param name="shape">Shapes.</param>
     /// <param name="direction">Unit directions out of the shapes, in their frames.</param>

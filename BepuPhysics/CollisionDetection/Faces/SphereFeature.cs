@@ -12,6 +12,9 @@ public readonly struct SphereFeature : IContactFeature<SphereWide>
     public static int MaximumVertexCount => 1;
 
     /// <inheritdoc/>
+    public static bool IsRound => true;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Find(in SphereWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,
         out ContactFeatureWide feature)

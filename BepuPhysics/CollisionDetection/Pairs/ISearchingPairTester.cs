@@ -10,6 +10,9 @@ namespace BepuPhysics.CollisionDetection;
 interface ISearchingPairTester<TShapeWideA, TShapeWideB, TContacts>
     where TShapeWideA : unmanaged where TShapeWideB : unmanaged where TContacts : unmanaged, IFew<ContactWide>
 {
+    /// <summary>Number of contacts from which on they may be carried along with the surfaces while the bodies hardly move.</summary>
+    static abstract int LeastCarriedContactCount { get; }
+
     /// <summary>Tests a bundle of pairs.</summary>
     /// <param name="a">First shapes.</param>
     /// <param name="b">Second shapes.</param>

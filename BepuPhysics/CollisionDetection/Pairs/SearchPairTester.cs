@@ -20,6 +20,10 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     where TShapeWideB : unmanaged where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
     /// <inheritdoc/>
+    // What rolls has one contact or two. Carried along they would go up behind it and push it on; a cylinder's end that lies flat has more.
+    public static int LeastCarriedContactCount => TFeatureA.IsRound || TFeatureB.IsRound ? 3 : 1;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in TShapeWideA a, in TShapeWideB b, in PairPoseWide pose, Vector<float> speculativeMargin,
         ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<Few4<ContactWide>> manifold)

@@ -102,8 +102,14 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             depth += Vector3Wide.Dot(b.Translation, n) - Vector3Wide.Dot(b.Rotation, angularB);
         }
         // Surfaces that are apart may close their gap within the substep but no more; penetration is pushed out as the spring says.
-        var wanted = Wide.Min(depth * inverseDt, Wide.Min(depth * softness.ErrorToVelocity, prestep.Material.MaximumRecoveryVelocity));
-        var total = Wide.Max(impulse + (wanted - velocity) * (softness.MassScale / inverseMass) - impulse * softness.ImpulseScale, Vector<float>.Zero);
+        var recovery = depth * softness.ErrorToVelocity;
+        var isLimited = Vector.GreaterThan(recovery, prestep.Material.MaximumRecoveryVelocity);
+        var wanted = Wide.Min(depth * inverseDt, Wide.Min(recovery, prestep.Material.MaximumRecoveryVelocity));
+        var massScale = softness.MassScale;
+        var impulseScale = softness.ImpulseScale;
+        if (!Vector.EqualsAll(isLimited, Vector<int>.Zero))
+            Stiffen(isLimited, prestep.Material.MaximumRecoveryVelocity / recovery, ref massScale, ref impulseScale);
+        var total = Wide.Max(impulse + (wanted - velocity) * (massScale / inverseMass) - impulse * impulseScale, Vector<float>.Zero);
         var change = total - impulse;
         impulse = total;
         a.Linear += n * (change * a.InverseMass);
@@ -114,6 +120,17 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             b.Linear -= n * (change * b.InverseMass);
             b.Angular += responseB * change;
         }
+    }
+
+    // At rest a soft row carries wanted / (softness x inverse mass): were only its velocity limited, so would be its force, and a light
+    // body under a heavy one would sink without end. Its softness falls with the velocity, and the force goes on to rise with the depth.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Stiffen(Vector<int> isLimited, Vector<float> ratio, ref Vector<float> massScale, ref Vector<float> impulseScale)
+    {
+        var softness = impulseScale / massScale * ratio;
+        var stiffMassScale = Vector<float>.One / (Vector<float>.One + softness);
+        massScale = Wide.Select(isLimited, stiffMassScale, massScale);
+        impulseScale = Wide.Select(isLimited, softness * stiffMassScale, impulseScale);
     }
 
     // Two rows that share an anchor, so their effective mass is a 2 x 2 block: a block solve stops sliding in one sweep where two rows in turn would not.

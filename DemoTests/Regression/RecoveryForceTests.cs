@@ -1,0 +1,59 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Collidables;
+using DemoTests.Accuracy;
+using Xunit;
+
+namespace DemoTests.Regression;
+
+/// <summary>
+/// The velocity by which contacts push bodies apart is limited, their force is not: a soft contact under any load rests where its spring says.
+/// (With the limit on the force, too, light bodies sank through the floor under a pile.)
+/// </summary>
+public class RecoveryForceTests
+{
+    // That of rigid contacts: an eighth of a cycle per substep.
+    const double Frequency = .125 * 4 * 60;
+
+    /// <summary>g / w2 for a spring of angular frequency w, whatever the mass: beyond 30 mm the recovery velocity is at its limit.</summary>
+    [Theory]
+    [InlineData(100, 1)]
+    [InlineData(1000, 1)]
+    [InlineData(2000, 1)]
+    [InlineData(4000, 1)]
+    [InlineData(2000, .5f)]
+    public void A_load_rests_at_the_depth_that_its_spring_says(float gravity, float maximumRecoveryVelocity)
+    {
+        var settings = new AccuracySettings
+        {
+            Gravity = new Vector3(0, -gravity, 0),
+            MaximumRecoveryVelocity = maximumRecoveryVelocity,
+            SubstepCount = 4,
+        };
+        using var world = new AccuracyWorld(settings);
+        world.AddGround(thickness: 20);
+        var body = world.AddDynamic(new Sphere(.5f), 1, new Vector3(0, .5f, 0));
+
+        world.Run(2);
+
+        double angular = 2 * Math.PI * Frequency;
+        Assert.Equal(gravity / (angular * angular), .5 - world.Position(body).Y, .02 * gravity / (angular * angular));
+    }
+
+    [Theory]
+    [InlineData(.5f)]
+    [InlineData(2)]
+    public void A_body_that_is_deep_comes_out_no_faster_than_it_may(float maximumRecoveryVelocity)
+    {
+        var settings = new AccuracySettings { Gravity = default, MaximumRecoveryVelocity = maximumRecoveryVelocity };
+        using var world = new AccuracyWorld(settings);
+        world.AddGround();
+        var body = world.AddDynamic(new Sphere(.5f), 1, new Vector3(0, .1f, 0));
+        double fastest = 0;
+
+        world.Run(2, () => fastest = Math.Max(fastest, world.LinearVelocity(body).Y));
+
+        Assert.InRange(fastest, .9 * maximumRecoveryVelocity, 1.001 * maximumRecoveryVelocity);
+        Assert.True(world.Position(body).Y > .5);
+    }
+}
