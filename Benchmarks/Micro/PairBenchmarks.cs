@@ -30,6 +30,8 @@ public class PairBenchmarks : IDisposable
             CapsuleBoxTester>(NextCapsule, NextBox),
         [nameof(CapsuleTriangleTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Triangle, TriangleWide, Few2<ContactWide>,
             CapsuleTriangleTester>(NextCapsule, NextTriangle),
+        [nameof(CapsuleCylinderTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Cylinder, CylinderWide, Few2<ContactWide>,
+            CapsuleCylinderTester>(NextCapsule, NextCylinder),
         [nameof(BoxBoxTester)] = () => PairFixture.Create<Box, BoxWide, Box, BoxWide, Few4<ContactWide>,
             BoxBoxTester>(NextBox, NextBox),
     };
