@@ -10,8 +10,8 @@ namespace DemoTests.CollisionDetection;
 
 /// <summary>All convex pairs that the library tests, in all regimes, against the reference.</summary>
 /// <remarks>
-/// PHYSICS_FULL_TESTS takes 100,000 poses per pair in place of some hundreds. PHYSICS_CONVEX_SEEDS=verification takes the seeds that are
-/// kept for the final check.
+/// PHYSICS_FULL_TESTS takes 100,000 poses per pair in place of 1,800, PHYSICS_CONVEX_POSES as many as it says.
+/// PHYSICS_CONVEX_SEEDS=verification takes the seeds that are kept for the final check.
 /// </remarks>
 public class ConvexPairTests(ITestOutputHelper output)
 {
@@ -25,7 +25,10 @@ public class ConvexPairTests(ITestOutputHelper output)
         ? ConvexPoses.VerificationSeed
         : ConvexPoses.DevelopmentSeed;
 
-    static int BlocksPerRegime => isFull ? 100_000 / 6 / BlockSize + 1 : 300 / BlockSize;
+    static int BlocksPerRegime => PoseCount / 6 / BlockSize + (isFull ? 1 : 0);
+
+    static int PoseCount =>
+        int.TryParse(Environment.GetEnvironmentVariable("PHYSICS_CONVEX_POSES"), out var count) ? count : isFull ? 100_000 : 1_800;
 
     public static TheoryData<ConvexKind, ConvexKind> RegisteredPairs()
     {

@@ -71,7 +71,7 @@ unsafe struct FaceOverlap
         var border = Border;
         // An edge that moves less than half the border across another counts as parallel to it.
         var half = border * new Vector<float>(0.5f);
-        B.Widen(border);
+        B.Widen(border, mask);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
         for (var vertex = verticesB; vertex != endB; ++vertex)
@@ -111,7 +111,7 @@ unsafe struct FaceOverlap
     [MethodImpl(MethodImplOptions.NoInlining)]
     void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
     {
-        polygon.Widen(Border);
+        polygon.Widen(Border, mask);
         ref var edge = ref segment.Vertices[0];
         var half = Border * new Vector<float>(0.5f);
         var start = Vector<float>.Zero;
