@@ -106,6 +106,8 @@ sealed class ConvexCandidates(double tolerance)
     /// <summary>Directions from B to A that are within the tolerance of a depth, each once, best first.</summary>
     public Double3[] Normals(double depth)
     {
+        // A depth of nothing may be less than that of any candidate by rounding.
+        depth = Math.Max(depth, Least);
         candidates.RemoveAll(c => c.Depth > depth + tolerance);
         candidates.Sort((a, b) => a.Depth.CompareTo(b.Depth));
         var normals = new List<Double3>();
