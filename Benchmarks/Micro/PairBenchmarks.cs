@@ -34,6 +34,10 @@ public class PairBenchmarks : IDisposable
             CapsuleCylinderTester>(NextCapsule, NextCylinder),
         [nameof(BoxBoxTester)] = () => PairFixture.Create<Box, BoxWide, Box, BoxWide, Few4<ContactWide>,
             BoxBoxTester>(NextBox, NextBox),
+        [nameof(BoxTriangleTester)] = () => PairFixture.Create<Box, BoxWide, Triangle, TriangleWide, Few4<ContactWide>,
+            BoxTriangleTester>(NextBox, NextTriangle),
+        [nameof(TriangleTriangleTester)] = () => PairFixture.Create<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>,
+            TriangleTriangleTester>(NextTriangle, NextTriangle),
     };
 
     PairFixture? fixture;

@@ -78,7 +78,8 @@ public static unsafe class ConvexHullHelper
     /// <param name="transform">Where the axes of the hull's frame go, one per row; not singular.</param>
     /// <param name="pool">Source of the copy's memory.</param>
     /// <param name="target">The copy, with memory of its own.</param>
-    /// <exception cref="ArgumentException">The hull has no memory, or the transform is not finite or is singular.</exception>
+    /// <exception cref="ArgumentException">The hull has no memory, the transform is not finite or is singular, or the copy would be smaller
+    /// than 1e-18 or larger than 1e18.</exception>
     public static void CreateTransformedCopy(in ConvexHull source, in Matrix3x3 transform, BufferPool pool, out ConvexHull target)
     {
         ArgumentNullException.ThrowIfNull(pool);

@@ -74,6 +74,26 @@ public class ConvexHullBuilderTests(ITestOutputHelper output)
         pool.AssertEmpty();
     }
 
+    /// <summary>
+    /// Flat cones and prisms with a rim like a razor, every point three times with some noise: points that are near the planes of both sides
+    /// of an edge are far outside once another point has made the edge blunt.
+    /// </summary>
+    [Theory, InlineData(2990), InlineData(15476), InlineData(40010)]
+    public void PointsBesideAnEdgeThatBecameBluntAreInside(int seed)
+    {
+        using var pool = new BufferPool();
+        var points = ConvexHullFuzzTests.Generate(seed, out _);
+        Assert.True(ConvexHullHelper.TryCreateShape(points, pool, out var center, out var hull, out var failure), failure.ToString());
+        var checker = new HullChecker(hull);
+        Assert.Null(checker.FindFault());
+        // Four roundings of the largest coordinate, as documented, and those of the vertices in the hull's frame.
+        var largest = points.Max(p => Math.Max(Math.Abs(p.X), Math.Max(Math.Abs(p.Y), Math.Abs(p.Z))));
+        var allowed = 2.4e-7 * largest / checker.Size + 2e-7;
+        Assert.InRange(checker.FarthestOutside(points, center), double.MinValue, allowed);
+        hull.Dispose(pool);
+        pool.AssertEmpty();
+    }
+
     /// <summary>Time is for the reader: what else the machine does is part of it.</summary>
     [Fact]
     public void TimeGrowsWithTheNumberOfPoints()

@@ -10,26 +10,27 @@ unsafe partial struct HullBuilder
     {
         var position = grid.Points[point];
         var chosen = None;
+        var chosenHeight = 0.0;
         for (int i = firstTriangle; i < endTriangle; ++i)
         {
             ref var triangle = ref Triangles[i];
-            var height = HeightOver(triangle, position) * triangle.InverseLength;
+            var scaledHeight = HeightOver(triangle, position);
+            var height = scaledHeight * triangle.InverseLength;
+            if (height > Negligible && (chosen == None || height > Tolerance))
+                (chosen, chosenHeight) = (i, scaledHeight);
             if (height > Tolerance)
-            {
-                chosen = i;
                 break;
-            }
-            if (height > Negligible && chosen == None)
-                chosen = i;
         }
         if (chosen != None)
-            Prepend(point, ref Triangles[chosen]);
+            Prepend(point, chosenHeight, ref Triangles[chosen]);
     }
 
-    readonly void Prepend(int point, ref HullTriangle triangle)
+    readonly void Prepend(int point, double scaledHeight, ref HullTriangle triangle)
     {
         nextOutside[point] = triangle.FirstOutside;
+        heights[point] = scaledHeight;
         triangle.FirstOutside = point;
+        triangle.GreatestHeight = Math.Max(triangle.GreatestHeight, scaledHeight);
     }
 
     /// <summary>
@@ -43,16 +44,18 @@ unsafe partial struct HullBuilder
         {
             var point = Triangles[i].FirstOutside;
             Triangles[i].FirstOutside = None;
+            Triangles[i].GreatestHeight = 0;
             while (point != None)
             {
                 var next = nextOutside[point];
-                var highest = FindHighest(i, grid.Points[point]);
-                // Those that no triangle is far below are inside for good.
-                if (highest != None)
-                {
-                    Prepend(point, ref Triangles[highest]);
+                var position = grid.Points[point];
+                var highest = FindHighest(i, position);
+                if (highest == None)
+                    highest = i;
+                else
                     current = Math.Min(current, highest);
-                }
+                // Those that no triangle is far below stay: a triangle that blunts a sharp edge may be farther below than both sides were.
+                Prepend(point, HeightOver(Triangles[highest], position), ref Triangles[highest]);
                 point = next;
             }
         }
@@ -94,17 +97,14 @@ unsafe partial struct HullBuilder
     // end of the edge, which stays a vertex, and none between, which would end up as a bend of nothing in the edge.
     readonly int TakeFarthest(ref HullTriangle triangle)
     {
-        var greatest = 0.0;
-        for (int point = triangle.FirstOutside; point != None; point = nextOutside[point])
-            greatest = Math.Max(greatest, HeightOver(triangle, grid.Points[point]));
-        if (greatest * triangle.InverseLength <= Tolerance)
+        if (triangle.GreatestHeight * triangle.InverseLength <= Tolerance)
             return None;
-        var enough = greatest - 0.5 * Tolerance / triangle.InverseLength;
+        var enough = triangle.GreatestHeight - 0.5 * Tolerance / triangle.InverseLength;
         int farthest = None, beforeFarthest = None, before = None;
         var greatestDistance = -1.0;
         for (int point = triangle.FirstOutside; point != None; before = point, point = nextOutside[point])
         {
-            if (HeightOver(triangle, grid.Points[point]) < enough)
+            if (heights[point] < enough)
                 continue;
             var offset = grid.Points[point] - grid.Middle;
             var distance = HullPoint.Dot(offset, offset);

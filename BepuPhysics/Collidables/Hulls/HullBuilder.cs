@@ -8,19 +8,22 @@ namespace BepuPhysics.Collidables;
 /// <remarks>
 /// Quickhull (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls", 1996): each triangle lists points above it; the
 /// farthest one is joined to the border of all that it sees, and what it sees goes. Points that are above no triangle by more than a
-/// tolerance are inside for good.
+/// tolerance are left out.
 /// What makes this safe is that a point sees a triangle when it is on or above its plane exactly, decided in whole numbers. For a convex
 /// surface this is what a point a little farther out sees, in general position; so the part seen is always one piece without holes, its
 /// border one loop, and no new triangle lies in the plane of the old one next to it, none has no area. The surface stays closed and convex
 /// for any input. All tolerances only decide which points are left out.
 /// A pass over the triangles in the order of their creation ends when the last one has nothing above it; each insertion uses up a point.
+/// No point that sees a triangle is forgotten before the end. Far beyond a razor-sharp edge a point may be next to the planes of both
+/// sides; once another point is joined to that edge, the new triangle that blunts it faces the first one, which is as far above that as
+/// it is from the edge.
 /// </remarks>
 unsafe partial struct HullBuilder
 {
     const int None = -1;
-    /// <summary>Height below which a point is on a triangle, cells: a multiple of what a height is rounded by, and no more, because near a
-    /// sharp edge the hull may be a hundred thousand times as far.</summary>
-    const double Negligible = 1;
+    /// <summary>Height below which a point is on a triangle, cells: what a height is rounded by, and no more, because near a sharp edge
+    /// the hull may be a hundred thousand times as far.</summary>
+    const double Negligible = 1.0 / 256;
 
     readonly BufferPool pool;
     readonly HullGrid grid;
@@ -35,6 +38,8 @@ unsafe partial struct HullBuilder
     int deadCount, stamp, current;
     // For each point: the one after it in the list of its triangle; for each corner of a border: the new triangle that begins there.
     Buffer<int> nextOutside, triangleAtStart;
+    // For each point in the list of a triangle: its height over that, in units of the normal's length.
+    Buffer<double> heights;
     // Triangles that the new point sees, and the border: outer triangles and the edges by which they touch what is seen.
     Buffer<int> seen, border;
     int seenCount, borderCount;
@@ -46,6 +51,7 @@ unsafe partial struct HullBuilder
         this.pool = pool;
         pool.Take(grid.Points.Length, out nextOutside);
         pool.Take(grid.Points.Length, out triangleAtStart);
+        pool.Take(grid.Points.Length, out heights);
         pool.TakeAtLeast(64, out Triangles);
         pool.TakeAtLeast(64, out seen);
         pool.TakeAtLeast(64, out border);
@@ -83,6 +89,7 @@ unsafe partial struct HullBuilder
     {
         pool.Return(ref nextOutside);
         pool.Return(ref triangleAtStart);
+        pool.Return(ref heights);
         pool.Return(ref Triangles);
         pool.Return(ref seen);
         pool.Return(ref border);

@@ -27,6 +27,8 @@ unsafe struct HullFaces
 
     // For each triangle its face; for each half-edge its neighbors on the outline; for each point the growth that last reached it.
     Buffer<int> faceOfTriangle, next, previous, reached;
+    // For each half-edge the point where it begins, and the half-edge the other way: what is asked most, in less memory than triangles.
+    Buffer<int> corners, twins;
     // Triangles of the face that is growing.
     Buffer<int> members;
     int memberCount, growth;
@@ -64,6 +66,8 @@ unsafe struct HullFaces
         pool.Take(triangleCount, out faceOfTriangle);
         pool.Take(triangleCount * 3, out next);
         pool.Take(triangleCount * 3, out previous);
+        pool.Take(triangleCount * 3, out corners);
+        pool.Take(triangleCount * 3, out twins);
         pool.Take(triangleCount, out members);
         pool.Take(points.Length, out reached);
         pool.Take(triangleCount, out Outlines);
@@ -71,6 +75,16 @@ unsafe struct HullFaces
         pool.Take(triangleCount, out Normals);
         faceOfTriangle.AsSpan().Fill(None);
         reached.AsSpan().Clear();
+        for (int i = 0; i < triangleCount; ++i)
+        {
+            ref var triangle = ref triangles[i];
+            for (int edge = 0; edge < 3; ++edge)
+            {
+                var neighbor = triangle.Neighbors[edge];
+                corners[3 * i + edge] = triangle.Corners[edge];
+                twins[3 * i + edge] = 3 * neighbor + triangles[neighbor].EdgeTo(i);
+            }
+        }
     }
 
     /// <summary>Makes faces of the triangles of a hull.</summary>
@@ -93,7 +107,7 @@ unsafe struct HullFaces
 
     /// <summary>Point at the corner where a half-edge begins.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly int Corner(int halfEdge) => triangles[halfEdge / 3].Corners[halfEdge % 3];
+    public readonly int Corner(int halfEdge) => corners[halfEdge];
 
     /// <summary>Half-edge of the next corner of the face.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -104,19 +118,13 @@ unsafe struct HullFaces
         pool.Return(ref faceOfTriangle);
         pool.Return(ref next);
         pool.Return(ref previous);
+        pool.Return(ref corners);
+        pool.Return(ref twins);
         pool.Return(ref members);
         pool.Return(ref reached);
         pool.Return(ref Outlines);
         pool.Return(ref CornerCounts);
         pool.Return(ref Normals);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly int Twin(int halfEdge)
-    {
-        var triangle = halfEdge / 3;
-        var neighbor = triangles[triangle].Neighbors[halfEdge % 3];
-        return neighbor * 3 + triangles[neighbor].EdgeTo(triangle);
     }
 
     void AddFace(int seed)
@@ -211,7 +219,7 @@ unsafe struct HullFaces
     bool TryAdd(int halfEdge, in Plane plane, out int added)
     {
         added = None;
-        var twin = Twin(halfEdge);
+        var twin = twins[halfEdge];
         var triangle = twin / 3;
         if (faceOfTriangle[triangle] != None)
             return false;
@@ -222,7 +230,7 @@ unsafe struct HullFaces
             return false;
 
         int before = previous[halfEdge], after = next[halfEdge];
-        bool closesBefore = Twin(before) == toApex, closesAfter = Twin(after) == fromApex;
+        bool closesBefore = twins[before] == toApex, closesAfter = twins[after] == fromApex;
         // A corner that the outline has elsewhere would pinch the face.
         if (closesBefore ? closesAfter : !closesAfter && reached[apex] == growth)
             return false;

@@ -19,6 +19,9 @@ struct HullGrid
     // Extents whose squares and cubes leave the range of a float have no use as shapes.
     const double MinimumExtent = 1e-18, MaximumExtent = 1e18;
 
+    /// <summary>Whether the longest side of a box is that of a shape.</summary>
+    public static bool IsSizeInRange(double extent) => extent >= MinimumExtent && extent <= MaximumExtent;
+
     /// <summary>What two points may differ by and still be one, and a point lie outside of the hull, relative to the thickness.</summary>
     const double ToleranceOfThickness = 3e-5;
     /// <summary>The same relative to the size: no rounding, however large, excuses more.</summary>
@@ -62,7 +65,7 @@ struct HullGrid
         var extent = Math.Max(Math.Max((double)max.X - min.X, (double)max.Y - min.Y), (double)max.Z - min.Z);
         if (extent == 0)
             return HullFailure.AllPointsCoincide;
-        if (!(extent >= MinimumExtent && extent <= MaximumExtent))
+        if (!IsSizeInRange(extent))
             return HullFailure.SizeOutOfRange;
 
         // A power of two, which rounds nothing.

@@ -17,6 +17,8 @@ unsafe struct HullTriangle
     public double Uncertainty;
     /// <summary>First of the points that were above this triangle when it was made; -1 for none.</summary>
     public int FirstOutside;
+    /// <summary>Height of the farthest of them over the plane, in units of the normal's length.</summary>
+    public double GreatestHeight;
     /// <summary>The insertion that last asked whether its point sees the triangle.</summary>
     public int Stamp;
     /// <summary>The answer.</summary>

@@ -18,6 +18,9 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>
     where TBodies : unmanaged, IBodySlots where TContacts : unmanaged, IFew<ContactPrestepWide> where TNormals : unmanaged, IFew<Vector<float>>
 {
+    // Least part of its softness that a row keeps whose recovery is limited.
+    const float LeastSoftness = 0.25f;
+
     /// <inheritdoc/>
     public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass;
     /// <inheritdoc/>
@@ -123,11 +126,12 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     // At rest a soft row carries wanted / (softness x inverse mass): were only its velocity limited, so would be its force, and a light
-    // body under a heavy one would sink without end. Its softness falls with the velocity, and the force goes on to rise with the depth.
+    // body under a pile would sink without end. Its softness falls with the velocity, and the force goes on to rise with the depth; to
+    // four times what it was, as many bodies in one place throw each other about when their rows are all but hard.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Stiffen(Vector<int> isLimited, Vector<float> ratio, ref Vector<float> massScale, ref Vector<float> impulseScale)
     {
-        var softness = impulseScale / massScale * ratio;
+        var softness = impulseScale / massScale * Wide.Max(ratio, new Vector<float>(LeastSoftness));
         var stiffMassScale = Vector<float>.One / (Vector<float>.One + softness);
         massScale = Wide.Select(isLimited, stiffMassScale, massScale);
         impulseScale = Wide.Select(isLimited, softness * stiffMassScale, impulseScale);

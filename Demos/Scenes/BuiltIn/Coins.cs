@@ -10,7 +10,7 @@ static class Coins
 {
     const int Rows = 6;
 
-    public static BuiltInScene Scene { get; } = new("coins", "36 spinning coins that have to settle", Create);
+    public static BuiltInScene Scene { get; } = new("coins", "36 spinning coins that have to settle, by --seed", Create);
 
     static SceneDescription Create(int seed)
     {
