@@ -16,8 +16,9 @@ struct CapsuleCylinderFrame
     const float ParallelSineSquared = 1e-20f;
     // A speed that the places where the segment crosses a plane may be divided by: they are then far off, and finite.
     const float LeastSpeed = 1e-20f;
-    // Each step at least halves the distance from the root, in the worst case of a segment that touches the rim along itself.
-    const int StepCount = 6;
+    // A step cubes the error. Where the segment touches the rim along itself it only halves the distance from the root, but the depth depends
+    // on the fourth power of that.
+    const int StepCount = 4;
 
     /// <summary>Axes of the frame in the world.</summary>
     public Vector3Wide AxisX, AxisY, AxisZ;
@@ -99,7 +100,7 @@ struct CapsuleCylinderFrame
         var three = new Vector<float>(3f);
         var two = new Vector<float>(2f);
         var least = new Vector<float>(1e-3f);
-        // Twice the smallest numbers instead of zero: on the axis itself there is no direction.
+        // In place of zero: on the axis itself there is no direction.
         var smallest = new Vector<float>(1e-30f);
         var z = Wide.Max(offset + scale, zero);
         for (int i = 0; i < StepCount; ++i)
