@@ -19,7 +19,10 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Capsule, CapsuleWide, Few2<ContactWide>, CapsuleCapsuleTester>());
         registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Box, BoxWide, Few2<ContactWide>, CapsuleBoxTester>());
         registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Triangle, TriangleWide, Few2<ContactWide>, CapsuleTriangleTester>());
+        registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, Cylinder, CylinderWide, Few2<ContactWide>, CapsuleCylinderTester>());
         registry.Register(new ConvexCollisionTask<Box, BoxWide, Box, BoxWide, Few4<ContactWide>, BoxBoxTester>());
+        registry.Register(new ConvexCollisionTask<Box, BoxWide, Triangle, TriangleWide, Few4<ContactWide>, BoxTriangleTester>());
+        registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>, TriangleTriangleTester>());
         RegisterSearches(registry);
         return registry;
     }
@@ -28,12 +31,9 @@ public static partial class DefaultTypes
     static void RegisterSearches(CollisionTaskRegistry registry)
     {
         Register<Sphere, SphereWide, SphereSupport, SphereFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
-        Register<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
         Register<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
-        Register<Box, BoxWide, BoxSupport, BoxFeature, Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
         Register<Box, BoxWide, BoxSupport, BoxFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
         Register<Box, BoxWide, BoxSupport, BoxFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
-        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
         Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
         Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
         Register<Cylinder, CylinderWide, CylinderSupport, CylinderFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);

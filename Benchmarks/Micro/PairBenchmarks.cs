@@ -30,8 +30,14 @@ public class PairBenchmarks : IDisposable
             CapsuleBoxTester>(NextCapsule, NextBox),
         [nameof(CapsuleTriangleTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Triangle, TriangleWide, Few2<ContactWide>,
             CapsuleTriangleTester>(NextCapsule, NextTriangle),
+        [nameof(CapsuleCylinderTester)] = () => PairFixture.Create<Capsule, CapsuleWide, Cylinder, CylinderWide, Few2<ContactWide>,
+            CapsuleCylinderTester>(NextCapsule, NextCylinder),
         [nameof(BoxBoxTester)] = () => PairFixture.Create<Box, BoxWide, Box, BoxWide, Few4<ContactWide>,
             BoxBoxTester>(NextBox, NextBox),
+        [nameof(BoxTriangleTester)] = () => PairFixture.Create<Box, BoxWide, Triangle, TriangleWide, Few4<ContactWide>,
+            BoxTriangleTester>(NextBox, NextTriangle),
+        [nameof(TriangleTriangleTester)] = () => PairFixture.Create<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>,
+            TriangleTriangleTester>(NextTriangle, NextTriangle),
     };
 
     PairFixture? fixture;

@@ -1,5 +1,7 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -145,8 +147,14 @@ public sealed class Shapes
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     internal void CheckExists(TypedIndex shape, string name)
     {
-        if (Exists(shape))
-            return;
+        if (!Exists(shape))
+            ThrowMissing(shape, name);
+    }
+
+    [DoesNotReturn]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ThrowMissing(TypedIndex shape, string name)
+    {
         var reason = shape.Exists ? $"There is no {shape}: it was removed or never added." : "There is no shape of the default index.";
         throw new ArgumentException(reason, name);
     }

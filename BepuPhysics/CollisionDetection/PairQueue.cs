@@ -1,6 +1,4 @@
 using System.Runtime.CompilerServices;
-using BepuPhysics.Collidables;
-using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 

@@ -8,8 +8,8 @@ using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection;
 
-/// <summary>A shape of the reference, and the bytes of the library's own.</summary>
-sealed record ConvexPairShape(ConvexShape Shape, byte[] Bytes);
+/// <summary>A shape of the reference, and the library's own: as bytes, and for searches alone.</summary>
+sealed record ConvexPairShape(ConvexShape Shape, byte[] Bytes, DepthSearchShape Search);
 
 /// <summary>Tests any convex pair through the batcher.</summary>
 sealed class ConvexPairLibrary : IDisposable
@@ -23,26 +23,40 @@ sealed class ConvexPairLibrary : IDisposable
     /// <summary>Whether the library has a test for a pair.</summary>
     public static bool Supports(ConvexKind a, ConvexKind b) => PairHarness.Registry.TryGetTask((int)a, (int)b, out _);
 
+    /// <summary>Whether the library's test of a pair is a search, not a closed form.</summary>
+    public static bool Searches(ConvexKind a, ConvexKind b) =>
+        PairHarness.Registry.TryGetTask((int)a, (int)b, out var task) && task.GetType().GetGenericTypeDefinition() == typeof(SearchCollisionTask<,,,,,>);
+
     /// <summary>Makes the library's shape. The reference's shape is changed where the library moves points to a centre of its own.</summary>
     public ConvexPairShape Create(ConvexShape shape)
+    {
+        if (shape.Kind == ConvexKind.Hull)
+        {
+            var hull = new ConvexHull(shape.Points, pool, out var center);
+            hulls.Add(hull);
+            var moved = ConvexShape.Hull(shape.Points, center);
+            return new(moved, ToBytes(hull), DepthSearchShapes.Of(hull, moved));
+        }
+        return new(shape, ToBytes(shape), DepthSearchShapes.Create(shape, pool));
+    }
+
+    static byte[] ToBytes(ConvexShape shape)
     {
         switch (shape.Kind)
         {
             case ConvexKind.Sphere:
-                return new(shape, ToBytes(new Sphere((float)shape.Radius)));
+                return ToBytes(new Sphere((float)shape.Radius));
             case ConvexKind.Capsule:
-                return new(shape, ToBytes(new Capsule((float)shape.Radius, (float)(2 * shape.HalfLength))));
+                return ToBytes(new Capsule((float)shape.Radius, (float)(2 * shape.HalfLength)));
             case ConvexKind.Box:
                 var whole = ConvexGenerator.ToVector(shape.HalfExtents * 2);
-                return new(shape, ToBytes(new Box(whole.X, whole.Y, whole.Z)));
+                return ToBytes(new Box(whole.X, whole.Y, whole.Z));
             case ConvexKind.Triangle:
-                return new(shape, ToBytes(new Triangle(shape.Points[0], shape.Points[1], shape.Points[2]) { TwoSided = true }));
+                return ToBytes(new Triangle(shape.Points[0], shape.Points[1], shape.Points[2]) { TwoSided = true });
             case ConvexKind.Cylinder:
-                return new(shape, ToBytes(new Cylinder((float)shape.Radius, (float)(2 * shape.HalfLength))));
+                return ToBytes(new Cylinder((float)shape.Radius, (float)(2 * shape.HalfLength)));
             default:
-                var hull = new ConvexHull(shape.Points, pool, out var center);
-                hulls.Add(hull);
-                return new(ConvexShape.Hull(shape.Points, center), ToBytes(hull));
+                throw new ArgumentException($"{shape.Kind}", nameof(shape));
         }
     }
 

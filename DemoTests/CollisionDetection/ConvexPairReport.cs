@@ -2,43 +2,77 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Threading;
+using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection;
 
-/// <summary>Collects tables of a test run. When the environment variable PHYSICS_CONVEX_REPORT names a file, they are kept there.</summary>
+/// <summary>Tables of the report, in its order.</summary>
+enum ConvexPairTable
+{
+    /// <summary>Single tests against the reference.</summary>
+    Errors,
+
+    /// <summary>What searches took that knew nothing.</summary>
+    Effort,
+
+    /// <summary>Slow sequences against the reference.</summary>
+    Sequences,
+
+    /// <summary>What the searches of slow sequences took.</summary>
+    SequenceEffort,
+
+    /// <summary>What the searches of a pile of hulls took.</summary>
+    Pile,
+}
+
+/// <summary>
+/// Collects tables of a test run. When the environment variable PHYSICS_CONVEX_REPORT names a file, they are kept there, behind what of the
+/// file stands before the first of them.
+/// </summary>
 static class ConvexPairReport
 {
-    const string Introduction = """
-        # Convex pairs against a reference
+    static readonly (string Title, string Header)[] titles =
+    [
+        ("## Table 1: single tests", ConvexPairTally.Header),
+        ("## Table 2: searches that know nothing", Header("pair | regime | ", ConvexPairEffort.Columns)),
+        ("## Table 3: slow sequences", Header("pair | of | states | ", ConvexSequenceTally.Columns)),
+        ("## Table 4: searches of the slow sequences", Header("pair | states | ", ConvexPairEffort.Columns)),
+        ("## Table 5: searches of a pile", Header("hulls | steps | states | known % | ", ConvexPairEffort.Columns)),
+    ];
 
-        Written by `ConvexPairTests` when `PHYSICS_CONVEX_REPORT` names this file; `PHYSICS_FULL_TESTS=1` for the full number of poses.
-
-        Each pair is tested once, without anything known from an earlier step. Lengths are relative to the outer radius of the smaller
-        shape. *depth*: deepest contact against the least depth (the distance when apart) in double precision. *excess*: depth along the
-        normal, less the least one. *normal*: degrees to the nearest normal that is as good as the best one. *wrong*: excess above 0.01.
-        *missed*: overlapping by more than 0.001, no contact. *unseen*: apart by less than the margin of 0.15, no contact. *ghosts*: apart
-        by more, but a contact. *outside*: contacts farther than 0.001 beyond the middle between the two surfaces. *broken*: not finite, or
-        a normal that is not of unit length. Half of the shapes are plates, discs, needles, rods and slivers of 1:20 to 1:100, a quarter of
-        the pairs differs in size by up to 100, in a quarter the smaller shape is of any size from 1 mm to 1 km.
-
-
-        """;
-
-    static readonly SortedDictionary<string, string> tables = new(StringComparer.Ordinal);
+    static readonly SortedDictionary<(ConvexPairTable Table, string Key), string> tables = [];
     static readonly Lock gate = new();
 
-    /// <summary>Adds a table with its heading; the headings order the file.</summary>
-    public static void Add(string heading, string table)
+    /// <summary>Adds rows to a table; the keys order them.</summary>
+    public static void Add(ConvexPairTable table, string key, string rows)
     {
         lock (gate)
         {
-            tables[heading] = table;
-            if (Environment.GetEnvironmentVariable("PHYSICS_CONVEX_REPORT") is not { Length: > 0 } path)
-                return;
-            var text = Introduction;
-            foreach (var (name, rows) in tables)
-                text += $"## {name}\n\n{rows}\n\n";
-            File.WriteAllText(path, text.TrimEnd() + "\n");
+            tables[(table, key)] = rows;
+            if (Environment.GetEnvironmentVariable("PHYSICS_CONVEX_REPORT") is { Length: > 0 } path)
+                Write(path);
         }
+    }
+
+    static string Header(string first, string columns)
+    {
+        var header = $"| {first}{columns}";
+        return $"{header}\n|{new string('|', header.AsSpan().Count('|') - 1).Replace("|", "---|", StringComparison.Ordinal)}";
+    }
+
+    static void Write(string path)
+    {
+        var text = File.Exists(path) ? File.ReadAllText(path) : "";
+        var start = text.IndexOf("## Table ", StringComparison.Ordinal);
+        text = start >= 0 ? text[..start] : text;
+        ConvexPairTable? last = null;
+        foreach (var ((table, _), rows) in tables)
+        {
+            if (table != last)
+                text += $"{(last is null ? "" : "\n")}{titles[(int)table].Title}\n\n{titles[(int)table].Header}\n";
+            text += $"{rows}\n";
+            last = table;
+        }
+        File.WriteAllText(path, text);
     }
 }

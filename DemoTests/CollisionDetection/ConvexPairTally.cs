@@ -16,6 +16,10 @@ sealed class ConvexPairTally
     public const double Tolerance = 1e-3;
     public const double WrongMinimum = 0.01;
 
+    // Where a small shape is inside of one that is many times as large, ways out that differ by hundredths of the small one differ by nothing that
+    // matters beside their length: part of the depth beyond twice the smaller size, so that it is nothing for shapes of about one size.
+    const double WrongDepthShare = 2e-3;
+
     readonly List<float> depthErrors = [];
     readonly List<float> excesses = [];
     readonly List<float> angles = [];
@@ -52,6 +56,8 @@ sealed class ConvexPairTally
 
     public string? WorstOutsidePose { get; private set; }
 
+    public string? WorstBelowPose { get; private set; }
+
     double worst;
 
     /// <param name="pair">Pose and reference.</param>
@@ -86,7 +92,11 @@ sealed class ConvexPairTally
         normal *= 1 / normal.Length;
         var along = reference.DepthAlong(normal, offset);
         var excess = (along - depth) / size;
-        BelowReference = Math.Max(BelowReference, -excess);
+        if (-excess > BelowReference)
+        {
+            BelowReference = -excess;
+            WorstBelowPose = $"{Describe(reference, pose, found)}, found {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
+        }
         var deepest = double.MinValue;
         for (int i = 0; i < manifold.Count; ++i)
         {
@@ -114,7 +124,7 @@ sealed class ConvexPairTally
         depthErrors.Add((float)error);
         excesses.Add((float)(isExact ? Math.Max(0, excess) : 0));
         angles.Add((float)(isExact ? Angle(reference, found, normal, excess) : 0));
-        WrongMinimumCount += isExact && excess > WrongMinimum ? 1 : 0;
+        WrongMinimumCount += isExact && excess > WrongMinimum + WrongDepthShare * Math.Max(0, depth / size - 2) ? 1 : 0;
         if (Math.Max(error, isExact ? excess : 0) > worst)
         {
             worst = Math.Max(error, isExact ? excess : 0);
@@ -156,7 +166,7 @@ sealed class ConvexPairTally
     }
 
     public const string Header = "| pair | regime | poses | contacts | depth p50 | p99 | p99.9 | worst | excess worst | normal p95 "
-        + "| wrong | missed | unseen | ghosts | outside | worst | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+        + "| wrong | missed | unseen | ghosts | outside | farthest outside | broken |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
     public string ToRow(string pair, string regime) => string.Create(CultureInfo.InvariantCulture,
         $"| {pair} | {regime} | {PoseCount} | {ContactCount} | {DepthError(.5):e1} | {DepthError(.99):e1} | {DepthError(.999):e1} "

@@ -43,6 +43,10 @@ static class DepthSearchShapes
             hull.GetPoint(i, out var point);
             return point;
         });
-        return new(hull, ConvexShape.Hull([.. vertices]));
+        return Of(hull, ConvexShape.Hull([.. vertices]));
     }
+
+    /// <summary>A hull that there is.</summary>
+    public static DepthSearchShape.Typed<ConvexHull, ConvexHullWide, ConvexHullSupport> Of(ConvexHull hull, ConvexShape reference) =>
+        new(hull, reference);
 }

@@ -31,20 +31,32 @@ static class FaceHarness<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWideB, 
 {
     public static FaceContacts Run(in FacePair<TShapeA, TShapeB> pair) => Run([pair])[0];
 
-    /// <summary>Tests pairs in a given order; lanes without a pair hold what fill says.</summary>
-    public static FaceContacts[] Run(IReadOnlyList<FacePair<TShapeA, TShapeB>> pairs, int[]? order = null, float fill = float.NaN)
+    /// <summary>Tests a pair as one that is known.</summary>
+    public static FaceContacts Run(in FacePair<TShapeA, TShapeB> pair, ref int remembered)
     {
+        int[] memory = [remembered];
+        var contacts = Run([pair], remembered: memory)[0];
+        remembered = memory[0];
+        return contacts;
+    }
+
+    /// <summary>Tests pairs in a given order; lanes without a pair hold what fill says. What is remembered of each pair is changed.</summary>
+    public static FaceContacts[] Run(IReadOnlyList<FacePair<TShapeA, TShapeB>> pairs, int[]? order = null, float fill = float.NaN,
+        int[]? remembered = null)
+    {
+        remembered ??= new int[pairs.Count];
         order ??= [.. Enumerable.Range(0, pairs.Count)];
         var results = new FaceContacts[pairs.Count];
         for (int start = 0; start < order.Length; start += Vector<float>.Count)
         {
             var count = Math.Min(Vector<float>.Count, order.Length - start);
-            RunBundle(pairs, order.AsSpan(start, count), results, fill);
+            RunBundle(pairs, order.AsSpan(start, count), remembered, results, fill);
         }
         return results;
     }
 
-    static void RunBundle(IReadOnlyList<FacePair<TShapeA, TShapeB>> pairs, ReadOnlySpan<int> order, FaceContacts[] results, float fill)
+    static void RunBundle(IReadOnlyList<FacePair<TShapeA, TShapeB>> pairs, ReadOnlySpan<int> order, int[] remembered,
+        FaceContacts[] results, float fill)
     {
         var a = default(TShapeWideA);
         var b = default(TShapeWideB);
@@ -57,6 +69,7 @@ static class FaceHarness<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWideB, 
         Matrix3x3Wide orientationA = new(offset, offset, offset), orientationB = orientationA;
         Vector<float> depth = new(fill), margin = depth;
         var near = Vector<int>.Zero;
+        var memory = Vector.AsVectorInt32(new Vector<float>(fill));
         for (int lane = 0; lane < order.Length; ++lane)
         {
             var pair = pairs[order[lane]];
@@ -70,11 +83,15 @@ static class FaceHarness<TShapeA, TShapeWideA, TFeatureA, TShapeB, TShapeWideB, 
             GatherScatter.Get(ref depth, lane) = pair.Depth;
             GatherScatter.Get(ref margin, lane) = pair.SpeculativeMargin;
             GatherScatter.Get(ref near, lane) = -1;
+            GatherScatter.Get(ref memory, lane) = remembered[order[lane]];
         }
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(
-            a, b, offset, orientationB, normal, depth, point, near, margin, orientationA, out var manifold);
+            a, b, offset, orientationB, normal, depth, point, near, margin, orientationA, ref memory, out var manifold);
         for (int lane = 0; lane < order.Length; ++lane)
+        {
             results[order[lane]] = Read(ref manifold, lane, pairs[order[lane]].OrientationA);
+            remembered[order[lane]] = memory[lane];
+        }
     }
 
     static FaceContacts Read(ref ConvexManifoldWide<Few4<ContactWide>> manifold, int lane, Quaternion orientationA)

@@ -251,6 +251,36 @@ public class FaceManifoldPropertyTests(ITestOutputHelper output)
         Assert.True(near > 0.97 * kept);
     }
 
+    [Theory]
+    [InlineData(14, 0.0, 1.0)]
+    [InlineData(15, 0.01, 0.1)]
+    public void WhateverIsRememberedTheDeepestContactIsAsDeepAsThePair(int seed, double mostTilt, double leastRatio)
+    {
+        var pairs = CreateMany((ulong)seed, 3000, mostTilt, leastRatio, float.MaxValue, allowSegments: true);
+        var random = new Random(seed);
+        var remembered = new int[pairs.Count];
+        for (int i = 0; i < pairs.Count; ++i)
+            remembered[i] = random.Next(4) == 0 ? random.Next() : random.Next(1, 33) | random.Next(1, 33) << 8;
+        var again = remembered.ToArray();
+        var results = Harness.Run(pairs, remembered: remembered);
+        var changed = 0;
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            var pair = pairs[i];
+            var smaller = Math.Min(pair.A.Size, pair.B.Size);
+            Assert.InRange(results[i].Deepest, pair.Depth - 2.01e-4 * smaller, pair.Depth);
+            changed += results[i].SameBits(Harness.Run(pair)) ? 0 : 1;
+        }
+        Assert.True(changed > (mostTilt == 0 ? 100 : 0), $"only {changed} pairs had other contacts than without it");
+
+        // And all of it for every lane by itself.
+        var order = Enumerable.Range(0, pairs.Count).OrderBy(_ => random.Next()).ToArray();
+        var shuffled = Harness.Run(pairs, order, remembered: again);
+        for (int i = 0; i < pairs.Count; ++i)
+            Assert.True(results[i].SameBits(shuffled[i]), $"pair {i}");
+        Assert.Equal(remembered, again);
+    }
+
     [Fact]
     public void PolygonsWithoutAnAreaHaveTheirWitness()
     {

@@ -14,6 +14,8 @@ sealed class ConvexCylinders : IConvexSearch
     const int RowCount = 33;
     const int ColumnCount = 13;
     const int MaximumStartCount = 6;
+    // Radians.
+    const double BesideCrease = 1e-3;
 
     readonly double radiusA;
     readonly double halfLengthA;
@@ -82,6 +84,12 @@ sealed class ConvexCylinders : IConvexSearch
         {
             var unit = m * (1 / m.Length);
             found.Add(Value(unit, offset), unit);
+            // A bowl beside the crease may be narrower than the grid; steps that start on its side of the crease end in it.
+            foreach (var side in stackalloc[] { axis, -axis })
+            {
+                var beside = unit + side * BesideCrease;
+                Descend(beside * (1 / beside.Length), offset, found);
+            }
         }
     }
 

@@ -95,6 +95,10 @@ public sealed class ConvexSequenceTally
         (lastNormal, lastDepth, lastReferenceDepth) = (found, depth, frame.Depth.Depth);
     }
 
+    public const string Columns = "frames | flips | of the reference | jumps | suboptimal | missed |";
+
+    public string ToRow() => $"{FrameCount} | {FlipCount} | {ReferenceFlipCount} | {JumpCount} | {SuboptimalCount} | {MissedCount} |";
+
     public override string ToString() => $"{FrameCount} frames: {FlipCount} flips, reference {ReferenceFlipCount}; {JumpCount} jumps, "
         + $"{SuboptimalCount} suboptimal, {MissedCount} missed";
 

@@ -25,6 +25,9 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <summary>Receives the results.</summary>
     public TCallbacks Callbacks;
 
+    // How far the squared length of a rotation may be from one.
+    const float UnitTolerance = 1e-3f;
+
     readonly CollisionTaskRegistry registry;
     readonly PairHistory* histories;
     Buffer<PairBatch> batches;
@@ -132,7 +135,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, flipped);
+        var pair = new PairInput(
+            offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, flipped, PairInput.NoHistory);
         task.Write(ref batch, flipped ? shapeB : shapeA, flipped ? shapeA : shapeB, pair);
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);
@@ -140,8 +144,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
 
     /// <summary>Adds a pair of shapes that exist, with a pose that is known to be sound.</summary>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
-    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, Vector3 offsetB, Quaternion orientationA,
-        Quaternion orientationB, float speculativeMargin, int pairId)
+    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, float speculativeMargin, int pairId)
     {
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
         Add(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId,
@@ -160,11 +164,11 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
     /// <param name="pairId">Id that the callbacks get with the result.</param>
     /// <param name="history">Index of the pair's history, or <see cref="PairInput.NoHistory"/>.</param>
-    internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, Vector3 offsetB,
-        Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId, int history)
+    internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, int history)
     {
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = CreateInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped, history);
+        var pair = new PairInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped, history);
         if (flipped)
             (shapeIndexA, shapeIndexB) = (shapeIndexB, shapeIndexA);
         task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, pair);
@@ -237,46 +241,47 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static PairInput CreateInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin, int pairId,
-        bool flipped, int history = PairInput.NoHistory) => new()
-    {
-        OffsetB = flipped ? -offsetB : offsetB,
-        OrientationA = flipped ? orientationB : orientationA,
-        OrientationB = flipped ? orientationA : orientationB,
-        SpeculativeMargin = speculativeMargin,
-        PairId = pairId,
-        Flipped = flipped,
-        History = history,
-    };
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly void CheckNotExecuting()
     {
         if (executing)
             ThrowExecuting();
     }
 
-    static void CheckInput(Vector3 offsetB, Quaternion orientationA, Quaternion orientationB, float speculativeMargin)
+    // One comparison for all of it, and what is wrong only where something is: a number less itself is zero, but not of what is not finite,
+    // and negated comparisons refuse what is no number.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void CheckInput(in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin)
+    {
+        var zero = (offsetB.X - offsetB.X) + (offsetB.Y - offsetB.Y) + (offsetB.Z - offsetB.Z) + (speculativeMargin - speculativeMargin);
+        var fromUnitA = MathF.Abs(Exact.Dot(orientationA, orientationA) - 1);
+        var fromUnitB = MathF.Abs(Exact.Dot(orientationB, orientationB) - 1);
+        if (!((zero == 0) & (fromUnitA < UnitTolerance) & (fromUnitB < UnitTolerance) & (speculativeMargin >= 0)))
+            RefuseInput(offsetB, orientationA, orientationB, speculativeMargin);
+    }
+
+    [DoesNotReturn]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void RefuseInput(in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin)
     {
         if (!float.IsFinite(offsetB.X) || !float.IsFinite(offsetB.Y) || !float.IsFinite(offsetB.Z))
             throw new ArgumentException($"Not finite: {offsetB}", nameof(offsetB));
-        CheckUnit(orientationA, nameof(orientationA));
-        CheckUnit(orientationB, nameof(orientationB));
-        CheckNotNegative(speculativeMargin, nameof(speculativeMargin));
-    }
-
-    static void CheckUnit(Quaternion orientation, string name)
-    {
-        // The negated comparison refuses NaN as well.
-        if (!(MathF.Abs(Exact.Dot(orientation, orientation) - 1) < 1e-3f))
-            throw new ArgumentException($"Not of unit length: {orientation}", name);
+        if (!(MathF.Abs(Exact.Dot(orientationA, orientationA) - 1) < UnitTolerance))
+            throw new ArgumentException($"Not of unit length: {orientationA}", nameof(orientationA));
+        if (!(MathF.Abs(Exact.Dot(orientationB, orientationB) - 1) < UnitTolerance))
+            throw new ArgumentException($"Not of unit length: {orientationB}", nameof(orientationB));
+        ThrowNegative(speculativeMargin, nameof(speculativeMargin));
     }
 
     static void CheckNotNegative(float value, string name)
     {
         if (!float.IsFinite(value) || value < 0)
-            throw new ArgumentOutOfRangeException(name, value, "Must be finite, and zero or more.");
+            ThrowNegative(value, name);
     }
+
+    [DoesNotReturn]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ThrowNegative(float value, string name) =>
+        throw new ArgumentOutOfRangeException(name, value, "Must be finite, and zero or more.");
 
     [DoesNotReturn]
     static void ThrowExecuting() =>

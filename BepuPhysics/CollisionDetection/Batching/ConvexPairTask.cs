@@ -61,7 +61,7 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
         ref var bundle = ref Bundles(batch)[bundleIndex];
         Lanes.Write(shapeA, ref bundle.A, lane);
         Lanes.Write(shapeB, ref bundle.B, lane);
-        Lanes.Write(pair.OffsetB, ref bundle.Pose.OffsetB, lane);
+        WriteOffset(pair.OffsetB, pair.Flipped, ref bundle.Pose.OffsetB, lane);
         if (needsOrientationA)
             Lanes.Write(pair.OrientationA, ref bundle.Pose.OrientationA, lane);
         if (needsOrientationB)
@@ -71,14 +71,27 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
         Lane(ref bundle.FlipMask, lane) = pair.Flipped ? -1 : 0;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void WriteOffset(in Vector3 offset, bool isNegated, ref Vector3Wide wide, int lane)
+    {
+        var sign = isNegated ? int.MinValue : 0;
+        Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.X), lane) = BitConverter.SingleToInt32Bits(offset.X) ^ sign;
+        Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.Y), lane) = BitConverter.SingleToInt32Bits(offset.Y) ^ sign;
+        Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.Z), lane) = BitConverter.SingleToInt32Bits(offset.Z) ^ sign;
+    }
+
+    // A vector that is written to memory by components and read as a whole waits until the components are in the cache.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3 ReadVector(ref Vector3Wide wide, int lane) => new(Lane(ref wide.X, lane), Lane(ref wide.Y, lane), Lane(ref wide.Z, lane));
+
     /// <summary>Takes the contacts that exist out of a lane, in the frame of the caller's A.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private protected static void Read(ref ConvexManifoldWide<TContacts> wide, ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane,
         ref ConvexContactManifold manifold)
     {
         int count = 0;
-        var offsetB = Lanes.Read<Vector3, Vector3Wide>(ref bundle.Pose.OffsetB, lane);
-        var normal = Lanes.Read<Vector3, Vector3Wide>(ref wide.Normal, lane);
+        var offsetB = ReadVector(ref bundle.Pose.OffsetB, lane);
+        var normal = ReadVector(ref wide.Normal, lane);
         Vector3 correction = default;
         if (Lane(ref bundle.FlipMask, lane) != 0)
         {
@@ -93,7 +106,7 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
             if (Lane(ref source.Exists, lane) == 0)
                 continue;
             ref var contact = ref Unsafe.Add(ref manifold.Contact0, count++);
-            contact.Offset = Lanes.Read<Vector3, Vector3Wide>(ref source.OffsetA, lane) + correction;
+            contact.Offset = ReadVector(ref source.OffsetA, lane) + correction;
             contact.Depth = Lane(ref source.Depth, lane);
             contact.FeatureId = Lane(ref source.FeatureId, lane);
         }

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -19,20 +20,39 @@ struct PairBatch
 }
 
 /// <summary>What is written to a lane for a pair, besides its shapes.</summary>
-struct PairInput
+/// <remarks>
+/// Refers to the poses wherever they are: an argument that a caller passed in registers is in memory by halves, and to copy it as a whole
+/// would wait for these.
+/// </remarks>
+readonly ref struct PairInput
 {
-    public Quaternion OrientationA;
-    public Quaternion OrientationB;
-    public Vector3 OffsetB;
-    public float SpeculativeMargin;
-    public int PairId;
+    public readonly ref readonly Quaternion OrientationA;
+    public readonly ref readonly Quaternion OrientationB;
+    /// <summary>Position of the caller's B less that of its A.</summary>
+    public readonly ref readonly Vector3 OffsetB;
+    public readonly float SpeculativeMargin;
+    public readonly int PairId;
     /// <summary>Whether the caller's A is B here, because the task has the types in the other order.</summary>
-    public bool Flipped;
+    public readonly bool Flipped;
     /// <summary>Index of the pair's history; <see cref="NoHistory"/> where it has none.</summary>
-    public int History;
+    public readonly int History;
 
     /// <summary>Index that no history has.</summary>
     public const int NoHistory = -1;
+
+    /// <summary>Brings the poses into the order of the task; the offset is turned where it is written.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public PairInput(in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId,
+        bool flipped, int history)
+    {
+        OffsetB = ref offsetB;
+        OrientationA = ref flipped ? ref orientationB : ref orientationA;
+        OrientationB = ref flipped ? ref orientationA : ref orientationB;
+        SpeculativeMargin = speculativeMargin;
+        PairId = pairId;
+        Flipped = flipped;
+        History = history;
+    }
 }
 
 /// <summary>A bundle of pairs of a batch.</summary>

@@ -18,10 +18,8 @@ namespace BepuPhysics.CollisionDetection;
 // The first three rows are gathered and scattered as bundles: size and alignment are multiples of a row of eight floats.
 unsafe struct PairHistory
 {
-    /// <summary>Where the depth search ended.</summary>
+    /// <summary>Where the depth search ended, and which corners were the first contacts.</summary>
     public DepthSearchState Search;
-    // Fills the last of the rows.
-    int unused;
 
     Quaternion orientationA;
     Quaternion orientationB;
@@ -113,14 +111,7 @@ unsafe struct PairHistory
         return true;
     }
 
-    // The state of a bundle in rows, which is a little more than the state.
-    struct SearchRows
-    {
-        public DepthSearchStateWide State;
-        public Vector<int> Unused;
-    }
-
-    static int SearchRowCount => Unsafe.SizeOf<DepthSearchState>() / (Rows8.Count * sizeof(float)) + 1;
+    static int SearchRowCount => sizeof(DepthSearchState) / (Rows8.Count * sizeof(float));
 
     /// <summary>Reads the state of the search of each lane; zero for lanes without a history.</summary>
     public static void GatherSearch(PairHistory* histories, Vector<int> indices, out DepthSearchStateWide state)
@@ -131,11 +122,10 @@ unsafe struct PairHistory
             return;
         }
         // Empty lanes read the first history, which is nobody's and zero.
-        Unsafe.SkipInit(out SearchRows rows);
-        ref var target = ref Unsafe.As<SearchRows, Rows8>(ref rows);
+        Unsafe.SkipInit(out state);
+        ref var target = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref state);
         for (int i = 0; i < SearchRowCount; ++i)
             Unsafe.Add(ref target, i) = Transpose.Gather((float*)histories + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
-        state = rows.State;
     }
 
     /// <summary>Writes the state of the search of each lane that has a history.</summary>
@@ -143,10 +133,7 @@ unsafe struct PairHistory
     {
         if (Vector.LessThanAll(indices, Vector<int>.Zero))
             return;
-        SearchRows rows;
-        rows.State = state;
-        rows.Unused = Vector<int>.Zero;
-        ref var source = ref Unsafe.As<SearchRows, Rows8>(ref rows);
+        ref var source = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref Unsafe.AsRef(in state));
         for (int i = 0; i < SearchRowCount; ++i)
             Transpose.Scatter(Unsafe.Add(ref source, i), (float*)histories + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
     }

@@ -68,12 +68,29 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             Certify(a, b, frame, dueMask, knownMask, ref walk, ref statistics);
         walk.Remember(frame, deep, dueMask, certified, ref state);
 
-        var weights = walk.Simplex.GetWeights(walk.Target());
-        var onA = walk.Simplex.A.OnA * weights.X + walk.Simplex.B.OnA * weights.Y + walk.Simplex.C.OnA * weights.Z;
         result.Normal = -walk.Direction;
         result.Depth = walk.Depth * frame.InverseScale + frame.Margins;
-        result.PointOnA = onA + walk.Direction * TSupportA.Margin(a);
+        result.PointOnA = PointOnA(frame, walk, TSupportA.Margin(a), TSupportB.Margin(b));
         result.Near = Vector.GreaterThanOrEqual(result.Depth, -speculativeMargin);
+    }
+
+    /// <summary>The witness on A's surface.</summary>
+    // A direction that is wrong by an angle misses the point that it looks for by as much of the margin that it is followed through: with a
+    // margin that is large beside the other shape, by more than that shape's size. So it starts on the shape with the smaller margin.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide PointOnA(in SearchFrame frame, in SearchWalk walk, Vector<float> marginA, Vector<float> marginB)
+    {
+        ref readonly var simplex = ref walk.Simplex;
+        var weights = simplex.GetWeights(walk.Target());
+        var onA = simplex.A.OnA * weights.X + simplex.B.OnA * weights.Y + simplex.C.OnA * weights.Z;
+        var fromA = onA + walk.Direction * marginA;
+        var isOnB = Vector.GreaterThan(marginA, marginB);
+        if (isOnB == Vector<int>.Zero)
+            return fromA;
+        var onB = simplex.A.OnB * weights.X + simplex.B.OnB * weights.Y + simplex.C.OnB * weights.Z;
+        var fromB = frame.OffsetB + Matrix3x3Wide.TransposeTimes(frame.OrientationB, onB) +
+            walk.Direction * (walk.Depth * frame.InverseScale + marginA);
+        return Vector3Wide.Select(isOnB, fromB, fromA);
     }
 
     /// <summary>Farthest point of the difference along a direction.</summary>

@@ -4,7 +4,8 @@ using BepuUtilities;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>
-/// What the depth search remembers of a pair from step to step; <c>default</c> knows nothing. The search alone reads and writes it.
+/// What is remembered of a pair from step to step: where the depth search ended, and which corners were the first contacts. <c>default</c> knows
+/// nothing.
 /// </summary>
 // The triangle of the Minkowski difference is kept as the points of A and B that it came from, each in its own shape's frame: they are
 // points of the shapes wherever these have moved.
@@ -28,6 +29,11 @@ public struct DepthSearchState
     public float CertifiedDepth;
     /// <summary>Steps since then, more or less.</summary>
     public int Age;
+    /// <summary>
+    /// Names of the corners that were the first two contacts, eight bits each; a name is one more than in the feature id, and zero is none.
+    /// The search leaves it alone: it belongs to <see cref="FaceManifold{TShapeWideA, TFeatureA, TShapeWideB, TFeatureB}"/>.
+    /// </summary>
+    public int Contacts;
 }
 
 /// <summary>A bundle of <see cref="DepthSearchState"/>.</summary>
@@ -51,4 +57,6 @@ public struct DepthSearchStateWide : IWide<DepthSearchState>
     public Vector<float> CertifiedDepth;
     /// <inheritdoc cref="DepthSearchState.Age"/>
     public Vector<int> Age;
+    /// <inheritdoc cref="DepthSearchState.Contacts"/>
+    public Vector<int> Contacts;
 }

@@ -14,4 +14,6 @@ struct FaceCandidate
     public Vector<float> Depth;
     /// <summary>Tells the corners of an overlap apart; eight bits.</summary>
     public Vector<int> Name;
+    /// <summary>What squared distances count by: more where the corner was one of the first two contacts the last time.</summary>
+    public Vector<float> Weight;
 }

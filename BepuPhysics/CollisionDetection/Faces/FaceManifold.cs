@@ -15,6 +15,17 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
 {
     const int CacheLine = 64;
 
+    /// <summary>Finds the contacts of a bundle of pairs of which nothing is remembered.</summary>
+    /// <inheritdoc cref="Build(in TShapeWideA, in TShapeWideB, in Vector3Wide, in Matrix3x3Wide, in Vector3Wide, Vector{float}, in Vector3Wide, Vector{int}, Vector{float}, in Matrix3x3Wide, ref Vector{int}, out ConvexManifoldWide{Few4{ContactWide}})"/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Build(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB,
+        in Vector3Wide normal, Vector<float> depth, in Vector3Wide pointOnA, Vector<int> near, Vector<float> speculativeMargin,
+        in Matrix3x3Wide orientationA, out ConvexManifoldWide<Few4<ContactWide>> manifold)
+    {
+        var remembered = Vector<int>.Zero;
+        Build(a, b, localOffsetB, localOrientationB, normal, depth, pointOnA, near, speculativeMargin, orientationA, ref remembered, out manifold);
+    }
+
     /// <summary>Finds the contacts of a bundle of pairs.</summary>
     /// <param name="a">First shapes.</param>
     /// <param name="b">Second shapes.</param>
@@ -26,11 +37,15 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
     /// <param name="near">All bits set where there may be contacts; the other lanes may hold anything.</param>
     /// <param name="speculativeMargin">Greatest distance at which a contact exists, m; zero or more.</param>
     /// <param name="orientationA">Axes of A in the world, in the rows.</param>
+    /// <param name="remembered">
+    /// What <see cref="DepthSearchState.Contacts"/> holds: two corners that are preferred to others that are as good; zero for a pair that is new.
+    /// Pairs without contacts leave it as it is.
+    /// </param>
     /// <param name="manifold">The contacts.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Build(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB,
         in Vector3Wide normal, Vector<float> depth, in Vector3Wide pointOnA, Vector<int> near, Vector<float> speculativeMargin,
-        in Matrix3x3Wide orientationA, out ConvexManifoldWide<Few4<ContactWide>> manifold)
+        in Matrix3x3Wide orientationA, ref Vector<int> remembered, out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
         var normalB = localOrientationB * normal;
@@ -81,7 +96,7 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         overlap.B.Project(points, frameB, 1);
 
         overlap.FindCandidates(exists);
-        FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref manifold);
+        FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref remembered, ref manifold);
     }
 
     /// <summary>What a bundle is worked on in; arrays follow it, the ones that are always used first.</summary>

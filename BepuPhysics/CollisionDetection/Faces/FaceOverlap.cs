@@ -71,13 +71,11 @@ unsafe struct FaceOverlap
         var border = Border;
         // An edge that moves less than half the border across another counts as parallel to it.
         var half = border * new Vector<float>(0.5f);
+        B.Widen(border, mask);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
         for (var vertex = verticesB; vertex != endB; ++vertex)
-        {
-            vertex->WideLineOffset = vertex->LineOffset + border;
             vertex->Inside = new Vector<float>(float.MaxValue);
-        }
         var countA = A.Count;
         var countB = B.Count;
         for (int i = 0; i < countA; ++i)
@@ -113,6 +111,7 @@ unsafe struct FaceOverlap
     [MethodImpl(MethodImplOptions.NoInlining)]
     void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
     {
+        polygon.Widen(Border, mask);
         ref var edge = ref segment.Vertices[0];
         var half = Border * new Vector<float>(0.5f);
         var start = Vector<float>.Zero;
@@ -120,7 +119,7 @@ unsafe struct FaceOverlap
         for (int i = 0; i < polygon.Count; ++i)
         {
             ref var other = ref polygon.Vertices[i];
-            Clip(edge.X * other.LineX + edge.Y * other.LineY + (other.LineOffset + Border),
+            Clip(edge.X * other.LineX + edge.Y * other.LineY + other.WideLineOffset,
                 edge.EdgeX * other.LineX + edge.EdgeY * other.LineY, half, ref start, ref end);
         }
         var isInside = mask & Vector.LessThanOrEqual(start, end);

@@ -55,6 +55,8 @@ unsafe struct FacePolygon
     // Cosine of the angle of a plane to the normal below which its slope says more about rounding than about the surface: at this one,
     // of 87 degrees, the tolerance of a border becomes that of a depth.
     const float SteepCosine = 0.05f;
+    // Twice the squared sine of half the angle of a corner that is sharp.
+    const float SharpBluntness = 0.25f;
     // Distance inside of an edge that is none.
     const float Everything = 1e30f;
 
@@ -126,6 +128,70 @@ unsafe struct FacePolygon
         }
         Extent = extent;
         FindSlope(frame);
+    }
+
+    /// <summary>Makes the polygon wider by a border.</summary>
+    /// <param name="border">Length to add on all sides.</param>
+    /// <param name="mask">Lanes that matter.</param>
+    // Edges that are each moved out by a border meet farther beyond their corner; a thousand borders at the tip of a needle. The edges of a
+    // corner below 41 degrees get so much less that they meet no more than 2.8 borders beyond it. Edges without a length make no corner.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public readonly void Widen(Vector<float> border, Vector<int> mask)
+    {
+        var vertices = Vertices;
+        var lastX = Vector<float>.Zero;
+        var lastY = Vector<float>.Zero;
+        for (int i = 0; i < Count; ++i)
+            Follow(vertices[i], ref lastX, ref lastY);
+        var x = lastX;
+        var y = lastY;
+        var least = Vector<float>.One;
+        for (int i = 0; i < Count; ++i)
+        {
+            ref var vertex = ref vertices[i];
+            vertex.WideLineOffset = vertex.LineOffset + border;
+            least = Wide.Min(least, Bluntness(vertex, x, y));
+            Follow(vertex, ref x, ref y);
+        }
+        if (Vector.EqualsAny(mask & Vector.LessThan(least, new Vector<float>(SharpBluntness)), Vector<int>.AllBitsSet))
+            WidenSharp(border, lastX, lastY);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void WidenSharp(Vector<float> border, Vector<float> lastX, Vector<float> lastY)
+    {
+        var vertices = Vertices;
+        for (int i = 0; i < Count; ++i)
+        {
+            ref var vertex = ref vertices[i];
+            vertex.WideLineOffset = Bluntness(vertex, lastX, lastY);
+            Follow(vertex, ref lastX, ref lastY);
+        }
+        var nextX = Vector<float>.Zero;
+        var nextY = Vector<float>.Zero;
+        for (int i = Count - 1; i >= 0; --i)
+            Follow(vertices[i], ref nextX, ref nextY);
+        for (int i = Count - 1; i >= 0; --i)
+        {
+            ref var vertex = ref vertices[i];
+            var bluntness = Wide.Min(vertex.WideLineOffset, Bluntness(vertex, nextX, nextY));
+            var share = Vector.SquareRoot(Wide.Clamp(bluntness * new Vector<float>(1 / SharpBluntness), Vector<float>.Zero, Vector<float>.One));
+            vertex.WideLineOffset = vertex.LineOffset + border * share;
+            Follow(vertex, ref nextX, ref nextY);
+        }
+    }
+
+    /// <summary>Twice the squared sine of half the angle of the corner between two edges, at most 1.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Bluntness(in FaceVertex vertex, Vector<float> otherX, Vector<float> otherY) =>
+        Vector<float>.One + Wide.Min(vertex.LineX * otherX + vertex.LineY * otherY, Vector<float>.Zero);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Follow(in FaceVertex vertex, ref Vector<float> x, ref Vector<float> y)
+    {
+        var hasLength = Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
+        x = Wide.Select(hasLength, vertex.LineX, x);
+        y = Wide.Select(hasLength, vertex.LineY, y);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

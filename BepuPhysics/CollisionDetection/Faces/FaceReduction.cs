@@ -8,6 +8,9 @@ namespace BepuPhysics.CollisionDetection;
 // The deepest; the one farthest from it; the ones farthest to either side of the line through both. Where the overlap is level, the
 // deepest is any of its corners, and the corner farthest from its opposite takes its place: the line is then as long as can be, and the
 // four span more. Corners that come twice do not matter, as the second has no distance, or no area, to add.
+// Of more than four corners that are as good, rounding would choose, and choose others each time: a stack would never be still. So the
+// first two of the last time, from which the others follow, are preferred by more than rounding and less than matters. Not by more: what
+// becomes a contact late is already deep, and pushes what it holds up; and four that were kept for their own sake are less even.
 static unsafe class FaceReduction
 {
     // Corners that are equally deep, to this part of their distance, are told apart by their place, so that the same is first each time.
@@ -20,10 +23,18 @@ static unsafe class FaceReduction
     const float MinimumDistanceSquared = 100f;
     // Part of the distance of the first two contacts: a corner that is nearer to their line adds nothing.
     const float MinimumHeight = 1e-3f;
-    // Name of the witness.
+    // Part of that size by which the first corner of the last time counts as deeper. More than the place is worth over the whole of a shape,
+    // and far less than the tolerance.
+    const float DepthPreference = 8e-5f;
+    // What the squared distances of the first two corners of the last time are multiplied by.
+    const float SpanPreference = 1.05f;
+    // Angle, rad, by which the line turns that sides are told by.
+    const float SideTurn = 1e-4f;
+    // Name of the witness. It is not remembered: one more is zero in eight bits.
     const int WitnessName = 255;
     // Bits of a feature id: the corner, A's feature, B's feature.
     const int NameBits = 8;
+    const int NameMask = (1 << NameBits) - 1;
     const int FeatureBits = 11;
 
     struct Choice
@@ -48,32 +59,52 @@ static unsafe class FaceReduction
     /// <param name="frame">The frame in A's coordinates.</param>
     /// <param name="orientationA">Axes of A in the world, in the rows.</param>
     /// <param name="near">All bits set where the pair has contacts.</param>
+    /// <param name="remembered">Names of the first two corners of the last time, and of these.</param>
     /// <param name="manifold">The contacts.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Reduce(in FaceOverlap overlap, in FaceFrame frame, in Matrix3x3Wide orientationA, Vector<int> near,
-        ref ConvexManifoldWide<Few4<ContactWide>> manifold)
+        ref Vector<int> remembered, ref ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
-        ChooseDeepest(overlap, frame, out var deepest);
+        var size = Wide.Min(overlap.A.Feature.Size, overlap.B.Feature.Size);
+        var deepEnough = overlap.PairDepth - size * new Vector<float>(DepthTolerance);
+        ChooseDeepest(overlap, frame, size, deepEnough, remembered, out var deepest);
         ChooseFarthest(overlap, deepest, new Vector<float>(FaceCandidate.None), deepest, out var farthest);
-        var level = Wide.Min(overlap.A.Feature.Size, overlap.B.Feature.Size) * new Vector<float>(LevelTolerance);
-        ChooseFarthest(overlap, farthest, deepest.Depth - level, deepest, out deepest);
+        var level = Wide.Max(deepest.Depth - size * new Vector<float>(LevelTolerance), deepEnough);
+        ChooseFarthest(overlap, farthest, level, deepest, out deepest);
         var lineX = farthest.X - deepest.X;
         var lineY = farthest.Y - deepest.Y;
-        ChooseSides(overlap, deepest, lineX, lineY, out var left, out var right);
+        // Of corners that are as far to a side, as in a regular hexagon, the left one nearest to the first contact and the right one nearest to
+        // the second, so that these two are opposite to each other: three contacts at one end of the overlap and one at the other give way
+        // unevenly.
+        var turn = new Vector<float>(SideTurn);
+        ChooseSides(overlap, deepest, lineX - lineY * turn, lineY + lineX * turn, out var left, out var right);
 
         var farEnough = overlap.Border * overlap.Border * new Vector<float>(MinimumDistanceSquared);
         var areaEnough = (lineX * lineX + lineY * lineY) * new Vector<float>(MinimumHeight);
         var secondExists = near & Vector.GreaterThan(farthest.Score, farEnough);
         var writer = new Writer(overlap, frame, orientationA);
         manifold.Normal = writer.Normal;
+        var leftArea = lineX * (left.Y - deepest.Y) - lineY * (left.X - deepest.X);
+        var rightArea = lineX * (right.Y - deepest.Y) - lineY * (right.X - deepest.X);
+        var leftExists = secondExists & Vector.GreaterThan(leftArea, areaEnough);
+        var rightExists = secondExists & Vector.LessThan(rightArea, -areaEnough);
         writer.Write(deepest, near, ref manifold.Contacts[0]);
         writer.Write(farthest, secondExists, ref manifold.Contacts[1]);
-        writer.Write(left, secondExists & Vector.GreaterThan(left.Score, areaEnough), ref manifold.Contacts[2]);
-        writer.Write(right, secondExists & Vector.GreaterThan(right.Score, areaEnough), ref manifold.Contacts[3]);
+        writer.Write(left, leftExists, ref manifold.Contacts[2]);
+        writer.Write(right, rightExists, ref manifold.Contacts[3]);
+        remembered = Wide.Select(near, Remember(deepest, near) | Remember(farthest, secondExists) << NameBits, remembered);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Remember(in Choice choice, Vector<int> exists) =>
+        exists & (choice.Name + Vector<int>.One) & new Vector<int>(NameMask);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Recall(Vector<int> names) => (names & new Vector<int>(NameMask)) - Vector<int>.One;
+
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ChooseDeepest(in FaceOverlap overlap, in FaceFrame frame, out Choice choice)
+    static void ChooseDeepest(in FaceOverlap overlap, in FaceFrame frame, Vector<float> size, Vector<float> deepEnough,
+        Vector<int> remembered, out Choice choice)
     {
         Choice best;
         best.Score = new Vector<float>(float.MinValue);
@@ -87,13 +118,23 @@ static unsafe class FaceReduction
         var weightX = frame.X.X * placeX + frame.X.Y * placeY + frame.X.Z * placeZ;
         var weightY = frame.Y.X * placeX + frame.Y.Y * placeY + frame.Y.Z * placeZ;
         var end = overlap.Candidates + overlap.CandidateCount;
+        // No corner has the name of what was not a contact.
+        var name0 = Recall(remembered);
+        var name1 = Recall(remembered >>> NameBits);
+        var preference = size * new Vector<float>(DepthPreference);
         for (var candidate = overlap.Candidates; candidate != end; ++candidate)
-            best.Offer(candidate->Depth + (candidate->X * weightX + candidate->Y * weightY), *candidate);
+        {
+            var wasFirst = Vector.Equals(candidate->Name, name0);
+            var wasSecond = Vector.Equals(candidate->Name, name1);
+            candidate->Weight = Wide.Select(wasFirst | wasSecond, new Vector<float>(SpanPreference), Vector<float>.One);
+            // What is not deep enough must not hide what is.
+            var preferred = Wide.Mask(wasFirst & Vector.GreaterThanOrEqual(candidate->Depth, deepEnough), preference);
+            best.Offer(candidate->Depth + (candidate->X * weightX + candidate->Y * weightY) + preferred, *candidate);
+        }
         choice = best;
         // The features need not hold the points that are nearest: the face whose normal is nearest to the direction need not be the one
         // with the farthest vertex, and round ones are cut short. The pair is never less deep for it.
-        var size = Wide.Min(overlap.A.Feature.Size, overlap.B.Feature.Size);
-        var isWitness = Vector.LessThan(choice.Depth, overlap.PairDepth - size * new Vector<float>(DepthTolerance));
+        var isWitness = Vector.LessThan(choice.Depth, deepEnough);
         choice.X = Wide.Select(isWitness, Vector<float>.Zero, choice.X);
         choice.Y = Wide.Select(isWitness, Vector<float>.Zero, choice.Y);
         choice.Depth = Wide.Select(isWitness, overlap.PairDepth, choice.Depth);
@@ -115,7 +156,7 @@ static unsafe class FaceReduction
         {
             var x = candidate->X - fromX;
             var y = candidate->Y - fromY;
-            best.Offer(Wide.Mask(Vector.GreaterThan(candidate->Depth, depthAbove), x * x + y * y), *candidate);
+            best.Offer(Wide.Mask(Vector.GreaterThan(candidate->Depth, depthAbove), (x * x + y * y) * candidate->Weight), *candidate);
         }
         choice = best;
     }

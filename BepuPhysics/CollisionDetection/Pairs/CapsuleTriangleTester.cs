@@ -19,8 +19,9 @@ namespace BepuPhysics.CollisionDetection;
 // nearest to one of the edges. A segment that meets the triangle leaves it along the normal of the face or across the segment and one of
 // the edges. Both are computed for every lane. Where the nearest features are the face, or two edges, they agree to rounding, and the axis
 // is the better known of the two; elsewhere the distance is greater than what any axis shows.
-public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, TriangleWide, Few2<ContactWide>>
+public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, TriangleWide, Few2<ContactWide>>
 {
+    const int CacheLine = 64;
     // Part of the size of the pair by which an edge must beat the face, and by which the nearest points must lie beside an axis that shows
     // their distance: rounding is below it.
     const float AxisTolerance = 1e-6f;
@@ -52,44 +53,104 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         public Vector<float> AxisDepth, AxisPlace;
     }
 
+    /// <summary>What the steps of the test hand on, in the triangle's frame.</summary>
+    struct Scratch
+    {
+        public Matrix3x3Wide Axes;
+        /// <summary>The segment's middle and direction.</summary>
+        public Vector3Wide Center, Direction;
+        public Vector3Wide Front;
+        public TriangleEdgeWide AB, BC, CA;
+        public Search Search;
+        /// <summary>Length that tolerances are relative to.</summary>
+        public Vector<float> Size;
+        /// <summary>Height of the segment's middle over the plane.</summary>
+        public Vector<float> Height;
+        /// <summary>Normal and depth of the pair.</summary>
+        public Vector3Wide Normal;
+        public Vector<float> PairDepth;
+        /// <summary>The place of the pair's depth on the segment, unless it is that of the lower end.</summary>
+        public Vector<float> Deepest;
+        public Vector<int> UseLowestEnd;
+        /// <summary>Lanes whose pair may have contacts.</summary>
+        public Vector<int> Exists;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly Vector<int> IsOver(in Vector3Wide point) =>
+            Vector.LessThanOrEqual(AB.GetBeyond(point), Vector<float>.Zero) & Vector.LessThanOrEqual(BC.GetBeyond(point), Vector<float>.Zero) &
+            Vector.LessThanOrEqual(CA.GetBeyond(point), Vector<float>.Zero);
+    }
+
     /// <inheritdoc/>
+    // Step by step, each a method of its own: all at once has many times as many values as there are registers.
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in CapsuleWide a, in TriangleWide b, in PairPoseWide pose, Vector<float> speculativeMargin,
         out ConvexManifoldWide<Few2<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        var zero = Vector<float>.Zero;
+        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow, and which do would change with the depth
+        // of the stack: so the scratch of the test is put at a cache line, and what is taken from the stack for it brings the frames of the
+        // steps to the same place in a line each time, the quickest of the four.
+        int anchor;
+        var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + 16 + sizeof(Scratch) + CacheLine];
+        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        Prepare(a, b, pose, ref scratch);
+        VisitEdge(scratch.AB, b.C, a.HalfLength, b.TwoSidedMask, ref scratch);
+        VisitEdge(scratch.BC, b.A, a.HalfLength, b.TwoSidedMask, ref scratch);
+        VisitEdge(scratch.CA, b.B, a.HalfLength, b.TwoSidedMask, ref scratch);
+        ChooseNormal(a, b, ref scratch);
+        // No contact is deeper than the pair.
+        scratch.Exists &= Vector.GreaterThanOrEqual(scratch.PairDepth, -speculativeMargin);
+        if (Vector.EqualsAll(scratch.Exists, Vector<int>.Zero))
+        {
+            manifold.Contacts[0].Exists = Vector<int>.Zero;
+            manifold.Contacts[1].Exists = Vector<int>.Zero;
+            return;
+        }
+        WriteContacts(a, pose, speculativeMargin, scratch, ref manifold);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void Prepare(in CapsuleWide a, in TriangleWide b, in PairPoseWide pose, ref Scratch scratch)
+    {
         var axes = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        var u = QuaternionWide.TransformUnitY(pose.OrientationA);
-        var center = axes * -pose.OffsetB;
-        var direction = axes * u;
+        scratch.Axes = axes;
+        scratch.Center = axes * -pose.OffsetB;
+        scratch.Direction = axes * QuaternionWide.TransformUnitY(pose.OrientationA);
         var front = b.GetNormal();
-        var ab = new TriangleEdgeWide(b.A, b.B, front);
-        var bc = new TriangleEdgeWide(b.B, b.C, front);
-        var ca = new TriangleEdgeWide(b.C, b.A, front);
-        var cornerReach = Vector.SquareRoot(Wide.Max(Wide.Max(b.A.LengthSquared(), b.B.LengthSquared()), b.C.LengthSquared()));
-        var size = a.HalfLength + a.Radius + cornerReach;
-
-        Search search;
+        scratch.Front = front;
+        scratch.AB = new(b.A, b.B, front);
+        scratch.BC = new(b.B, b.C, front);
+        scratch.CA = new(b.C, b.A, front);
+        scratch.Size = a.HalfLength + a.Radius +
+            Vector.SquareRoot(Wide.Max(Wide.Max(b.A.LengthSquared(), b.B.LengthSquared()), b.C.LengthSquared()));
+        scratch.Height = Vector3Wide.Dot(front, scratch.Center - b.A);
+        ref var search = ref scratch.Search;
         search.SquaredDistance = search.AxisDepth = new Vector<float>(float.MaxValue);
-        search.Nearest = search.AxisPlace = search.Shown = zero;
+        search.Nearest = search.AxisPlace = search.Shown = Vector<float>.Zero;
         search.Offset = search.AxisNormal = Vector3Wide.Zero;
-        VisitEdge(ab, b.C, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
-        VisitEdge(bc, b.A, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
-        VisitEdge(ca, b.B, front, center, direction, a.HalfLength, b.TwoSidedMask, ref search);
+    }
 
+    /// <summary>Finds the normal, and what is to be known of the pair for its contacts.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseNormal(in CapsuleWide a, in TriangleWide b, ref Scratch scratch)
+    {
+        var zero = Vector<float>.Zero;
+        ref var search = ref scratch.Search;
+        ref var front = ref scratch.Front;
         // The ends over the face, and the segment through it.
-        var firstEnd = center - direction * a.HalfLength;
-        var secondEnd = center + direction * a.HalfLength;
+        var half = scratch.Direction * a.HalfLength;
+        var firstEnd = scratch.Center - half;
+        var secondEnd = scratch.Center + half;
         var firstHeight = Vector3Wide.Dot(front, firstEnd - b.A);
         var secondHeight = Vector3Wide.Dot(front, secondEnd - b.A);
         var product = firstHeight * secondHeight;
-        Keep(front * firstHeight, -a.HalfLength, Wide.Min(firstHeight * firstHeight, product), IsOver(ab, bc, ca, firstEnd), ref search);
-        Keep(front * secondHeight, a.HalfLength, Wide.Min(secondHeight * secondHeight, product), IsOver(ab, bc, ca, secondEnd), ref search);
+        Keep(front * firstHeight, -a.HalfLength, Wide.Min(firstHeight * firstHeight, product), scratch.IsOver(firstEnd), ref search);
+        Keep(front * secondHeight, a.HalfLength, Wide.Min(secondHeight * secondHeight, product), scratch.IsOver(secondEnd), ref search);
         var crosses = Vector.LessThan(product, zero);
         // Opposite signs: the divisor is not zero.
         var crossing = a.HalfLength * (firstHeight + secondHeight) / (firstHeight - secondHeight);
-        crosses &= IsOver(ab, bc, ca, center + direction * crossing);
+        crosses &= scratch.IsOver(scratch.Center + scratch.Direction * crossing);
         var nearest = Wide.Select(crosses, crossing, search.Nearest);
         var offset = Vector3Wide.Select(crosses, Vector3Wide.Zero, search.Offset);
         var distance = offset.Length();
@@ -100,34 +161,46 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         var useBack = Vector.LessThan(backDepth, frontDepth) & b.TwoSidedMask;
         var faceDepth = Wide.Select(useBack, backDepth, frontDepth);
         var faceNormal = Vector3Wide.Select(useBack, -front, front);
-        var useEdge = Vector.LessThan(search.AxisDepth + size * new Vector<float>(AxisTolerance), faceDepth);
+        var useEdge = Vector.LessThan(search.AxisDepth + scratch.Size * new Vector<float>(AxisTolerance), faceDepth);
         var coreDepth = Wide.Select(useEdge, search.AxisDepth, faceDepth);
         var normal = Vector3Wide.Select(useEdge, search.AxisNormal, faceNormal);
 
         var beyondAxis = offset - normal * Wide.Max(-coreDepth, zero);
-        var usePoint = Vector.GreaterThan(beyondAxis.Length(), size * new Vector<float>(AxisTolerance));
+        var usePoint = Vector.GreaterThan(beyondAxis.Length(), scratch.Size * new Vector<float>(AxisTolerance));
         normal = Vector3Wide.Select(usePoint, offset * (Vector<float>.One / distance), normal);
-        var pairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
+        scratch.Normal = normal;
+        scratch.PairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
+        scratch.Deepest = Wide.Select(usePoint, nearest, search.AxisPlace);
+        scratch.UseLowestEnd = ~(usePoint | useEdge);
+        // A triangle without area has no front, and no contacts.
+        scratch.Exists = Vector.GreaterThan(front.LengthSquared(), new Vector<float>(0.5f)) & (b.TwoSidedMask |
+            (Vector.GreaterThanOrEqual(scratch.Height, zero) &
+            Vector.GreaterThanOrEqual(Vector3Wide.Dot(normal, front), new Vector<float>(-BehindTolerance))));
+    }
 
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void WriteContacts(in CapsuleWide a, in PairPoseWide pose, Vector<float> speculativeMargin, in Scratch scratch,
+        ref ConvexManifoldWide<Few2<ContactWide>> manifold)
+    {
         // How far along the normal the segment is from the plane: linear in the place s, as is how far it is then beyond each edge.
-        var facing = Vector3Wide.Dot(normal, front);
-        var height = Vector3Wide.Dot(front, center - b.A);
+        var normal = scratch.Normal;
+        var facing = Vector3Wide.Dot(normal, scratch.Front);
         var inverseFacing = Vector<float>.One / facing;
-        var slope = Vector3Wide.Dot(direction, front) * inverseFacing;
-        var onFace = center - normal * (height * inverseFacing);
-        var alongFace = direction - normal * slope;
-        var border = size * new Vector<float>(BorderTolerance);
+        var slope = Vector3Wide.Dot(scratch.Direction, scratch.Front) * inverseFacing;
+        var onFace = scratch.Center - normal * (scratch.Height * inverseFacing);
+        var alongFace = scratch.Direction - normal * slope;
+        var border = scratch.Size * new Vector<float>(BorderTolerance);
         var start = -a.HalfLength;
         var end = a.HalfLength;
-        ClipToEdge(ab, onFace, alongFace, border, ref start, ref end);
-        ClipToEdge(bc, onFace, alongFace, border, ref start, ref end);
-        ClipToEdge(ca, onFace, alongFace, border, ref start, ref end);
+        ClipToEdge(scratch.AB, onFace, alongFace, border, ref start, ref end);
+        ClipToEdge(scratch.BC, onFace, alongFace, border, ref start, ref end);
+        ClipToEdge(scratch.CA, onFace, alongFace, border, ref start, ref end);
         var isOver = Vector.LessThanOrEqual(start, end) & Vector.GreaterThan(Vector.Abs(facing), new Vector<float>(EdgeOnCosine));
 
         // The place of the pair's own depth: the lower end of the segment on a face. Where it is beside the face, the nearest place over it is
         // as deep, to rounding, unless a one-sided triangle has refused a shorter way.
-        var lowestEnd = Wide.Select(Vector.LessThan(slope, zero), a.HalfLength, -a.HalfLength);
-        var deepest = Wide.Select(usePoint, nearest, Wide.Select(useEdge, search.AxisPlace, lowestEnd));
+        var lowestEnd = Wide.Select(Vector.LessThan(slope, Vector<float>.Zero), a.HalfLength, -a.HalfLength);
+        var deepest = Wide.Select(scratch.UseLowestEnd, lowestEnd, scratch.Deepest);
         var deepestOver = Wide.Clamp(deepest, start, end);
         var isAsDeep = isOver & Vector.LessThanOrEqual(Vector.Abs(slope * (deepestOver - deepest)), border);
         deepest = Wide.Select(isAsDeep, deepestOver, deepest);
@@ -136,26 +209,27 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         slope = Wide.Mask(isOver, slope);
 
         var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(MinimumContactDistance));
-        // A triangle without area has no front, and no contacts.
-        var exists = Vector.GreaterThan(front.LengthSquared(), new Vector<float>(0.5f)) & (b.TwoSidedMask |
-            (Vector.GreaterThanOrEqual(height, zero) & Vector.GreaterThanOrEqual(facing, new Vector<float>(-BehindTolerance))));
-        manifold.Normal = Matrix3x3Wide.TransposeTimes(axes, normal);
+        var u = QuaternionWide.TransformUnitY(pose.OrientationA);
+        var worldNormal = Matrix3x3Wide.TransposeTimes(scratch.Axes, normal);
+        manifold.Normal = worldNormal;
         ref var first = ref manifold.Contacts[0];
-        WriteContact(a.Radius, u, pairDepth, deepest, slope, Wide.Select(two, start, deepest), manifold.Normal, ref first);
+        WriteContact(a.Radius, u, scratch.PairDepth, deepest, slope, Wide.Select(two, start, deepest), worldNormal, ref first);
         first.FeatureId = Vector<int>.Zero;
-        first.Exists = exists & Vector.GreaterThanOrEqual(first.Depth, -speculativeMargin);
+        first.Exists = scratch.Exists & Vector.GreaterThanOrEqual(first.Depth, -speculativeMargin);
         ref var second = ref manifold.Contacts[1];
-        WriteContact(a.Radius, u, pairDepth, deepest, slope, end, manifold.Normal, ref second);
+        WriteContact(a.Radius, u, scratch.PairDepth, deepest, slope, end, worldNormal, ref second);
         second.FeatureId = Vector<int>.One;
-        second.Exists = exists & two & Vector.GreaterThanOrEqual(second.Depth, -speculativeMargin);
+        second.Exists = scratch.Exists & two & Vector.GreaterThanOrEqual(second.Depth, -speculativeMargin);
     }
 
     /// <summary>Tries the nearest points of the segment and an edge, and the axis across them.</summary>
     // The nearest points as in CapsuleCapsuleTester, the edge being the capsule B.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void VisitEdge(in TriangleEdgeWide edge, in Vector3Wide opposite, in Vector3Wide front, in Vector3Wide center,
-        in Vector3Wide direction, Vector<float> halfLength, Vector<int> twoSided, ref Search search)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void VisitEdge(in TriangleEdgeWide edge, in Vector3Wide opposite, Vector<float> halfLength, Vector<int> twoSided, ref Scratch scratch)
     {
+        ref var search = ref scratch.Search;
+        ref var center = ref scratch.Center;
+        ref var direction = ref scratch.Direction;
         var zero = Vector<float>.Zero;
         var toStart = edge.Start - center;
         var toEnd = toStart + edge.Direction * edge.Length;
@@ -194,17 +268,12 @@ public readonly struct CapsuleTriangleTester : IPairTester<CapsuleWide, Triangle
         var isInward = Vector.GreaterThan(Vector3Wide.Dot(axis, toOpposite - toStart), zero);
         axis = Vector3Wide.Select(isInward, -axis, axis);
         var depth = Vector3Wide.Dot(axis, toStart);
-        var isAllowed = twoSided | Vector.GreaterThanOrEqual(Vector3Wide.Dot(axis, front), new Vector<float>(-BehindTolerance));
+        var isAllowed = twoSided | Vector.GreaterThanOrEqual(Vector3Wide.Dot(axis, scratch.Front), new Vector<float>(-BehindTolerance));
         var better = Vector.AndNot(Vector.LessThan(depth, search.AxisDepth) & isAllowed, parallel);
         search.AxisNormal = Vector3Wide.Select(better, axis, search.AxisNormal);
         search.AxisDepth = Wide.Select(better, depth, search.AxisDepth);
         search.AxisPlace = Wide.Select(better, passing, search.AxisPlace);
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> IsOver(in TriangleEdgeWide ab, in TriangleEdgeWide bc, in TriangleEdgeWide ca, in Vector3Wide point) =>
-        Vector.LessThanOrEqual(ab.GetBeyond(point), Vector<float>.Zero) & Vector.LessThanOrEqual(bc.GetBeyond(point), Vector<float>.Zero) &
-        Vector.LessThanOrEqual(ca.GetBeyond(point), Vector<float>.Zero);
 
     /// <summary>Keeps the shorter offset; of two that are equally long to rounding, that along which the shapes are farther apart.</summary>
     // Around the nearest points the distance hardly changes, so it tells them to the square root of its rounding only. How far the shapes are

@@ -45,7 +45,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
             return;
         }
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(a, b, localOffsetB, localAxesB, found.Normal, found.Depth,
-            found.PointOnA, found.Near, speculativeMargin, axesA, out manifold);
+            found.PointOnA, found.Near, speculativeMargin, axesA, ref state.Contacts, out manifold);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

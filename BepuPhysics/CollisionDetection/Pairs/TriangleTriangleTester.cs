@@ -1,0 +1,63 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>
+/// Triangle against triangle: the separating axis of least depth, or the nearest points of triangles that are apart, then up to four corners
+/// of the overlap of the two faces, seen along it.
+/// </summary>
+/// <remarks>
+/// Triangles that cross have the least depth that brings them apart, by either side of each. A one-sided triangle has only contacts whose
+/// normal does not point behind it; where the least way out does, there is none.
+/// </remarks>
+public readonly unsafe struct TriangleTriangleTester : IPairTester<TriangleWide, TriangleWide, Few4<ContactWide>>
+{
+    const int CacheLine = 64;
+
+    struct Scratch
+    {
+        public Matrix3x3Wide AxesA, AxesB;
+        public Vector3Wide OffsetB;
+        public TriangleTriangleAxes Axes;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static void Test(in TriangleWide a, in TriangleWide b, in PairPoseWide pose, Vector<float> speculativeMargin,
+        out ConvexManifoldWide<Few4<ContactWide>> manifold)
+    {
+        Unsafe.SkipInit(out manifold);
+        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow, and which do would change with the depth
+        // of the stack: so the scratch of the test is put at a cache line, and what is taken from the stack for it brings the frames of the
+        // steps to the same place in a line each time.
+        int anchor;
+        var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + sizeof(Scratch) + CacheLine];
+        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        ref var axes = ref scratch.Axes;
+        scratch.AxesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
+        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
+        scratch.AxesB = new(scratch.AxesA * axesB.X, scratch.AxesA * axesB.Y, scratch.AxesA * axesB.Z);
+        scratch.OffsetB = scratch.AxesA * pose.OffsetB;
+        axes.A.Place(a);
+        axes.B.Place(b, scratch.AxesB, scratch.OffsetB);
+        axes.FindLeastDepth();
+        var near = Vector.GreaterThanOrEqual(axes.Depth, -speculativeMargin);
+        var apart = near & axes.MayBeApart;
+        if (!Vector.EqualsAll(apart, Vector<int>.Zero))
+        {
+            axes.FindNearest(apart);
+            near &= Vector.GreaterThanOrEqual(axes.Depth, -speculativeMargin) & Vector.LessThan(axes.Depth, new Vector<float>(float.MaxValue));
+        }
+        if (Vector.EqualsAll(near, Vector<int>.Zero))
+        {
+            for (int i = 0; i < Few4<ContactWide>.Count; ++i)
+                manifold.Contacts[i].Exists = Vector<int>.Zero;
+            return;
+        }
+        FaceManifold<TriangleWide, TriangleFeature, TriangleWide, TriangleFeature>.Build(a, b, scratch.OffsetB, scratch.AxesB, axes.Normal,
+            axes.Depth, axes.PointOnA, near, speculativeMargin, scratch.AxesA, out manifold);
+    }
+}
