@@ -16,10 +16,6 @@ sealed class ConvexPairTally
     public const double Tolerance = 1e-3;
     public const double WrongMinimum = 0.01;
 
-    // Where a small shape is inside of one that is many times as large, ways out that differ by hundredths of the small one differ by nothing that
-    // matters beside their length: part of the depth beyond twice the smaller size, so that it is nothing for shapes of about one size.
-    const double WrongDepthShare = 2e-3;
-
     readonly List<float> depthErrors = [];
     readonly List<float> excesses = [];
     readonly List<float> angles = [];
@@ -124,7 +120,7 @@ sealed class ConvexPairTally
         depthErrors.Add((float)error);
         excesses.Add((float)(isExact ? Math.Max(0, excess) : 0));
         angles.Add((float)(isExact ? Angle(reference, found, normal, excess) : 0));
-        WrongMinimumCount += isExact && excess > WrongMinimum + WrongDepthShare * Math.Max(0, depth / size - 2) ? 1 : 0;
+        WrongMinimumCount += isExact && excess > WrongMinimum ? 1 : 0;
         if (Math.Max(error, isExact ? excess : 0) > worst)
         {
             worst = Math.Max(error, isExact ? excess : 0);

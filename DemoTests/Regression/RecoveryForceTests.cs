@@ -20,7 +20,7 @@ public class RecoveryForceTests
     [InlineData(100, 1)]
     [InlineData(1000, 1)]
     [InlineData(2000, 1)]
-    [InlineData(4000, 1)]
+    [InlineData(4000, 2)]
     [InlineData(1000, .5f)]
     public void A_load_rests_at_the_depth_that_its_spring_says(float gravity, float maximumRecoveryVelocity)
     {
