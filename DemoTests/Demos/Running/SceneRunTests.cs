@@ -157,7 +157,8 @@ public class SceneRunTests
         RunResult result = run.Run(_ => kept[0] = new byte[garbage]);
 
         Assert.NotNull(kept[0]);
-        Assert.InRange(result.ManagedBytes, 0, garbage);
+        // Below zero where that listener's thread took its allocations into account in between.
+        Assert.InRange(result.ManagedBytes, -garbage / 2, garbage / 2);
     }
 
     static RunResult RunRag(
