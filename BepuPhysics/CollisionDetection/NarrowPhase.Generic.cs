@@ -187,8 +187,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         tested.CacheIndex = Pairs.Pairs.IndexOf(tested.Pair);
         var history = PairInput.NoHistory;
         if (task.KeepsHistories && tested.CacheIndex >= 0)
-        {
             history = Pairs.Pairs.Values[tested.CacheIndex].History;
+        if (history >= 0)
+        {
             Unsafe.SkipInit(out ConvexContactManifold manifold);
             if (Reuse(history, collidableA.Shape, shapeB, offsetB, poseA.Orientation, poseB.Orientation, margin, ref manifold))
             {
@@ -237,7 +238,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         {
             Pairs.MarkSeen(tested.CacheIndex);
             ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
-            if (cached.ConstraintTypeId == typeId)
+            // A pair whose shapes have become such as keep a history gets it with the changes.
+            if (cached.ConstraintTypeId == typeId && (cached.History >= 0 || !tested.KeepsHistory))
             {
                 var target = new ContactConstraint(Simulation.Solver, cached.Constraint, convex.Count);
                 target.ReadImpulses(cached.Features, out var impulses);
@@ -338,6 +340,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             Pairs.Add(pending.Pair, pending.KeepsHistory, Pool);
         }
         ref var cached = ref Pairs.Pairs.Values[index];
+        if (pending.KeepsHistory && cached.History < 0)
+            cached.History = Pairs.Histories.Take(Pool);
         if (cached.HasConstraint)
         {
             new ContactConstraint(solver, cached.Constraint, ContactCount(cached.ConstraintTypeId)).ReadImpulses(cached.Features, out impulses);
