@@ -1,3 +1,5 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -10,4 +12,12 @@ public struct ConvexManifoldWide<TContacts> where TContacts : unmanaged, IFew<Co
     public Vector3Wide Normal;
     /// <summary>The contacts; those that exist need not be the first.</summary>
     public TContacts Contacts;
+
+    /// <summary>Marks all contacts of all pairs as not existing; what else is written to the manifold then means nothing.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void RemoveContacts()
+    {
+        for (int i = 0; i < TContacts.Count; ++i)
+            Contacts[i].Exists = Vector<int>.Zero;
+    }
 }

@@ -41,18 +41,12 @@ public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<
         var address = (nint)(&unaligned);
         ref var scratch = ref *(Scratch*)((address + CacheLine - 1) & -CacheLine);
         ref var faces = ref scratch.Faces;
-        faces.AxesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
-        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        faces.AxesB = new(faces.AxesA * axesB.X, faces.AxesA * axesB.Y, faces.AxesA * axesB.Z);
-        faces.OffsetB = faces.AxesA * pose.OffsetB;
+        pose.GetLocal(out faces.AxesA, out faces.AxesB, out faces.OffsetB);
         BoxAxes.FindLeastDepth(a, b, faces.AxesB, faces.OffsetB, out faces.PairDepth, out faces.Normal);
         var touching = Vector.GreaterThanOrEqual(faces.PairDepth, -speculativeMargin);
         if (Vector.EqualsAll(touching, Vector<int>.Zero))
         {
-            manifold.Contacts[0].Exists = Vector<int>.Zero;
-            manifold.Contacts[1].Exists = Vector<int>.Zero;
-            manifold.Contacts[2].Exists = Vector<int>.Zero;
-            manifold.Contacts[3].Exists = Vector<int>.Zero;
+            manifold.RemoveContacts();
             return;
         }
         faces.Project(a, b);

@@ -39,10 +39,7 @@ public readonly unsafe struct BoxTriangleTester : IPairTester<BoxWide, TriangleW
         var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + 16 + sizeof(Scratch) + CacheLine];
         ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
         ref var axes = ref scratch.Axes;
-        scratch.AxesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
-        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        scratch.AxesB = new(scratch.AxesA * axesB.X, scratch.AxesA * axesB.Y, scratch.AxesA * axesB.Z);
-        scratch.OffsetB = scratch.AxesA * pose.OffsetB;
+        pose.GetLocal(out scratch.AxesA, out scratch.AxesB, out scratch.OffsetB);
         axes.Triangle.Place(b, scratch.AxesB, scratch.OffsetB);
         axes.FindLeastDepth(a);
         var isInFront = b.TwoSidedMask |
@@ -56,8 +53,7 @@ public readonly unsafe struct BoxTriangleTester : IPairTester<BoxWide, TriangleW
         }
         if (Vector.EqualsAll(near, Vector<int>.Zero))
         {
-            for (int i = 0; i < Few4<ContactWide>.Count; ++i)
-                manifold.Contacts[i].Exists = Vector<int>.Zero;
+            manifold.RemoveContacts();
             return;
         }
         FaceManifold<BoxWide, BoxFeature, TriangleWide, TriangleFeature>.Build(a, b, scratch.OffsetB, scratch.AxesB, axes.Normal, axes.Depth,

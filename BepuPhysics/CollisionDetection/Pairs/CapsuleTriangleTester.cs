@@ -103,8 +103,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         scratch.Exists &= Vector.GreaterThanOrEqual(scratch.PairDepth, -speculativeMargin);
         if (Vector.EqualsAll(scratch.Exists, Vector<int>.Zero))
         {
-            manifold.Contacts[0].Exists = Vector<int>.Zero;
-            manifold.Contacts[1].Exists = Vector<int>.Zero;
+            manifold.RemoveContacts();
             return;
         }
         WriteContacts(a, pose, speculativeMargin, scratch, ref manifold);

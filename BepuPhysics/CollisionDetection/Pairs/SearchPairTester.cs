@@ -29,10 +29,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
         ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        var axesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
-        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        var localOffsetB = axesA * pose.OffsetB;
-        var localAxesB = new Matrix3x3Wide { X = axesA * axesB.X, Y = axesA * axesB.Y, Z = axesA * axesB.Z };
+        pose.GetLocal(out var axesA, out var localAxesB, out var localOffsetB);
         DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Find(
             a, b, localOffsetB, localAxesB, speculativeMargin, ref state, out var found);
         measures.Depth = found.Depth;
@@ -40,8 +37,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
         measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
         if (found.Near == Vector<int>.Zero)
         {
-            for (int i = 0; i < Few4<ContactWide>.Count; ++i)
-                manifold.Contacts[i].Exists = Vector<int>.Zero;
+            manifold.RemoveContacts();
             return;
         }
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(a, b, localOffsetB, localAxesB, found.Normal, found.Depth,

@@ -37,10 +37,7 @@ public readonly unsafe struct TriangleTriangleTester : IPairTester<TriangleWide,
         var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + sizeof(Scratch) + CacheLine];
         ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
         ref var axes = ref scratch.Axes;
-        scratch.AxesA = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
-        var axesB = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        scratch.AxesB = new(scratch.AxesA * axesB.X, scratch.AxesA * axesB.Y, scratch.AxesA * axesB.Z);
-        scratch.OffsetB = scratch.AxesA * pose.OffsetB;
+        pose.GetLocal(out scratch.AxesA, out scratch.AxesB, out scratch.OffsetB);
         axes.A.Place(a);
         axes.B.Place(b, scratch.AxesB, scratch.OffsetB);
         axes.FindLeastDepth();
@@ -53,8 +50,7 @@ public readonly unsafe struct TriangleTriangleTester : IPairTester<TriangleWide,
         }
         if (Vector.EqualsAll(near, Vector<int>.Zero))
         {
-            for (int i = 0; i < Few4<ContactWide>.Count; ++i)
-                manifold.Contacts[i].Exists = Vector<int>.Zero;
+            manifold.RemoveContacts();
             return;
         }
         FaceManifold<TriangleWide, TriangleFeature, TriangleWide, TriangleFeature>.Build(a, b, scratch.OffsetB, scratch.AxesB, axes.Normal,
