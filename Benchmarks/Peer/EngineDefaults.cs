@@ -1,6 +1,7 @@
 using BepuPhysics;
 using BepuPhysics.Constraints;
 using Demos.Running;
+using Demos.Scenes;
 
 namespace Demos.Engine;
 
@@ -17,6 +18,11 @@ static class EngineDefaults
     public static SpringSettings JointSpring => new(30, 1);
 
     public const AngularIntegrationMode RotationMode = AngularIntegrationMode.Nonconserving;
+
+    /// <summary>How hard the solver works.</summary>
+    public static SolveDescription Solve(RunSettings settings) => settings.Relaxations == 0
+        ? new(settings.Iterations, settings.Substeps)
+        : throw new SceneException("this engine has no relaxation sweeps");
 
     /// <summary>
     /// Seconds of the last step, as far as the engine was built with its profiler. It counts the prediction of bounds and the last

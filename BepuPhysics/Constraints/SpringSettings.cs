@@ -8,11 +8,11 @@ namespace BepuPhysics.Constraints;
 /// <summary>Stiffness and damping of a constraint, independent of the masses that it connects.</summary>
 /// <remarks>
 /// The default, all zero, is rigid: as stiff as the substep allows. A frequency that is given is kept up to that limit,
-/// <see cref="CyclesPerSubstep"/> periods per substep, beyond which the sweeps of a substep would add energy.
+/// <see cref="JointCyclesPerSubstep"/> or <see cref="ContactCyclesPerSubstep"/>, beyond which the sweeps of a substep would add energy.
 /// </remarks>
 public struct SpringSettings
 {
-    const float CyclesPerIteration = 0.125f;
+    // Beyond half a period per substep an implicit spring has no stiffness left to gain.
     const float MaximumCycles = 0.5f;
 
     /// <summary>Undamped angular frequency, rad/s; 0 for rigid.</summary>
@@ -32,12 +32,24 @@ public struct SpringSettings
         TwiceDampingRatio = dampingRatio * 2;
     }
 
-    /// <summary>Frequency of the rigid default, and upper limit of every frequency, times the length of a substep.</summary>
+    /// <summary>Frequency of rigid joints, and upper limit of every joint's, in periods per substep.</summary>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
-    // 0.125 is stable with one sweep per substep and no relaxation; 0.25 gains energy at mass ratios of 100, and an exactly
-    // straight chain diverges there. Each further sweep moves a load over one more constraint. Beyond half a period per substep
-    // an implicit spring has no stiffness left to gain.
-    public static float CyclesPerSubstep(int iterations) => MathF.Min(CyclesPerIteration * iterations, MaximumCycles);
+    /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
+    // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either
+    // kind, moves a load over one more joint and is worth another 0.125 up to three, and half as much from there.
+    public static float JointCyclesPerSubstep(int iterations, int relaxations = 0)
+    {
+        var sweeps = iterations + relaxations;
+        return MathF.Min(MathF.Min(0.125f * sweeps, 0.0625f * (sweeps + 3)), MaximumCycles);
+    }
+
+    /// <summary>Frequency of rigid contacts, and upper limit of every contact's, in periods per substep.</summary>
+    /// <param name="iterations">Sweeps per substep, at least 1.</param>
+    /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
+    // The worst case is a heap of many boxes: pyramids of 20 layers stay where they are with these values, and begin to shift at 0.25 with
+    // two sweeps, 0.4 with four and 0.5 with six.
+    public static float ContactCyclesPerSubstep(int iterations, int relaxations = 0) =>
+        MathF.Min(0.0625f * (iterations + relaxations + 1), MaximumCycles);
 
     /// <summary>Undamped frequency, Hz; 0 for rigid.</summary>
     public float Frequency
@@ -67,18 +79,25 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     /// <inheritdoc cref="SpringSettings.TwiceDampingRatio"/>
     public Vector<float> TwiceDampingRatio;
 
-    /// <summary>Coefficients of the implicit Euler step of the spring.</summary>
+    /// <summary>Coefficients of the implicit Euler step of the spring, or of its relaxation.</summary>
+    /// <param name="substep">The substep, and what its present sweep is for.</param>
+    /// <param name="limits">How stiff the kind of constraint may be in it.</param>
     // A damped spring  m a = -k x - c v  advanced implicitly over h is the velocity constraint
     //   v + ErrorToVelocity x + gamma lambda = 0,  ErrorToVelocity = h k / (h k + c),  gamma = 1 / (h (h k + c))  per unit effective mass.
     // With k = w^2, c = 2 z w:  ErrorToVelocity = w / (w h + 2 z),  gamma = 1 / (w h (w h + 2 z)).
     // Solved for the total impulse with effective mass M:  dl = -M MassScale (v + ErrorToVelocity x) - ImpulseScale lambda.
+    //
+    // Relaxation takes back the velocity that the correction of position has left behind, and is for what is meant to be rigid: C' = 0
+    // without any softness. The velocity of a spring that a game asked for is no correction, and stays.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly SoftnessWide ForSubstep(in Substep substep)
+    public readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits)
     {
-        var stiffest = new Vector<float>(substep.StiffestFrequencyDt);
         var given = AngularFrequency * substep.Dt;
         var rigid = Vector.Equals(given, Vector<float>.Zero);
-        var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(substep.RigidFrequencyDt), Wide.Min(given, stiffest));
+        if (substep.IsRelaxation)
+            return new() { MassScale = Wide.Mask(rigid, Vector<float>.One) };
+        var stiffest = new Vector<float>(limits.StiffestFrequencyDt);
+        var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(limits.RigidFrequencyDt), Wide.Min(given, stiffest));
         var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(2), TwiceDampingRatio);
         var product = frequencyDt * sum;
         SoftnessWide softness;

@@ -7,6 +7,10 @@ enum IntegrationStage
     First,
     /// <summary>A substep ends and the next begins: poses, then velocities.</summary>
     Between,
+    /// <summary>A substep has been solved and will be relaxed: poses only.</summary>
+    Poses,
+    /// <summary>The substep before has been relaxed, and the next begins: velocities only.</summary>
+    Velocities,
     /// <summary>The step ends: poses only.</summary>
     Last,
 }

@@ -52,11 +52,12 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             var kinematic = IsKinematic(localInertia);
             if (stage == IntegrationStage.First)
                 Begin(origins, displacements, indices, pose.Position);
-            else
+            else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
             if (stage == IntegrationStage.Last)
-            {
                 End(origins, displacements, indices, pose.Position);
+            if (stage is IntegrationStage.Last or IntegrationStage.Poses)
+            {
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
                 continue;

@@ -54,11 +54,14 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
     {
+        // A servo's velocity is what it was asked for, and not left over from a correction.
+        if (TJoint.Kind == RowKind.Servo && substep.IsRelaxation)
+            return;
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-        var softness = TJoint.Spring(prestep).ForSubstep(substep);
+        var softness = TJoint.Spring(prestep).ForSubstep(substep, substep.Joints);
 
         var wanted = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)

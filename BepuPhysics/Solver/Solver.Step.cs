@@ -15,6 +15,9 @@ public delegate void SubstepEvent(int substepIndex);
 //   for each substep:  integrate bodies;  for each batch: warm start;  for each iteration, for each batch: solve
 //   at the end:        integrate poses
 //
+// With relaxation, poses are integrated after the iterations of each substep, and for each relaxation, for each batch: solve, without
+// correction of positions.
+//
 // The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
 public sealed unsafe partial class Solver
 {
@@ -47,6 +50,7 @@ public sealed unsafe partial class Solver
         Integrate,
         WarmStart,
         Solve,
+        Relax,
         JoinParts,
         SubstepEnded,
         Optional,
@@ -146,25 +150,35 @@ public sealed unsafe partial class Solver
         work.Stages = new QuickList<Stage>(64, pool);
         work.Iterations = IterationsOf(0);
         AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
-        var bodyBlocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
+        var relaxes = relaxationIterationCount > 0;
         for (int substep = 0; substep < substepCount; ++substep)
         {
             work.Iterations = IterationsOf(substep);
             if (SubstepStarted is not null)
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
-            var integration = substep == 0 ? IntegrationStage.First : IntegrationStage.Between;
-            work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = integration, Substep = substep, BlockCount = bodyBlocks }, pool);
+            AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
             AddOptional(ref work, SolverPoint.AfterIntegration, substep);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
             for (int i = work.Iterations; i > 0; --i)
                 AddSweep(ref work, StageKind.Solve, substep);
             AddOptional(ref work, SolverPoint.AfterSolve, substep);
+            if (relaxes)
+                AddIntegration(ref work, substep == substepCount - 1 ? IntegrationStage.Last : IntegrationStage.Poses, substep);
+            for (int i = relaxationIterationCount; i > 0; --i)
+                AddSweep(ref work, StageKind.Relax, substep);
             if (SubstepEnded is not null)
                 work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = substep, BlockCount = 1 }, pool);
         }
-        work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = IntegrationStage.Last, Substep = substepCount - 1, BlockCount = bodyBlocks }, pool);
+        if (!relaxes)
+            AddIntegration(ref work, IntegrationStage.Last, substepCount - 1);
         AddOptional(ref work, SolverPoint.AfterSubsteps, substepCount - 1);
+    }
+
+    void AddIntegration(ref SolveWork work, IntegrationStage stage, int substep)
+    {
+        var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
+        work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, Substep = substep, BlockCount = blocks }, pool);
     }
 
     int IterationsOf(int substep)
@@ -228,6 +242,7 @@ public sealed unsafe partial class Solver
                     break;
                 case StageKind.WarmStart:
                 case StageKind.Solve:
+                case StageKind.Relax:
                     RunConstraints(stage, Blocks[BlocksOfBatch[stage.Batch].Start + blockIndex]);
                     break;
                 case StageKind.JoinParts:
@@ -246,8 +261,9 @@ public sealed unsafe partial class Solver
             }
         }
 
-        readonly Substep SubstepOf(in Stage stage) => 
-            new(stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1, stage.Iterations, Solver.steadySubstepDt);
+        readonly Substep SubstepOf(in Stage stage) => new(
+            stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1, stage.Iterations, Solver.relaxationIterationCount,
+            stage.Kind == StageKind.Relax, Solver.steadySubstepDt);
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {

@@ -26,6 +26,7 @@ public sealed unsafe partial class Solver
     Action<ConstraintHandle> contactRemoved = static _ => { };
     int velocityIterationCount;
     int substepCount;
+    int relaxationIterationCount;
 
     /// <summary>Sets of constraints; set 0 is the active one.</summary>
     public Buffer<ConstraintSet> Sets;
@@ -62,6 +63,18 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Sweeps per substep after its bodies have moved, which take back the velocity that the correction of positions left behind; not negative.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The value is negative.</exception>
+    public int RelaxationIterationCount
+    {
+        get => relaxationIterationCount;
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(value, nameof(RelaxationIterationCount));
+            relaxationIterationCount = value;
+        }
+    }
+
     /// <summary>Chooses the number of velocity iterations of each substep; null for <see cref="VelocityIterationCount"/> in all.</summary>
     public SubstepVelocityIterationScheduler? VelocityIterationScheduler { get; set; }
     /// <summary>Number of batches before constraints go to the fallback batch.</summary>
@@ -76,6 +89,7 @@ public sealed unsafe partial class Solver
         this.pool = pool;
         velocityIterationCount = description.VelocityIterationCount;
         substepCount = description.SubstepCount;
+        relaxationIterationCount = description.RelaxationIterationCount;
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(1, out Sets);

@@ -18,6 +18,7 @@ sealed record AccuracySettings
     public float Dt { get; init; } = 1 / 60f;
     public int SubstepCount { get; init; } = EngineTraits.DefaultSubstepCount;
     public int VelocityIterationCount { get; init; } = EngineTraits.DefaultVelocityIterationCount;
+    public int RelaxationCount { get; init; }
     public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
     public float Friction { get; init; } = .5f;
     public float Restitution { get; init; }
@@ -38,8 +39,8 @@ sealed record AccuracySettings
     /// <summary>Settings of an effort; cases change what they are about.</summary>
     public static AccuracySettings For(Effort effort) => effort == Effort.Default
         ? new()
-        : new() { SubstepCount = 16, AngularMode = EngineTraits.AccurateAngularMode, SubstepsForFreeBodies = true, Stiff = true };
+        : new() { SubstepCount = 16, RelaxationCount = EngineTraits.AccurateRelaxationCount, AngularMode = EngineTraits.AccurateAngularMode, SubstepsForFreeBodies = true, Stiff = true };
 
     public override string ToString() =>
-        string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(Stiff ? " stiff" : "")}");
+        string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(Stiff ? " stiff" : "")}");
 }

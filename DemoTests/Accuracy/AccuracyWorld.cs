@@ -23,7 +23,7 @@ sealed class AccuracyWorld : IDisposable
         var material = EngineTraits.Material(settings.Friction, settings.Restitution, settings.MaximumRecoveryVelocity, settings.Spring);
         Simulation = Simulation.Create(
             pool, new WorldContacts(material, settings.Contacts), new WorldGravity(settings),
-            new SolveDescription(settings.VelocityIterationCount, settings.SubstepCount));
+            EngineTraits.Solve(settings));
     }
 
     public AccuracySettings Settings { get; }

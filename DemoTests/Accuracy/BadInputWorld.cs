@@ -112,6 +112,7 @@ sealed class BadInputWorld : IDisposable
         hash.Add(Solver.CountConstraints());
         hash.Add(Solver.SubstepCount);
         hash.Add(Solver.VelocityIterationCount);
+        hash.Add(Solver.RelaxationIterationCount);
         foreach (var handle in world.Dynamics)
         {
             var body = Bodies[handle];

@@ -32,6 +32,10 @@ static class BadSolverInput
         list.Add("Solver.SubstepCount", ["substep"], [0, -1, int.MinValue], static (w, v) => w.Solver.SubstepCount = (int)v);
         list.Add("Solver.VelocityIterationCount", ["iteration"], [0, -1, int.MinValue], static (w, v) =>
             w.Solver.VelocityIterationCount = (int)v);
+        list.Add("Solver.RelaxationIterationCount", ["relaxation"], [-1, int.MinValue], static (w, v) =>
+            w.Solver.RelaxationIterationCount = (int)v);
+        list.Add("Simulation.Create, relaxation iteration count", ["relaxation"], [-1], static (w, v) =>
+            Create(static v => new(1, 4) { RelaxationIterationCount = (int)v }, v));
         list.Add("Simulation.Create, substep count", ["substep"], [0, -1], static (w, v) => Create(static v => new(1, (int)v), v));
         list.Add("Simulation.Create, velocity iteration count", ["iteration"], [0, -1], static (w, v) =>
             Create(static v => new((int)v, 4), v));

@@ -6,6 +6,6 @@ public enum Effort
     /// <summary>What a game gets without thinking about it.</summary>
     Default,
 
-    /// <summary>Sixteen substeps, the angular mode that conserves, contacts and joints as stiff as they go.</summary>
+    /// <summary>Sixteen relaxed substeps, the angular mode that conserves, contacts and joints as stiff as they go.</summary>
     Accurate,
 }

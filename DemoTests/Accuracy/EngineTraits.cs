@@ -12,6 +12,9 @@ static class EngineTraits
     public const int DefaultSubstepCount = 4;
     public const int DefaultVelocityIterationCount = 1;
 
+    /// <summary>Relaxation sweeps per substep, for those who pay for accuracy.</summary>
+    public const int AccurateRelaxationCount = 1;
+
     /// <summary>As in the ready-made callbacks.</summary>
     public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
@@ -24,6 +27,9 @@ static class EngineTraits
 
     /// <summary>As stiff as the substep allows: the engine chooses.</summary>
     public static SpringSettings RigidSpring(float substepDuration) => default;
+
+    public static SolveDescription Solve(AccuracySettings settings) =>
+        new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount };
 
     public static PairMaterialProperties Material(
         float friction, float restitution, float maximumRecoveryVelocity, SpringSettings spring) =>

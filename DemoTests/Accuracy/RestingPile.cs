@@ -30,10 +30,6 @@ sealed class RestingPile
         // Rollers on rollers hold nothing back, and where a layer moves aside, contacts that give way tilt it further that way: rounding
         // grows by e in a few seconds.
         "capsules crosswise" or "cylinders crosswise" => true,
-        // Four of six uneven corners carry unevenly: each layer leans a little while it settles, and the pile swings by a millimetre after.
-        "random hull" => true,
-        // Bursts after a quarter of a minute: what pushes shapes apart leaves them its velocity.
-        "spheres in a shaft" => true,
         _ => false,
     };
 
@@ -85,6 +81,7 @@ sealed class RestingPile
                 AddInGroove("wheel");
                 break;
             default:
+                isUneven = name == "random hull";
                 for (int i = 0; i < Count; ++i)
                     AddStanding(name, seed: i);
                 break;

@@ -123,7 +123,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         var velocity = probe.RelativeVelocity(lane);
         var scale = 1 + error.Max(Math.Abs) / Substep.Dt;
         // Frequency and damping of a rigid spring, as SpringSettings says: error to velocity w / (w h + 2).
-        var frequency = 2 * Math.PI * SpringSettings.CyclesPerSubstep(1) / Substep.Dt;
+        var frequency = 2 * Math.PI * SpringSettings.JointCyclesPerSubstep(1) / Substep.Dt;
         for (int i = 0; i < velocity.Length; ++i)
         {
             var wanted = -error[i] * frequency / (frequency * Substep.Dt + 2);

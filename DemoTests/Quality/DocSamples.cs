@@ -79,11 +79,12 @@ static class DocSamples
         simulation.Timestep(1 / 60f, dispatcher);
     }
 
-    public static (SolveDescription Usual, SolveDescription Stiff) Dial()
+    public static (SolveDescription Usual, SolveDescription Stiff, SolveDescription Calm) Dial()
     {
         var usual = new SolveDescription(velocityIterationCount: 1, substepCount: 4);
         var stiff = new SolveDescription(velocityIterationCount: 1, substepCount: 16);
-        return (usual, stiff);
+        var calm = new SolveDescription(velocityIterationCount: 1, substepCount: 4) { RelaxationIterationCount = 1 };
+        return (usual, stiff, calm);
     }
 
     // Docs/Internals/Memory.md

@@ -159,8 +159,9 @@ public sealed class DocSamplesTests : IDisposable
     [Fact]
     public void The_dial_has_the_values_that_the_guide_names()
     {
-        var (usual, stiff) = DocSamples.Dial();
+        var (usual, stiff, calm) = DocSamples.Dial();
         Assert.Equal((1, 4, 1, 16), (usual.VelocityIterationCount, usual.SubstepCount, stiff.VelocityIterationCount, stiff.SubstepCount));
+        Assert.Equal((0, 0, 1), (usual.RelaxationIterationCount, stiff.RelaxationIterationCount, calm.RelaxationIterationCount));
     }
 
     [Fact]

@@ -32,6 +32,18 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     }
 
     [Fact]
+    public void Relaxation_does_not_depend_on_threads()
+    {
+        foreach (string name in (ReadOnlySpan<string>)["pyramids", "cloth-lattice", "pile"])
+        {
+            var scene = Scene(name);
+            var expected = Run(scene, 1, 60, relaxations: 1);
+            foreach (int threads in (ReadOnlySpan<int>)[2, 3])
+                AssertSame(expected, Run(scene, threads, 60, relaxations: 1), $"{name}, relaxed, with {threads} threads");
+        }
+    }
+
+    [Fact]
     public void A_run_that_is_repeated_gives_the_same_bits()
     {
         var scene = Scene("pile");
@@ -80,9 +92,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         _ => SceneLibrary.Load(name, 1),
     };
 
-    static List<(int Step, string Hash)> Run(SceneDescription scene, int threads, int steps)
+    static List<(int Step, string Hash)> Run(SceneDescription scene, int threads, int steps, int relaxations = 0)
     {
-        using var world = new SceneWorld(scene, threads);
+        using var world = new SceneWorld(scene, threads, relaxations);
         return world.HashSteps(steps).ConvertAll(hash => hash.ToString("x16", CultureInfo.InvariantCulture)).Numbered();
     }
 

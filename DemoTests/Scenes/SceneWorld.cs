@@ -19,7 +19,7 @@ sealed unsafe class SceneWorld : IDisposable
     // Made once, so that asking costs nothing.
     readonly Action<int> readWorkerBytes;
 
-    public SceneWorld(SceneDescription scene, int threads)
+    public SceneWorld(SceneDescription scene, int threads, int relaxations = 0)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         workerBytes = new long[threads];
@@ -27,7 +27,8 @@ sealed unsafe class SceneWorld : IDisposable
         var recorder = new ContactRecorder(threads);
         Simulation = Simulation.Create(
             pool, new SceneNarrowPhaseCallbacks(recorder, new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring)),
-            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping), new SolveDescription(1, 4));
+            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping),
+            new SolveDescription(1, 4) { RelaxationIterationCount = relaxations });
         SceneBuilder.Build(scene, Simulation, EngineDefaults.JointSpring, recorder);
     }
 

@@ -21,6 +21,10 @@ static class EngineDefaults
     /// <summary>How bodies turn: as a rigid body does, the library's default.</summary>
     public const AngularIntegrationMode RotationMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
+    /// <summary>How hard the solver works.</summary>
+    public static SolveDescription Solve(RunSettings settings) =>
+        new(settings.Iterations, settings.Substeps) { RelaxationIterationCount = settings.Relaxations };
+
     /// <summary>Seconds of the stages of the last step.</summary>
     public static StageTimes ReadStages(Simulation simulation)
     {

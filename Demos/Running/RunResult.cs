@@ -23,6 +23,8 @@ public sealed record RunResult
 
     public int Iterations { get; init; }
 
+    public int Relaxations { get; init; }
+
     public int Threads { get; init; }
 
     /// <summary>Floats in a vector.</summary>

@@ -26,6 +26,7 @@ public static class RunResultJson
         json.WriteNumber("dt", result.StepDuration);
         json.WriteNumber("substeps", result.Substeps);
         json.WriteNumber("iterations", result.Iterations);
+        json.WriteNumber("relaxations", result.Relaxations);
         json.WriteNumber("threads", result.Threads);
         json.WriteNumber("lanes", result.Lanes);
         json.WriteNumber("seed", result.Seed);

@@ -14,6 +14,9 @@ public sealed record RunSettings
     /// <summary>Velocity iterations per substep.</summary>
     public int Iterations { get; init; } = 1;
 
+    /// <summary>Sweeps per substep that take back what the correction of positions leaves of velocity.</summary>
+    public int Relaxations { get; init; }
+
     public int Threads { get; init; } = 1;
 
     /// <summary>Seed of the scenes that are drawn by lot.</summary>

@@ -51,7 +51,7 @@ public sealed class SceneRun : IDisposable
             new SceneNarrowPhaseCallbacks(recorder,
                 new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, contactSpring)),
             new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping),
-            new SolveDescription(settings.Iterations, settings.Substeps));
+            EngineDefaults.Solve(settings));
         try
         {
             built = SceneBuilder.Build(scene, simulation, jointSpring, recorder);
@@ -97,6 +97,7 @@ public sealed class SceneRun : IDisposable
             StepDuration = settings.StepDuration,
             Substeps = settings.Substeps,
             Iterations = settings.Iterations,
+            Relaxations = settings.Relaxations,
             Threads = settings.Threads,
             Lanes = Vector<float>.Count,
             Seed = settings.Seed,
@@ -156,6 +157,7 @@ public sealed class SceneRun : IDisposable
         Require(settings.StepDuration is > 0 and <= float.MaxValue, "dt", settings.StepDuration);
         Require(settings.Substeps > 0, "substeps", settings.Substeps);
         Require(settings.Iterations > 0, "iterations", settings.Iterations);
+        Require(settings.Relaxations >= 0, "relaxations", settings.Relaxations);
         Require(settings.Threads is > 0 and <= 1024, "threads", settings.Threads);
         Require(settings.HashEvery >= 0, "hash-every", settings.HashEvery);
         Require(settings.Warmup is null or >= 0, "warmup", settings.Warmup);

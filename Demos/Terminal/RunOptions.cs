@@ -12,6 +12,7 @@ sealed class RunOptions
     readonly Option<float> stepDuration = Make("--dt", "Seconds per step.", defaults.StepDuration);
     readonly Option<int> substeps = Make("--substeps", "Substeps per step.", defaults.Substeps);
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
+    readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are drawn by lot.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
@@ -22,7 +23,7 @@ sealed class RunOptions
     /// <summary>Lets a command understand the options.</summary>
     public void AddTo(Command command)
     {
-        Option[] options = [steps, stepDuration, substeps, iterations, threads, seed, hashEvery, warmup, frequency, dampingRatio];
+        Option[] options = [steps, stepDuration, substeps, iterations, relaxations, threads, seed, hashEvery, warmup, frequency, dampingRatio];
         foreach (Option option in options)
             command.Options.Add(option);
     }
@@ -34,6 +35,7 @@ sealed class RunOptions
         StepDuration = parsed.GetValue(stepDuration),
         Substeps = parsed.GetValue(substeps),
         Iterations = parsed.GetValue(iterations),
+        Relaxations = parsed.GetValue(relaxations),
         Threads = parsed.GetValue(threads),
         Seed = parsed.GetValue(seed),
         HashEvery = parsed.GetValue(hashEvery),

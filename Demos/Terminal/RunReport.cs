@@ -49,12 +49,14 @@ sealed class RunReport(TextWriter output)
         AnsiConsole.Write(table);
     }
 
+    static string Relaxed(RunResult result) => result.Relaxations == 0 ? "" : Text($", {result.Relaxations} relaxed");
+
     static IEnumerable<(string Name, string Value)> Rows(RunResult result)
     {
         yield return ("engine", result.Engine);
         yield return ("scene", result.Scene);
         yield return ("steps", Text($"{result.Steps} of {result.StepDuration * 1000:0.###} ms"));
-        yield return ("solver", Text($"{result.Iterations} iterations x {result.Substeps} substeps"));
+        yield return ("solver", Text($"{result.Iterations} iterations x {result.Substeps} substeps{Relaxed(result)}"));
         yield return ("threads, lanes", Text($"{result.Threads}, {result.Lanes}"));
         StepTimes ms = result.Times;
         yield return ("ms per step", Text($"median {ms.Median:0.000}, mean {ms.Mean:0.000}"));

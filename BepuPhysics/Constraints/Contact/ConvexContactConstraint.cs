@@ -63,12 +63,12 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     public static void Solve(
         ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
-        var softness = prestep.Material.SpringSettings.ForSubstep(substep);
+        var softness = prestep.Material.SpringSettings.ForSubstep(substep, substep.Contacts);
         var inverseDt = new Vector<float>(substep.InverseDt);
         var load = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)
         {
-            SolveNormal(ref bodies, ref prestep, prestep.Contacts[i], softness, inverseDt, ref impulses.Normals[i]);
+            SolveNormal(ref bodies, substep, ref prestep, prestep.Contacts[i], softness, inverseDt, ref impulses.Normals[i]);
             load += impulses.Normals[i];
         }
         var center = PatchCenter(ref prestep);
@@ -84,8 +84,8 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveNormal(
-        ref TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact, in SoftnessWide softness,
-        Vector<float> inverseDt, ref Vector<float> impulse)
+        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact,
+        in SoftnessWide softness, Vector<float> inverseDt, ref Vector<float> impulse)
     {
         ref var a = ref BodySlots.At(ref bodies, 0);
         var n = prestep.Normal;
@@ -112,6 +112,9 @@ public readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var impulseScale = softness.ImpulseScale;
         if (!Vector.EqualsAll(isLimited, Vector<int>.Zero))
             Stiffen(isLimited, prestep.Material.MaximumRecoveryVelocity / recovery, ref massScale, ref impulseScale);
+        // What has not pushed in this substep has left nothing behind; what will be hit in the next one keeps its speed until then.
+        if (substep.IsRelaxation)
+            massScale = Wide.Mask(Vector.GreaterThan(impulse, Vector<float>.Zero), massScale);
         var total = Wide.Max(impulse + (wanted - velocity) * (massScale / inverseMass) - impulse * impulseScale, Vector<float>.Zero);
         var change = total - impulse;
         impulse = total;
