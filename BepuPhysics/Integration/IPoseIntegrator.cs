@@ -7,12 +7,14 @@ enum IntegrationStage
     First,
     /// <summary>A substep ends and the next begins: poses, then velocities.</summary>
     Between,
-    /// <summary>A substep has been solved and will be relaxed: poses only.</summary>
+    /// <summary>A substep has been solved and will be relaxed: poses, and the inertias that go with them.</summary>
     Poses,
     /// <summary>The substep before has been relaxed, and the next begins: velocities only.</summary>
     Velocities,
     /// <summary>The step ends: poses only.</summary>
     Last,
+    /// <summary>The step ends and will be relaxed: poses, and the inertias that go with them.</summary>
+    LastPoses,
 }
 
 /// <summary>Moves bodies by their velocities, and velocities by what the game's callbacks say.</summary>

@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
@@ -54,12 +55,25 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 Begin(origins, displacements, indices, pose.Position);
             else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
-            if (stage == IntegrationStage.Last)
+            if (stage >= IntegrationStage.Last)
                 End(origins, displacements, indices, pose.Position);
-            if (stage is IntegrationStage.Last or IntegrationStage.Poses)
+            if (stage == IntegrationStage.Last)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
+                continue;
+            }
+            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
+            if (stage is IntegrationStage.Poses or IntegrationStage.LastPoses)
+            {
+                // A sweep with inertias from before the turn would give energy to bodies that spin.
+                if (stiffness.Allocated)
+                {
+                    var angular = velocity.Angular;
+                    GeometricStiffness.Apply(ReadStiffness(stiffness, indices), wideDt, ref worldInertia, ref angular);
+                }
+                WriteVelocity(motions, indices, velocity);
+                WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
                 continue;
             }
             var before = velocity.Linear;
@@ -67,11 +81,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
                 KeepLostVelocity(origins, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
-            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
             if (stiffness.Allocated)
             {
-                var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, indices);
-                GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), wideDt, ref worldInertia, ref velocity.Angular);
+                GeometricStiffness.Apply(ReadStiffness(stiffness, indices), wideDt, ref worldInertia, ref velocity.Angular);
                 // The warm start that follows gathers the stiffness of this step.
                 if (stage == IntegrationStage.First)
                     Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, indices);
@@ -111,6 +123,13 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         row = Transpose.Gather(localInertias, FloatsPerRow, indices);
         localInertia.InverseInertiaTensor = new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
         localInertia.InverseMass = row.R6;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Symmetric3x3Wide ReadStiffness(in Buffer<BodyInertia> stiffness, Vector<int> indices)
+    {
+        var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, indices);
+        return new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -127,7 +127,7 @@ unsafe struct FacePolygon
             point = next;
         }
         Extent = extent;
-        FindSlope(frame);
+        FindSlope(points[0] - frame.Origin, frame);
     }
 
     /// <summary>Makes the polygon wider by a border.</summary>
@@ -194,8 +194,11 @@ unsafe struct FacePolygon
         y = Wide.Select(hasLength, vertex.LineY, y);
     }
 
+    // Where p is a point of the plane N . (q - p) = 0, seen from the origin of the frame, and a place has the coordinates x, y and the height h,
+    // N . (X x + Y y + O h - p) = 0. So h over the origin is N . p / N . O, without the place of p in the frame: a corner of a large face is far
+    // away, and the axes are at right angles but for rounding, which would become 1e-7 of that distance.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void FindSlope(in FaceFrame frame)
+    void FindSlope(in Vector3Wide point, in FaceFrame frame)
     {
         var along = Vector3Wide.Dot(Feature.PlaneNormal, frame.Outwards);
         var acrossX = Vector3Wide.Dot(Feature.PlaneNormal, frame.X);
@@ -206,7 +209,7 @@ unsafe struct FacePolygon
         var inverse = Vector<float>.One / along;
         SlopeX = -acrossX * inverse;
         SlopeY = -acrossY * inverse;
-        SlopeHeight = Vertices[0].Height - (SlopeX * Vertices[0].X + SlopeY * Vertices[0].Y);
+        SlopeHeight = Vector3Wide.Dot(Feature.PlaneNormal, point) * inverse + Feature.Margin;
         // A polygon that is one point has no edge to be outside of.
         IsPolygon = Vector.AndNot(isPolygon, isSteep) & Vector.GreaterThan(Extent, Vector<float>.Zero);
         IsSegment = Vector.AndNot(isSegment, isSteep);
