@@ -28,6 +28,9 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly ref BodyVelocity Velocity => ref MotionState.Velocity;
     /// <summary>Inverse mass and inertia in the body's frame. To make the body kinematic or dynamic, use <see cref="SetLocalInertia"/>.</summary>
     public readonly ref BodyInertia LocalInertia => ref Set.LocalInertias[MemoryLocation.Index];
+    /// <summary>Motion and inertia in one view.</summary>
+    public readonly BodyDynamicsReference Dynamics =>
+        new(ref MotionState, ref LocalInertia, ref Set.WorldInertias[MemoryLocation.Index]);
     /// <summary>Shape and collision state.</summary>
     public readonly ref Collidable Collidable => ref Set.Collidables[MemoryLocation.Index];
     /// <summary>Progress towards sleep.</summary>
@@ -86,8 +89,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
         BodyChecks.Vector(impulseOffset, nameof(impulseOffset));
-        Velocity.Linear += impulse * LocalInertia.InverseMass;
-        Turn(Exact.Cross(impulseOffset, impulse));
+        ApplyImpulse(impulse, impulseOffset, ref LocalInertia, ref Pose, ref Velocity);
     }
 
     /// <summary>Applies an impulse at the centre of mass, N s.</summary>
@@ -95,7 +97,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly void ApplyLinearImpulse(Vector3 impulse)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
-        Velocity.Linear += impulse * LocalInertia.InverseMass;
+        ApplyLinearImpulse(impulse, LocalInertia.InverseMass, ref Velocity.Linear);
     }
 
     /// <summary>Applies an angular impulse, N m s.</summary>
@@ -103,14 +105,42 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
     {
         BodyChecks.Vector(angularImpulse, nameof(angularImpulse));
-        Turn(angularImpulse);
+        ComputeInverseInertia(out var inverseInertia);
+        ApplyAngularImpulse(angularImpulse, inverseInertia, ref Velocity.Angular);
     }
 
-    readonly void Turn(Vector3 angularImpulse)
+    /// <summary>Applies an impulse at a point to a body of a set. Values are not checked.</summary>
+    /// <param name="set">The set.</param>
+    /// <param name="index">Index of the body in the set.</param>
+    /// <param name="impulse">N s, world axes.</param>
+    /// <param name="impulseOffset">From the centre of mass, world axes.</param>
+    public static void ApplyImpulse(in BodySet set, int index, Vector3 impulse, Vector3 impulseOffset)
     {
-        ComputeInverseInertia(out var inverseInertia);
-        Velocity.Angular += inverseInertia * angularImpulse;
+        ref var state = ref set.MotionStates[index];
+        ApplyImpulse(impulse, impulseOffset, ref set.LocalInertias[index], ref state.Pose, ref state.Velocity);
     }
+
+    /// <summary>Applies an impulse at a point to what may be no body at all. Values are not checked.</summary>
+    /// <param name="impulse">N s, world axes.</param>
+    /// <param name="impulseOffset">From the centre of mass, world axes.</param>
+    /// <param name="localInertia">Inverse mass and inertia in the body's frame.</param>
+    /// <param name="pose">Pose, for the orientation.</param>
+    /// <param name="velocity">Velocity to change.</param>
+    public static void ApplyImpulse(
+        Vector3 impulse, Vector3 impulseOffset, ref BodyInertia localInertia, ref RigidPose pose, ref BodyVelocity velocity)
+    {
+        ApplyLinearImpulse(impulse, localInertia.InverseMass, ref velocity.Linear);
+        var inverseInertia = Symmetric3x3.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
+        ApplyAngularImpulse(Exact.Cross(impulseOffset, impulse), inverseInertia, ref velocity.Angular);
+    }
+
+    /// <summary>Applies an impulse, N s, to a linear velocity. Values are not checked.</summary>
+    public static void ApplyLinearImpulse(Vector3 impulse, float inverseMass, ref Vector3 linearVelocity) =>
+        linearVelocity += impulse * inverseMass;
+
+    /// <summary>Applies an angular impulse, N m s, to an angular velocity; all in world axes. Values are not checked.</summary>
+    public static void ApplyAngularImpulse(Vector3 angularImpulse, in Symmetric3x3 inverseInertiaTensor, ref Vector3 angularVelocity) =>
+        angularVelocity += inverseInertiaTensor * angularImpulse;
 
     /// <summary>Handle of the body.</summary>
     public static implicit operator BodyHandle(BodyReference reference) => reference.Handle;
