@@ -50,7 +50,7 @@ public abstract unsafe class CollisionTask
     internal abstract void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair);
 
-    /// <summary>As <see cref="Write(ref PairBatch, Shapes, int, int, in Vector3, in Quaternion, in Quaternion, in PairInput)"/>, unless a shape does not exist.</summary>
+    /// <summary>As <see cref="Write"/>, unless a shape does not exist.</summary>
     /// <returns>Whether both shapes exist.</returns>
     internal abstract bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair);
