@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
@@ -47,6 +48,7 @@ public abstract unsafe class ShapeBatch
     public int Count { get; private set; }
 
     /// <summary>Whether a shape was added at an index and not removed since. Any index may be asked.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool Exists(int shapeIndex) => (uint)shapeIndex < (uint)taken.Length && taken[shapeIndex] != 0;
 
     /// <summary>Memory of a shape; valid until a shape is added or the batch is resized.</summary>

@@ -68,8 +68,7 @@ public sealed class Shapes
     }
 
     /// <summary>Whether a shape was added under this name and not removed since.</summary>
-    public bool Exists(TypedIndex shape) =>
-        shape.Exists && shape.Type < batches.Length && batches[shape.Type] is { } batch && batch.Exists(shape.Index);
+    public bool Exists(TypedIndex shape) => shape.Exists && Exists(shape.Type, shape.Index);
 
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Name of the shape.</param>
@@ -141,6 +140,11 @@ public sealed class Shapes
     /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
     internal ShapeBatch GetBatch(int typeIndex) => batches[typeIndex]!;
 
+    /// <summary>Whether there is a shape of an index among those of a type.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal bool Exists(int typeIndex, int shapeIndex) =>
+        (uint)typeIndex < (uint)batches.Length && batches[typeIndex] is { } batch && batch.Exists(shapeIndex);
+
     /// <summary>Refuses a name that no shape has.</summary>
     /// <param name="shape">Name of a shape.</param>
     /// <param name="name">Name of the argument that it was given as.</param>
@@ -151,9 +155,12 @@ public sealed class Shapes
             ThrowMissing(shape, name);
     }
 
+    /// <summary>Refuses a name that no shape has.</summary>
+    /// <param name="shape">The name.</param>
+    /// <param name="name">Name of the argument that it was given as.</param>
     [DoesNotReturn]
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ThrowMissing(TypedIndex shape, string name)
+    internal static void ThrowMissing(TypedIndex shape, string name)
     {
         var reason = shape.Exists ? $"There is no {shape}: it was removed or never added." : "There is no shape of the default index.";
         throw new ArgumentException(reason, name);

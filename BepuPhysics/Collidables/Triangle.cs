@@ -222,7 +222,7 @@ public struct TriangleWide : IShapeWide<Triangle>
         var next = Vector3Wide.Select(longestIsAB, bc, Vector3Wide.Select(longestIsBC, ca, ab));
         var last = Vector3Wide.Select(longestIsAB, ca, Vector3Wide.Select(longestIsBC, ab, bc));
         var squaredLongest = Wide.Max(Wide.Max(squaredAB, squaredBC), squaredCA);
-        var normal = Vector3Wide.Normalize(Vector3Wide.Cross(last, next));
+        var normal = Vector3Wide.Cross(last, next);
         return Vector3Wide.Normalize(normal - longest * Wide.DivideOrZero(Vector3Wide.Dot(normal, longest), squaredLongest));
     }
 }

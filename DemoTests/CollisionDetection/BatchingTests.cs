@@ -198,7 +198,7 @@ public sealed class BatchingTests
             for (int i = 0; i < 900; ++i)
             {
                 var (a, b) = (types[i % 3], types[i / 3 % 3]);
-                batcher.Add(a.Type, a.Index, b.Type, b.Index, new(0, 1, 0), Quaternion.Identity, Turn, 0, 0);
+                batcher.Add(a, b, new(0, 1, 0), Quaternion.Identity, Turn, 0, new(0));
             }
             batcher.Flush();
             allocated = GC.GetAllocatedBytesForCurrentThread() - before;

@@ -2,8 +2,8 @@ using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using BepuPhysics.Collidables;
-using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -31,6 +31,9 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     readonly CollisionTaskRegistry registry;
     readonly PairHistory* histories;
     Buffer<PairBatch> batches;
+    // All batches that have memory are from the first index to before the second: nobody goes through twenty of which one is used.
+    int firstBatch;
+    int endBatch;
     bool executing;
 
     /// <summary>Creates an empty batcher, which takes no memory yet.</summary>
@@ -66,15 +69,11 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <param name="continuation">What becomes of the result.</param>
     /// <exception cref="ArgumentException">A shape does not exist, or a number is not finite or out of range.</exception>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
+    // Inlined, because a caller of the whole would take the rotations to registers by halves, and put them together again on the other side.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Add(TypedIndex shapeIndexA, TypedIndex shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
-        float speculativeMargin, in PairContinuation continuation)
-    {
-        Shapes.CheckExists(shapeIndexA, nameof(shapeIndexA));
-        Shapes.CheckExists(shapeIndexB, nameof(shapeIndexB));
-        CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
-        Add(shapeIndexA.Type, shapeIndexA.Index, shapeIndexB.Type, shapeIndexB.Index, offsetB, orientationA, orientationB,
-            speculativeMargin, continuation.PairId);
-    }
+        float speculativeMargin, in PairContinuation continuation) =>
+        AddChecked(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
 
     /// <summary>Adds a pair of shapes that move; the two convex shapes of a pair need no velocities.</summary>
     /// <param name="shapeIndexA">First shape.</param>
@@ -135,21 +134,33 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = new PairInput(
-            offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, flipped, PairInput.NoHistory);
-        task.Write(ref batch, flipped ? shapeB : shapeA, flipped ? shapeA : shapeB, pair);
+        var pair = new PairInput(speculativeMargin, continuation.PairId, flipped, PairInput.NoHistory);
+        if (flipped)
+            task.WriteDirectly(ref batch, shapeB, shapeA, offsetB, orientationB, orientationA, pair);
+        else
+            task.WriteDirectly(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);
     }
 
-    /// <summary>Adds a pair of shapes that exist, with a pose that is known to be sound.</summary>
-    /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
-    internal void Add(int shapeTypeA, int shapeIndexA, int shapeTypeB, int shapeIndexB, in Vector3 offsetB, in Quaternion orientationA,
-        in Quaternion orientationB, float speculativeMargin, int pairId)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void AddChecked(TypedIndex shapeIndexA, TypedIndex shapeIndexB, in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB,
+        float speculativeMargin, int pairId)
     {
-        var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
-        Add(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId,
-            PairInput.NoHistory);
+        CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
+        if (!shapeIndexA.Exists || !shapeIndexB.Exists)
+            RefuseShapes(shapeIndexA, shapeIndexB);
+        var task = registry.GetTask(shapeIndexA.Type, shapeIndexB.Type, out var taskIndex, out var flipped);
+        ref var batch = ref GetBatch(task, taskIndex);
+        var pair = new PairInput(speculativeMargin, pairId, flipped, PairInput.NoHistory);
+        // The task looks for the shapes in any case.
+        var exist = flipped
+            ? task.TryWrite(ref batch, Shapes, shapeIndexB.Index, shapeIndexA.Index, offsetB, orientationB, orientationA, pair)
+            : task.TryWrite(ref batch, Shapes, shapeIndexA.Index, shapeIndexB.Index, offsetB, orientationA, orientationB, pair);
+        if (!exist)
+            RefuseShapes(shapeIndexA, shapeIndexB);
+        if (batch.Count == PairBatch.Capacity)
+            Execute(task, ref batch);
     }
 
     /// <summary>Adds a pair of shapes that exist to the task of their types, with a pose that is known to be sound.</summary>
@@ -164,14 +175,16 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
     /// <param name="pairId">Id that the callbacks get with the result.</param>
     /// <param name="history">Index of the pair's history, or <see cref="PairInput.NoHistory"/>.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, int history)
     {
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = new PairInput(offsetB, orientationA, orientationB, speculativeMargin, pairId, flipped, history);
+        var pair = new PairInput(speculativeMargin, pairId, flipped, history);
         if (flipped)
-            (shapeIndexA, shapeIndexB) = (shapeIndexB, shapeIndexA);
-        task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, pair);
+            task.Write(ref batch, Shapes, shapeIndexB, shapeIndexA, offsetB, orientationB, orientationA, pair);
+        else
+            task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);
     }
@@ -180,7 +193,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     public void Flush()
     {
         CheckNotExecuting();
-        for (int i = 0; i < batches.Length; ++i)
+        for (int i = firstBatch; i < endBatch; ++i)
         {
             if (batches[i].Count > 0)
                 Execute(registry[i], ref batches[i]);
@@ -191,16 +204,19 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <summary>Returns all memory to the pool; pairs that wait are forgotten. May be called any number of times.</summary>
     public void Dispose()
     {
-        for (int i = 0; i < batches.Length; ++i)
+        if (!batches.Allocated)
+            return;
+        for (int i = firstBatch; i < endBatch; ++i)
         {
             if (batches[i].Bundles.Allocated)
                 Pool.Return(ref batches[i].Bundles);
         }
-        if (batches.Allocated)
-            Pool.Return(ref batches);
+        Pool.Return(ref batches);
         batches = default;
+        firstBatch = endBatch = 0;
     }
 
+    [MethodImpl(MethodImplOptions.NoInlining)]
     void Execute(CollisionTask task, ref PairBatch batch)
     {
         executing = true;
@@ -233,11 +249,12 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         {
             var previousCount = batches.Length;
             Pool.ResizeToAtLeast(ref batches, Math.Max(registry.TaskCount, taskIndex + 1), previousCount);
-            for (int i = previousCount; i < batches.Length; ++i)
-                batches[i] = default;
+            batches.Clear(previousCount, batches.Length - previousCount);
         }
         Pool.Take(task.BatchByteCount, out batches[taskIndex].Bundles);
         batches[taskIndex].Count = 0;
+        firstBatch = endBatch == 0 ? taskIndex : Math.Min(firstBatch, taskIndex);
+        endBatch = Math.Max(endBatch, taskIndex + 1);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -247,16 +264,35 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
             ThrowExecuting();
     }
 
-    // One comparison for all of it, and what is wrong only where something is: a number less itself is zero, but not of what is not finite,
-    // and negated comparisons refuse what is no number.
+    // One branch for all of it, and what is wrong only where something is: what is no number fails every comparison.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void CheckInput(in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin)
     {
-        var zero = (offsetB.X - offsetB.X) + (offsetB.Y - offsetB.Y) + (offsetB.Z - offsetB.Z) + (speculativeMargin - speculativeMargin);
-        var fromUnitA = MathF.Abs(Exact.Dot(orientationA, orientationA) - 1);
-        var fromUnitB = MathF.Abs(Exact.Dot(orientationB, orientationB) - 1);
-        if (!((zero == 0) & (fromUnitA < UnitTolerance) & (fromUnitB < UnitTolerance) & (speculativeMargin >= 0)))
+        var numbers = Vector128.Create(offsetB.X, offsetB.Y, offsetB.Z, speculativeMargin);
+        var least = Vector128.Create(float.MinValue, float.MinValue, float.MinValue, 0);
+        var isInRange = Vector128.GreaterThanOrEqual(numbers, least) & Vector128.LessThanOrEqual(numbers, Vector128.Create(float.MaxValue));
+        if ((isInRange & IsUnit(orientationA) & IsUnit(orientationB)).AsInt32() != Vector128<int>.AllBitsSet)
             RefuseInput(offsetB, orientationA, orientationB, speculativeMargin);
+    }
+
+    // The same answer in all lanes. Both rotations in one wider vector make a batcher of one pair take twice as long: what is compiled ahead
+    // of time in the runtime, and called next, waits for the upper halves of registers.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> IsUnit(in Quaternion orientation)
+    {
+        var squares = Vector128.LoadUnsafe(in orientation.X) * Vector128.LoadUnsafe(in orientation.X);
+        squares += Vector128.Shuffle(squares, Vector128.Create(2, 3, 0, 1));
+        squares += Vector128.Shuffle(squares, Vector128.Create(1, 0, 3, 2));
+        return Vector128.LessThan(Vector128.Abs(squares - Vector128<float>.One), Vector128.Create(UnitTolerance));
+    }
+
+    [DoesNotReturn]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void RefuseShapes(TypedIndex shapeIndexA, TypedIndex shapeIndexB)
+    {
+        if (Shapes.Exists(shapeIndexA))
+            Shapes.ThrowMissing(shapeIndexB, nameof(shapeIndexB));
+        Shapes.ThrowMissing(shapeIndexA, nameof(shapeIndexA));
     }
 
     [DoesNotReturn]
@@ -265,9 +301,9 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     {
         if (!float.IsFinite(offsetB.X) || !float.IsFinite(offsetB.Y) || !float.IsFinite(offsetB.Z))
             throw new ArgumentException($"Not finite: {offsetB}", nameof(offsetB));
-        if (!(MathF.Abs(Exact.Dot(orientationA, orientationA) - 1) < UnitTolerance))
+        if (IsUnit(orientationA).AsInt32() == Vector128<int>.Zero)
             throw new ArgumentException($"Not of unit length: {orientationA}", nameof(orientationA));
-        if (!(MathF.Abs(Exact.Dot(orientationB, orientationB) - 1) < UnitTolerance))
+        if (IsUnit(orientationB).AsInt32() == Vector128<int>.Zero)
             throw new ArgumentException($"Not of unit length: {orientationB}", nameof(orientationB));
         ThrowNegative(speculativeMargin, nameof(speculativeMargin));
     }

@@ -1,3 +1,4 @@
+using System.Numerics;
 using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
@@ -35,11 +36,28 @@ public abstract unsafe class CollisionTask
     /// <summary>Size of the memory of a batch, bytes.</summary>
     internal abstract int BatchByteCount { get; }
 
-    /// <summary>Writes a pair of shapes that are known to exist into the next lane of a batch that has room.</summary>
-    internal abstract void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair);
+    // Poses are passed one by one and by reference: they are copied once, by components, and a struct of references has to be cleared first.
 
-    /// <summary>Writes a pair of shapes into the next lane of a batch that has room.</summary>
-    internal abstract void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair);
+    /// <summary>Writes a pair of shapes that are known to exist into the next lane of a batch that has room.</summary>
+    /// <param name="batch">The batch.</param>
+    /// <param name="shapes">Shapes that the indices refer to.</param>
+    /// <param name="shapeIndexA">Shape of the task's first type.</param>
+    /// <param name="shapeIndexB">Shape of the task's second type.</param>
+    /// <param name="offsetB">Position of the caller's B less that of its A; turned where it is written, if the pair is flipped.</param>
+    /// <param name="orientationA">Rotation of the shape of the task's first type.</param>
+    /// <param name="orientationB">Rotation of the shape of the task's second type.</param>
+    /// <param name="pair">What else there is to the pair.</param>
+    internal abstract void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair);
+
+    /// <summary>As <see cref="Write"/>, unless a shape does not exist.</summary>
+    /// <returns>Whether both shapes exist.</returns>
+    internal abstract bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair);
+
+    /// <summary>Writes a pair of shapes that are anywhere into the next lane of a batch that has room.</summary>
+    internal abstract void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair);
 
     /// <summary>Tests all pairs of a batch, hands the results to the callbacks and empties the batch.</summary>
     /// <param name="batch">The pairs.</param>

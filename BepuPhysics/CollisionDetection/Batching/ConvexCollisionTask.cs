@@ -24,14 +24,30 @@ public sealed unsafe class ConvexCollisionTask<TShapeA, TShapeWideA, TShapeB, TS
     /// <exception cref="InvalidOperationException">The type id of the first shape is greater than that of the second.</exception>
     public ConvexCollisionTask() : base(keepsHistories: false) { }
 
-    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
+    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {
         Find(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB);
-        Write(ref batch, *shapeA, *shapeB, pair, TTester.NeedsOrientationA, TTester.NeedsOrientationB);
+        WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
     }
 
-    internal override void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair) =>
-        Write(ref batch, *(TShapeA*)shapeA, *(TShapeB*)shapeB, pair, TTester.NeedsOrientationA, TTester.NeedsOrientationB);
+    internal override bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        if (!TryFind(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB))
+            return false;
+        WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
+        return true;
+    }
+
+    internal override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair) =>
+        WriteLane(ref batch, (TShapeA*)shapeA, (TShapeB*)shapeB, offsetB, orientationA, orientationB, pair);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void WriteLane(ref PairBatch batch, TShapeA* shapeA, TShapeB* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair) =>
+        Write(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair, TTester.NeedsOrientationA, TTester.NeedsOrientationB);
 
     internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks)
     {

@@ -53,28 +53,40 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private protected static void Write(ref PairBatch batch, in TShapeA shapeA, in TShapeB shapeB, in PairInput pair,
-        bool needsOrientationA, bool needsOrientationB)
+    private protected static bool TryFind(Shapes shapes, int shapeIndexA, int shapeIndexB, out TShapeA* shapeA, out TShapeB* shapeB)
+    {
+        if (!shapes.Exists(TShapeA.TypeId, shapeIndexA) || !shapes.Exists(TShapeB.TypeId, shapeIndexB))
+        {
+            shapeA = null;
+            shapeB = null;
+            return false;
+        }
+        Find(shapes, shapeIndexA, shapeIndexB, out shapeA, out shapeB);
+        return true;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private protected static void Write(ref PairBatch batch, TShapeA* shapeA, TShapeB* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair, bool needsOrientationA, bool needsOrientationB)
     {
         Check.That(batch.Bundles.Allocated && batch.Count < PairBatch.Capacity);
         BundleIndexing.GetBundleIndices(batch.Count++, out var bundleIndex, out var lane);
         ref var bundle = ref Bundles(batch)[bundleIndex];
-        Lanes.Write(shapeA, ref bundle.A, lane);
-        Lanes.Write(shapeB, ref bundle.B, lane);
-        WriteOffset(pair.OffsetB, pair.Flipped, ref bundle.Pose.OffsetB, lane);
+        Lanes.Write(*shapeA, ref bundle.A, lane);
+        Lanes.Write(*shapeB, ref bundle.B, lane);
+        WriteOffset(offsetB, pair.FlipMask & int.MinValue, ref bundle.Pose.OffsetB, lane);
         if (needsOrientationA)
-            Lanes.Write(pair.OrientationA, ref bundle.Pose.OrientationA, lane);
+            Lanes.Write(orientationA, ref bundle.Pose.OrientationA, lane);
         if (needsOrientationB)
-            Lanes.Write(pair.OrientationB, ref bundle.Pose.OrientationB, lane);
+            Lanes.Write(orientationB, ref bundle.Pose.OrientationB, lane);
         Lane(ref bundle.SpeculativeMargin, lane) = pair.SpeculativeMargin;
         Lane(ref bundle.PairIds, lane) = pair.PairId;
-        Lane(ref bundle.FlipMask, lane) = pair.Flipped ? -1 : 0;
+        Lane(ref bundle.FlipMask, lane) = pair.FlipMask;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteOffset(in Vector3 offset, bool isNegated, ref Vector3Wide wide, int lane)
+    static void WriteOffset(in Vector3 offset, int sign, ref Vector3Wide wide, int lane)
     {
-        var sign = isNegated ? int.MinValue : 0;
         Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.X), lane) = BitConverter.SingleToInt32Bits(offset.X) ^ sign;
         Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.Y), lane) = BitConverter.SingleToInt32Bits(offset.Y) ^ sign;
         Lane(ref Unsafe.As<Vector<float>, Vector<int>>(ref wide.Z), lane) = BitConverter.SingleToInt32Bits(offset.Z) ^ sign;

@@ -1,5 +1,4 @@
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -19,40 +18,18 @@ struct PairBatch
     public static int Capacity => BundleCapacity * Vector<float>.Count;
 }
 
-/// <summary>What is written to a lane for a pair, besides its shapes.</summary>
-/// <remarks>
-/// Refers to the poses wherever they are: an argument that a caller passed in registers is in memory by halves, and to copy it as a whole
-/// would wait for these.
-/// </remarks>
-readonly ref struct PairInput
+/// <summary>What is written to a lane for a pair, besides its shapes and poses.</summary>
+readonly struct PairInput(float speculativeMargin, int pairId, bool flipped, int history)
 {
-    public readonly ref readonly Quaternion OrientationA;
-    public readonly ref readonly Quaternion OrientationB;
-    /// <summary>Position of the caller's B less that of its A.</summary>
-    public readonly ref readonly Vector3 OffsetB;
-    public readonly float SpeculativeMargin;
-    public readonly int PairId;
-    /// <summary>Whether the caller's A is B here, because the task has the types in the other order.</summary>
-    public readonly bool Flipped;
+    public readonly float SpeculativeMargin = speculativeMargin;
+    public readonly int PairId = pairId;
+    /// <summary>All bits set where the caller's A is B here, because the task has the types in the other order.</summary>
+    public readonly int FlipMask = flipped ? -1 : 0;
     /// <summary>Index of the pair's history; <see cref="NoHistory"/> where it has none.</summary>
-    public readonly int History;
+    public readonly int History = history;
 
     /// <summary>Index that no history has.</summary>
     public const int NoHistory = -1;
-
-    /// <summary>Brings the poses into the order of the task; the offset is turned where it is written.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public PairInput(in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId,
-        bool flipped, int history)
-    {
-        OffsetB = ref offsetB;
-        OrientationA = ref flipped ? ref orientationB : ref orientationA;
-        OrientationB = ref flipped ? ref orientationA : ref orientationB;
-        SpeculativeMargin = speculativeMargin;
-        PairId = pairId;
-        Flipped = flipped;
-        History = history;
-    }
 }
 
 /// <summary>A bundle of pairs of a batch.</summary>

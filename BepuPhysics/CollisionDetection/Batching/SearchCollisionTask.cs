@@ -28,16 +28,32 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     int* HistoryIndices(in PairBatch batch) => (int*)(batch.Bundles.Memory + base.BatchByteCount);
 
-    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in PairInput pair)
+    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {
         Find(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB);
-        Write(ref batch, shapeA, shapeB, pair);
+        WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
     }
 
-    internal override void Write(ref PairBatch batch, void* shapeA, void* shapeB, in PairInput pair)
+    internal override bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        if (!TryFind(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB))
+            return false;
+        WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
+        return true;
+    }
+
+    internal override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair) =>
+        WriteLane(ref batch, (TShapeA*)shapeA, (TShapeB*)shapeB, offsetB, orientationA, orientationB, pair);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void WriteLane(ref PairBatch batch, TShapeA* shapeA, TShapeB* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair)
     {
         HistoryIndices(batch)[batch.Count] = pair.History;
-        Write(ref batch, *(TShapeA*)shapeA, *(TShapeB*)shapeB, pair, needsOrientationA: true, needsOrientationB: true);
+        Write(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair, needsOrientationA: true, needsOrientationB: true);
     }
 
     internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks)

@@ -225,28 +225,11 @@ struct BoxTriangleAxes
         public Vector3Wide Offset, PointOnBox;
 
         /// <summary>Finds the nearest points of the box and an edge.</summary>
-        // Half the derivative of the squared distance by the place on the edge grows with it, and is linear between the places where the edge
-        // passes through the planes of the box's faces. It is tried at those; between the two around its zero that is found exactly.
         [MethodImpl(MethodImplOptions.NoInlining)]
         public void Visit(in BoxWide box, in Vector3Wide start, in Vector3Wide edge)
         {
-            var low = Vector<float>.Zero;
-            var high = Vector<float>.One;
             var extents = new Vector3Wide(box.HalfWidth, box.HalfHeight, box.HalfLength);
-            var inverse = new Vector3Wide(Vector<float>.One / edge.X, Vector<float>.One / edge.Y, Vector<float>.One / edge.Z);
-            var first = (extents - start) * inverse;
-            Narrow(extents, start, edge, first.X, ref low, ref high);
-            Narrow(extents, start, edge, first.Y, ref low, ref high);
-            Narrow(extents, start, edge, first.Z, ref low, ref high);
-            var second = (-extents - start) * inverse;
-            Narrow(extents, start, edge, second.X, ref low, ref high);
-            Narrow(extents, start, edge, second.Y, ref low, ref high);
-            Narrow(extents, start, edge, second.Z, ref low, ref high);
-            var slopeLow = GetSlope(extents, start, edge, low);
-            var slopeHigh = GetSlope(extents, start, edge, high);
-            // At the ends of the edge the zero may lie beyond; not a number where both are zero.
-            var part = Limit(slopeLow / (slopeLow - slopeHigh));
-            var place = low + (high - low) * part;
+            BoxLine.FindNearest(start, edge, extents, Vector<float>.Zero, Vector<float>.One, out var place);
             var point = start + edge * place;
             var onBox = Clamp(extents, point);
             var offset = onBox - point;
@@ -258,27 +241,6 @@ struct BoxTriangleAxes
             SquaredDistance = Wide.Select(nearer, squared, SquaredDistance);
             Offset = Vector3Wide.Select(nearer, offset, Offset);
             PointOnBox = Vector3Wide.Select(nearer, onBox, PointOnBox);
-        }
-
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        static void Narrow(in Vector3Wide extents, in Vector3Wide start, in Vector3Wide edge, Vector<float> place,
-            ref Vector<float> low, ref Vector<float> high)
-        {
-            place = Limit(place);
-            var isBefore = Vector.LessThanOrEqual(GetSlope(extents, start, edge, place), Vector<float>.Zero);
-            low = Wide.Max(low, Wide.Mask(isBefore, place));
-            high = Wide.Min(high, Wide.Select(isBefore, Vector<float>.One, place));
-        }
-
-        /// <summary>To 0 to 1; zero where it is not a number.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        static Vector<float> Limit(Vector<float> place) => Wide.Min(Wide.Max(place, Vector<float>.Zero), Vector<float>.One);
-
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        static Vector<float> GetSlope(in Vector3Wide extents, in Vector3Wide start, in Vector3Wide edge, Vector<float> place)
-        {
-            var point = start + edge * place;
-            return Vector3Wide.Dot(edge, point - Clamp(extents, point));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -22,7 +22,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     const float ParallelSineSquared = 1e-12f;
     // Part of the size of the pair that a segment may be beside a face and still be over it: along the face's border, contacts must not
     // depend on rounding.
-    const float BorderTolerance = 1e-5f;
+    const float BorderTolerance = 3e-6f;
     // Contacts nearer to each other than this part of the capsule's size are one.
     const float MinimumContactDistance = 0.02f;
 
@@ -39,7 +39,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         var half = new Vector3Wide(b.HalfWidth, b.HalfHeight, b.HalfLength);
         var size = a.HalfLength + half.X + half.Y + half.Z;
 
-        var nearest = FindNearest(center, direction, a.HalfLength, half);
+        BoxLine.FindNearest(center, direction, half, -a.HalfLength, a.HalfLength, out var nearest);
         var point = center + direction * nearest;
         var outside = Outside(point, half);
         // Between the box and an inner point of the segment the way is across it. What is left along it is rounding.
@@ -102,58 +102,6 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         point.X - Wide.Clamp(point.X, -half.X, half.X),
         point.Y - Wide.Clamp(point.Y, -half.Y, half.Y),
         point.Z - Wide.Clamp(point.Z, -half.Z, half.Z));
-
-    /// <summary>Place on the segment that is nearest to the box, in the middle of those that are equally near.</summary>
-    // The derivative of half the squared distance along the segment never decreases, and is linear between the six places where the segment
-    // crosses the planes of the faces. The last crossing where it is not positive and the first where it is not negative enclose the root.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static Vector<float> FindNearest(in Vector3Wide center, in Vector3Wide direction, Vector<float> halfLength, in Vector3Wide half)
-    {
-        var search = new NearestSearch
-        {
-            Low = -halfLength,
-            High = halfLength,
-            LowSlope = Wide.Min(Vector<float>.Zero, Slope(center, direction, half, -halfLength)),
-            HighSlope = Wide.Max(Vector<float>.Zero, Slope(center, direction, half, halfLength)),
-        };
-        Narrow(center, direction, half, halfLength, center.X, half.X, direction.X, ref search);
-        Narrow(center, direction, half, halfLength, center.Y, half.Y, direction.Y, ref search);
-        Narrow(center, direction, half, halfLength, center.Z, half.Z, direction.Z, ref search);
-        var rise = search.HighSlope - search.LowSlope;
-        var part = Wide.Select(Vector.GreaterThan(rise, Vector<float>.Zero), -search.LowSlope / rise, new Vector<float>(0.5f));
-        return search.Low + (search.High - search.Low) * part;
-    }
-
-    struct NearestSearch
-    {
-        public Vector<float> Low, High, LowSlope, HighSlope;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Narrow(in Vector3Wide center, in Vector3Wide direction, in Vector3Wide half, Vector<float> halfLength,
-        Vector<float> position, Vector<float> extent, Vector<float> speed, ref NearestSearch search)
-    {
-        // A segment along the planes crosses them nowhere: the places are then far off and become its ends.
-        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(1e-20f)), speed);
-        Narrow(center, direction, half, Wide.Clamp((extent - position) * inverse, -halfLength, halfLength), ref search);
-        Narrow(center, direction, half, Wide.Clamp((-extent - position) * inverse, -halfLength, halfLength), ref search);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Narrow(in Vector3Wide center, in Vector3Wide direction, in Vector3Wide half, Vector<float> s, ref NearestSearch search)
-    {
-        var slope = Slope(center, direction, half, s);
-        var raisesLow = Vector.LessThanOrEqual(slope, Vector<float>.Zero) & Vector.GreaterThanOrEqual(s, search.Low);
-        search.Low = Wide.Select(raisesLow, s, search.Low);
-        search.LowSlope = Wide.Select(raisesLow, slope, search.LowSlope);
-        var lowersHigh = Vector.GreaterThanOrEqual(slope, Vector<float>.Zero) & Vector.LessThanOrEqual(s, search.High);
-        search.High = Wide.Select(lowersHigh, s, search.High);
-        search.HighSlope = Wide.Select(lowersHigh, slope, search.HighSlope);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Slope(in Vector3Wide center, in Vector3Wide direction, in Vector3Wide half, Vector<float> s) =>
-        Vector3Wide.Dot(Outside(center + direction * s, half), direction);
 
     /// <summary>Depth of the segment in the box, negative where they are apart, and the axis that shows it, from box to segment.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -9,10 +9,10 @@ namespace BepuPhysics.CollisionDetection;
 /// Capsule against capsule: a contact where their segments are nearest; capsules that lie along each other have two, at the ends of the
 /// stretch that they share.
 /// </summary>
-// The nearest points of two segments, with units u and v and the offset t from the one centre to the other:
-//   unconstrained: s = ((t x v) . (u x v)) / |u x v|^2, then clamped, then the nearest point of B to it, clamped, and the nearest of A to
-//   that (Ericson, Real-Time Collision Detection, 5.1.9). In the usual form of s, with dot products, numerator and denominator both cancel
-//   for nearly parallel segments; with cross products their relative errors stay small, and the distance is right to rounding.
+// In A's frame its segment lies along Y around the origin. The nearest points of it and a segment with the unit v and the offset t:
+//   unconstrained: s = t.y - v.y (t.x v.x + t.z v.z) / (v.x^2 + v.z^2), then clamped, then the nearest point of B to it, clamped, and the
+//   nearest of A to that (Ericson, Real-Time Collision Detection, 5.1.9). In the usual form of s, with dot products, numerator and
+//   denominator both cancel for nearly parallel segments; here their relative errors stay small, and the distance is right to rounding.
 public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWide, Few2<ContactWide>>
 {
     // Squared sine below which segments count as parallel: at this angle a segment leaves the other's line by 3e-6 of its length.
@@ -28,62 +28,57 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
     const float MinimumContactDistance = 0.2f;
 
     /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in CapsuleWide a, in CapsuleWide b, in PairPoseWide pose, Vector<float> speculativeMargin,
         out ConvexManifoldWide<Few2<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        var u = QuaternionWide.TransformUnitY(pose.OrientationA);
-        var v = QuaternionWide.TransformUnitY(pose.OrientationB);
-        var t = pose.OffsetB;
+        var axes = Matrix3x3Wide.FromQuaternion(pose.OrientationA);
+        var v = axes * QuaternionWide.TransformUnitY(pose.OrientationB);
+        var t = axes * pose.OffsetB;
         var radius = a.Radius + b.Radius;
-
-        // A direction across both segments; across the first, and whichever coordinate axis it is far from, where they are parallel.
         var zero = Vector<float>.Zero;
-        var cross = Vector3Wide.Cross(u, v);
-        var sineSquared = cross.LengthSquared();
-        var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
-        var fromX = new Vector3Wide(zero, u.Z, -u.Y);
-        var fromY = new Vector3Wide(-u.Z, zero, u.X);
-        var acrossFirst = Vector3Wide.Select(Vector.LessThan(Vector.Abs(u.X), Vector.Abs(u.Y)), fromX, fromY);
-        cross = Vector3Wide.Select(parallel, acrossFirst, cross);
-        var inverseSine = Vector<float>.One / cross.Length();
-        cross *= inverseSine;
-        var cosine = Vector3Wide.Dot(u, v);
-        var tu = Vector3Wide.Dot(t, u);
-        var tv = Vector3Wide.Dot(t, v);
+        var one = Vector<float>.One;
 
         // The stretch of A's segment that lies beside B's.
-        var reach = b.HalfLength * Vector.Abs(cosine);
-        var start = Wide.Max(-a.HalfLength, tu - reach);
-        var end = Wide.Min(a.HalfLength, tu + reach);
+        var reach = b.HalfLength * Vector.Abs(v.Y);
+        var start = Wide.Max(-a.HalfLength, t.Y - reach);
+        var end = Wide.Min(a.HalfLength, t.Y + reach);
 
         // Parallel segments are equally near all along that stretch, or nearest at its ends, which have then passed each other.
-        var crossing = Vector3Wide.Dot(Vector3Wide.Cross(t, v), cross) * inverseSine;
-        var s = Wide.Select(parallel, new Vector<float>(0.5f) * (start + end), crossing);
+        var sineSquared = v.X * v.X + v.Z * v.Z;
+        var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
+        var across = t.X * v.X + t.Z * v.Z;
+        var s = Wide.Select(parallel, new Vector<float>(0.5f) * (start + end), t.Y - v.Y * (across / sineSquared));
         s = Wide.Clamp(s, -a.HalfLength, a.HalfLength);
-        var onB = Wide.Clamp(s * cosine - tv, -b.HalfLength, b.HalfLength);
-        s = Wide.Clamp(tu + onB * cosine, -a.HalfLength, a.HalfLength);
-        var separation = u * s - t - v * onB;
+        var onB = Wide.Clamp((s - t.Y) * v.Y - across, -b.HalfLength, b.HalfLength);
+        // From an inner point of A's segment the way is across it.
+        var height = t.Y + v.Y * onB;
+        s = Wide.Clamp(height, -a.HalfLength, a.HalfLength);
+        var separation = new Vector3Wide(-(t.X + v.X * onB), s - height, -(t.Z + v.Z * onB));
 
-        // Between inner points of both segments the separation is across both, between an inner point and an end across the one. What is
-        // left along them is rounding, which counts when the segments nearly meet.
+        // From an inner point of B's segment it is across that. What is left along it is rounding, which counts when the segments nearly meet.
         var innerA = Vector.LessThan(Vector.Abs(s), a.HalfLength);
         var innerB = Vector.LessThan(Vector.Abs(onB), b.HalfLength);
-        separation -= u * Wide.Mask(innerA, Vector3Wide.Dot(separation, u));
         separation -= v * Wide.Mask(innerB, Vector3Wide.Dot(separation, v));
         var distance = separation.Length();
-        var across = Vector3Wide.Select(Vector.LessThan(Vector3Wide.Dot(cross, separation), zero), -cross, cross);
-        // Segments that meet are pushed apart across both of them.
+        // A direction across both segments, any across the first where they are parallel. Segments that meet are pushed apart along it.
+        var inverseSine = Wide.Select(parallel, one, one / Vector.SquareRoot(sineSquared));
+        var acrossX = Wide.Select(parallel, one, v.Z * inverseSine);
+        var acrossZ = Wide.Mask(~parallel, -v.X * inverseSine);
+        var side = Wide.CopySign(one, acrossX * separation.X + acrossZ * separation.Z);
         var meeting = Vector.LessThanOrEqual(distance, (radius + a.HalfLength + b.HalfLength) * new Vector<float>(MeetingDistance));
         var useAcross = meeting | (innerA & innerB & Vector.GreaterThan(sineSquared, new Vector<float>(CrossingSineSquared)));
-        manifold.Normal = Vector3Wide.Select(useAcross, across, separation * (Vector<float>.One / distance));
+        var normal = Vector3Wide.Select(
+            useAcross, new(acrossX * side, zero, acrossZ * side), separation * (one / distance));
 
         // Two contacts are at the ends of the stretch that the segments share, seen along the normal, as far as they stay together.
         // Along that stretch the place on B moves by a constant ratio of that on A.
-        var normalV = Vector3Wide.Dot(manifold.Normal, v);
-        var ratio = (cosine - Vector3Wide.Dot(manifold.Normal, u) * normalV) /
-            Wide.Max(Vector<float>.One - normalV * normalV, new Vector<float>(0.25f));
-        var inverseRatio = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(ratio), new Vector<float>(0.5f)), ratio);
+        var normalV = Vector3Wide.Dot(normal, v);
+        var numerator = v.Y - normal.Y * normalV;
+        var denominator = Wide.Max(one - normalV * normalV, new Vector<float>(0.25f));
+        var ratio = numerator / denominator;
+        var inverseRatio = Wide.CopySign(Wide.Min(Vector.Abs(denominator / numerator), new Vector<float>(2f)), numerator);
         reach = b.HalfLength * Vector.Abs(inverseRatio);
         var middle = s - onB * inverseRatio;
         var deviation = Wide.Min(a.Radius, b.Radius) * new Vector<float>(SideDeviation) * inverseSine;
@@ -91,24 +86,27 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         start = Wide.Min(s, Wide.Max(Wide.Max(-a.HalfLength, middle - reach), s - deviation));
         end = Wide.Max(s, Wide.Min(Wide.Min(a.HalfLength, middle + reach), s + deviation));
         var two = Vector.GreaterThan(end - start, radius * new Vector<float>(MinimumContactDistance));
+        start = Wide.Select(two, start, s);
 
+        // Along the normal, the distance is linear in the place on A.
+        manifold.Normal = Matrix3x3Wide.TransposeTimes(axes, normal);
+        var atOrigin = (onB - s * ratio) * normalV + Vector3Wide.Dot(t, normal);
+        var slope = normal.Y - ratio * normalV;
         ref var first = ref manifold.Contacts[0];
-        var place = Wide.Select(two, start, s);
-        WriteContact(a, b, u * place, t + v * (onB + (place - s) * ratio), manifold.Normal, ref first);
+        WriteContact(a.Radius, radius + atOrigin - slope * start, axes.Y, start, manifold.Normal, ref first);
         first.FeatureId = Vector<int>.Zero;
         first.Exists = Vector.GreaterThanOrEqual(first.Depth, -speculativeMargin);
         ref var second = ref manifold.Contacts[1];
-        WriteContact(a, b, u * end, t + v * (onB + (end - s) * ratio), manifold.Normal, ref second);
+        WriteContact(a.Radius, radius + atOrigin - slope * end, axes.Y, end, manifold.Normal, ref second);
         second.FeatureId = Vector<int>.One;
         second.Exists = two & Vector.GreaterThanOrEqual(second.Depth, -speculativeMargin);
     }
 
-    /// <summary>Writes the contact between a point of A's segment and one of B's that is opposite along the normal.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteContact(in CapsuleWide a, in CapsuleWide b, in Vector3Wide onA, in Vector3Wide onB, in Vector3Wide normal,
+    static void WriteContact(Vector<float> radius, Vector<float> depth, in Vector3Wide u, Vector<float> place, in Vector3Wide normal,
         ref ContactWide contact)
     {
-        contact.Depth = a.Radius + b.Radius - Vector3Wide.Dot(onA - onB, normal);
-        contact.OffsetA = onA + normal * (contact.Depth * new Vector<float>(0.5f) - a.Radius);
+        contact.Depth = depth;
+        contact.OffsetA = u * place + normal * (depth * new Vector<float>(0.5f) - radius);
     }
 }

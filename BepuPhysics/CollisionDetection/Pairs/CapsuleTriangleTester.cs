@@ -15,10 +15,11 @@ namespace BepuPhysics.CollisionDetection;
 /// triangle shares with its neighbours, and a capsule without length behaves as a sphere. Over an edge of a closed surface the centre is
 /// in front of at least one of the two triangles.
 /// </remarks>
-// Everything happens in the triangle's frame. A segment that is apart from the triangle has a nearest point: an end over the face, or the
-// nearest to one of the edges. A segment that meets the triangle leaves it along the normal of the face or across the segment and one of
-// the edges. Both are computed for every lane. Where the nearest features are the face, or two edges, they agree to rounding, and the axis
-// is the better known of the two; elsewhere the distance is greater than what any axis shows.
+// Everything happens in the capsule's frame, where its segment lies along Y around the origin: most products with its direction and centre
+// are components there. A segment that is apart from the triangle has a nearest point: an end over the face, or the nearest to one of the
+// edges. A segment that meets the triangle leaves it along the normal of the face or across the segment and one of the edges. Both are
+// computed for every lane. Where the nearest features are the face, or two edges, they agree to rounding, and the axis is the better known
+// of the two; elsewhere the distance is greater than what any axis shows.
 public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, TriangleWide, Few2<ContactWide>>
 {
     const int CacheLine = 64;
@@ -38,29 +39,40 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
     // Contacts nearer to each other than this part of the capsule's size are one.
     const float MinimumContactDistance = 0.02f;
 
-    // Part by which two squared distances may differ and be the same to rounding.
-    const float SameDistance = 4e-6f;
+    // Part of the size of the pair by which two distances may differ and be the same to the rounding of the corners.
+    const float SameDistance = 5e-7f;
 
     struct Search
     {
         /// <summary>
-        /// From the triangle to the segment where they are nearest, the place there on the segment, and how far apart they are along it.
+        /// From the segment to the triangle where they are nearest, the place there on the segment, and how far apart they are along it.
         /// </summary>
         public Vector3Wide Offset;
-        public Vector<float> SquaredDistance, Nearest, Shown;
-        /// <summary>The axis of least depth across the segment and an edge, and where the two pass each other.</summary>
-        public Vector3Wide AxisNormal;
-        public Vector<float> AxisDepth, AxisPlace;
+        public Vector<float> Distance, Nearest, Shown;
+        /// <summary>
+        /// The axis of least depth across the segment and an edge, as long as the edge is across the segment; one over the square of that; the
+        /// square of the depth, with its sign; and where the two pass each other.
+        /// </summary>
+        public Vector<float> AxisX, AxisZ, AxisInverseSquared, AxisScore, AxisPlace;
     }
 
-    /// <summary>What the steps of the test hand on, in the triangle's frame.</summary>
+    /// <summary>One edge of each triangle, seen along the normal of the face.</summary>
+    struct Side
+    {
+        /// <summary>Direction away from the triangle, within its plane and across the edge; as long as the edge.</summary>
+        public Vector3Wide Outward;
+        /// <summary>How far the segment's middle is beyond the edge, times its length; negative on the side of the triangle.</summary>
+        public Vector<float> Beyond;
+        public Vector<float> Length;
+    }
+
+    /// <summary>What the steps of the test hand on, in the capsule's frame.</summary>
     struct Scratch
     {
-        public Matrix3x3Wide Axes;
-        /// <summary>The segment's middle and direction.</summary>
-        public Vector3Wide Center, Direction;
-        public Vector3Wide Front;
-        public TriangleEdgeWide AB, BC, CA;
+        public Matrix3x3Wide Axes, AxesB;
+        public Vector3Wide OffsetB;
+        public PlacedTriangleWide Triangle;
+        public Side AB, BC, CA;
         public Search Search;
         /// <summary>Length that tolerances are relative to.</summary>
         public Vector<float> Size;
@@ -75,10 +87,12 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         /// <summary>Lanes whose pair may have contacts.</summary>
         public Vector<int> Exists;
 
+        /// <summary>Whether a place on the segment is over the face.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly Vector<int> IsOver(in Vector3Wide point) =>
-            Vector.LessThanOrEqual(AB.GetBeyond(point), Vector<float>.Zero) & Vector.LessThanOrEqual(BC.GetBeyond(point), Vector<float>.Zero) &
-            Vector.LessThanOrEqual(CA.GetBeyond(point), Vector<float>.Zero);
+        public readonly Vector<int> IsOver(Vector<float> s) =>
+            Vector.LessThanOrEqual(AB.Beyond + AB.Outward.Y * s, Vector<float>.Zero) &
+            Vector.LessThanOrEqual(BC.Beyond + BC.Outward.Y * s, Vector<float>.Zero) &
+            Vector.LessThanOrEqual(CA.Beyond + CA.Outward.Y * s, Vector<float>.Zero);
     }
 
     /// <inheritdoc/>
@@ -94,10 +108,13 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         int anchor;
         var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + 16 + sizeof(Scratch) + CacheLine];
         ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
-        Prepare(a, b, pose, ref scratch);
-        VisitEdge(scratch.AB, b.C, a.HalfLength, b.TwoSidedMask, ref scratch);
-        VisitEdge(scratch.BC, b.A, a.HalfLength, b.TwoSidedMask, ref scratch);
-        VisitEdge(scratch.CA, b.B, a.HalfLength, b.TwoSidedMask, ref scratch);
+        ref var triangle = ref scratch.Triangle;
+        pose.GetLocal(out scratch.Axes, out scratch.AxesB, out scratch.OffsetB);
+        triangle.PlaceThin(b, scratch.AxesB, scratch.OffsetB);
+        PrepareSides(a, b, ref scratch);
+        VisitEdge(triangle.A, triangle.AB, triangle.CA, a.HalfLength, b.TwoSidedMask, ref scratch);
+        VisitEdge(triangle.B, triangle.BC, triangle.AB, a.HalfLength, b.TwoSidedMask, ref scratch);
+        VisitEdge(triangle.C, triangle.CA, triangle.BC, a.HalfLength, b.TwoSidedMask, ref scratch);
         ChooseNormal(a, b, ref scratch);
         // No contact is deeper than the pair.
         scratch.Exists &= Vector.GreaterThanOrEqual(scratch.PairDepth, -speculativeMargin);
@@ -106,28 +123,33 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
             manifold.RemoveContacts();
             return;
         }
-        WriteContacts(a, pose, speculativeMargin, scratch, ref manifold);
+        WriteContacts(a, speculativeMargin, scratch, ref manifold);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Prepare(in CapsuleWide a, in TriangleWide b, in PairPoseWide pose, ref Scratch scratch)
+    static void PrepareSides(in CapsuleWide a, in TriangleWide b, ref Scratch scratch)
     {
-        var axes = Matrix3x3Wide.FromQuaternion(pose.OrientationB);
-        scratch.Axes = axes;
-        scratch.Center = axes * -pose.OffsetB;
-        scratch.Direction = axes * QuaternionWide.TransformUnitY(pose.OrientationA);
-        var front = b.GetNormal();
-        scratch.Front = front;
-        scratch.AB = new(b.A, b.B, front);
-        scratch.BC = new(b.B, b.C, front);
-        scratch.CA = new(b.C, b.A, front);
+        ref var triangle = ref scratch.Triangle;
+        PrepareSide(triangle.A, triangle.AB, triangle.Front, ref scratch.AB);
+        PrepareSide(triangle.B, triangle.BC, triangle.Front, ref scratch.BC);
+        PrepareSide(triangle.C, triangle.CA, triangle.Front, ref scratch.CA);
         scratch.Size = a.HalfLength + a.Radius +
             Vector.SquareRoot(Wide.Max(Wide.Max(b.A.LengthSquared(), b.B.LengthSquared()), b.C.LengthSquared()));
-        scratch.Height = Vector3Wide.Dot(front, scratch.Center - b.A);
+        scratch.Height = -Vector3Wide.Dot(triangle.Front, triangle.A);
         ref var search = ref scratch.Search;
-        search.SquaredDistance = search.AxisDepth = new Vector<float>(float.MaxValue);
-        search.Nearest = search.AxisPlace = search.Shown = Vector<float>.Zero;
-        search.Offset = search.AxisNormal = Vector3Wide.Zero;
+        search.Distance = search.AxisScore = new Vector<float>(float.MaxValue);
+        search.Nearest = search.AxisPlace = search.Shown = search.AxisX = search.AxisZ = search.AxisInverseSquared = Vector<float>.Zero;
+        search.Offset = Vector3Wide.Zero;
+    }
+
+    // The corners follow each other clockwise around the normal of the front.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void PrepareSide(in Vector3Wide start, in Vector3Wide edge, in Vector3Wide front, ref Side side)
+    {
+        var outward = Vector3Wide.Cross(front, edge);
+        side.Outward = outward;
+        side.Beyond = -Vector3Wide.Dot(outward, start);
+        side.Length = edge.Length();
     }
 
     /// <summary>Finds the normal, and what is to be known of the pair for its contacts.</summary>
@@ -136,36 +158,39 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
     {
         var zero = Vector<float>.Zero;
         ref var search = ref scratch.Search;
-        ref var front = ref scratch.Front;
+        ref var front = ref scratch.Triangle.Front;
+        var height = scratch.Height;
         // The ends over the face, and the segment through it.
-        var half = scratch.Direction * a.HalfLength;
-        var firstEnd = scratch.Center - half;
-        var secondEnd = scratch.Center + half;
-        var firstHeight = Vector3Wide.Dot(front, firstEnd - b.A);
-        var secondHeight = Vector3Wide.Dot(front, secondEnd - b.A);
+        var rise = front.Y * a.HalfLength;
+        var firstHeight = height - rise;
+        var secondHeight = height + rise;
         var product = firstHeight * secondHeight;
-        Keep(front * firstHeight, -a.HalfLength, Wide.Min(firstHeight * firstHeight, product), scratch.IsOver(firstEnd), ref search);
-        Keep(front * secondHeight, a.HalfLength, Wide.Min(secondHeight * secondHeight, product), scratch.IsOver(secondEnd), ref search);
-        var crosses = Vector.LessThan(product, zero);
+        Keep(front * -firstHeight, Vector.Abs(firstHeight), -a.HalfLength, Wide.Min(firstHeight * firstHeight, product),
+            scratch.IsOver(-a.HalfLength), ref scratch);
+        Keep(front * -secondHeight, Vector.Abs(secondHeight), a.HalfLength, Wide.Min(secondHeight * secondHeight, product),
+            scratch.IsOver(a.HalfLength), ref scratch);
         // Opposite signs: the divisor is not zero.
-        var crossing = a.HalfLength * (firstHeight + secondHeight) / (firstHeight - secondHeight);
-        crosses &= scratch.IsOver(scratch.Center + scratch.Direction * crossing);
+        var crossing = -height / front.Y;
+        var crosses = Vector.LessThan(product, zero) & scratch.IsOver(crossing);
         var nearest = Wide.Select(crosses, crossing, search.Nearest);
-        var offset = Vector3Wide.Select(crosses, Vector3Wide.Zero, search.Offset);
-        var distance = offset.Length();
+        var offset = Vector3Wide.Select(crosses, Vector3Wide.Zero, -search.Offset);
+        var distance = search.Distance;
 
         // The face's two normals; a one-sided triangle has the front's only.
-        var frontDepth = Wide.Max(-firstHeight, -secondHeight);
-        var backDepth = Wide.Max(firstHeight, secondHeight);
+        var frontDepth = Vector.Abs(rise) - height;
+        var backDepth = Vector.Abs(rise) + height;
         var useBack = Vector.LessThan(backDepth, frontDepth) & b.TwoSidedMask;
         var faceDepth = Wide.Select(useBack, backDepth, frontDepth);
         var faceNormal = Vector3Wide.Select(useBack, -front, front);
-        var useEdge = Vector.LessThan(search.AxisDepth + scratch.Size * new Vector<float>(AxisTolerance), faceDepth);
-        var coreDepth = Wide.Select(useEdge, search.AxisDepth, faceDepth);
-        var normal = Vector3Wide.Select(useEdge, search.AxisNormal, faceNormal);
+        var tolerance = scratch.Size * new Vector<float>(AxisTolerance);
+        var axisDepth = Wide.CopySign(Vector.SquareRoot(Vector.Abs(search.AxisScore)), search.AxisScore);
+        var useEdge = Vector.LessThan(axisDepth + tolerance, faceDepth);
+        var coreDepth = Wide.Select(useEdge, axisDepth, faceDepth);
+        var inverseAxis = Vector.SquareRoot(search.AxisInverseSquared);
+        var normal = Vector3Wide.Select(useEdge, new(search.AxisX * inverseAxis, zero, search.AxisZ * inverseAxis), faceNormal);
 
         var beyondAxis = offset - normal * Wide.Max(-coreDepth, zero);
-        var usePoint = Vector.GreaterThan(beyondAxis.Length(), scratch.Size * new Vector<float>(AxisTolerance));
+        var usePoint = Vector.GreaterThan(beyondAxis.Length(), tolerance);
         normal = Vector3Wide.Select(usePoint, offset * (Vector<float>.One / distance), normal);
         scratch.Normal = normal;
         scratch.PairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
@@ -173,27 +198,27 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         scratch.UseLowestEnd = ~(usePoint | useEdge);
         // A triangle without area has no front, and no contacts.
         scratch.Exists = Vector.GreaterThan(front.LengthSquared(), new Vector<float>(0.5f)) & (b.TwoSidedMask |
-            (Vector.GreaterThanOrEqual(scratch.Height, zero) &
+            (Vector.GreaterThanOrEqual(height, zero) &
             Vector.GreaterThanOrEqual(Vector3Wide.Dot(normal, front), new Vector<float>(-BehindTolerance))));
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void WriteContacts(in CapsuleWide a, in PairPoseWide pose, Vector<float> speculativeMargin, in Scratch scratch,
+    static void WriteContacts(in CapsuleWide a, Vector<float> speculativeMargin, in Scratch scratch,
         ref ConvexManifoldWide<Few2<ContactWide>> manifold)
     {
         // How far along the normal the segment is from the plane: linear in the place s, as is how far it is then beyond each edge.
+        ref readonly var front = ref scratch.Triangle.Front;
         var normal = scratch.Normal;
-        var facing = Vector3Wide.Dot(normal, scratch.Front);
+        var facing = Vector3Wide.Dot(normal, front);
         var inverseFacing = Vector<float>.One / facing;
-        var slope = Vector3Wide.Dot(scratch.Direction, scratch.Front) * inverseFacing;
-        var onFace = scratch.Center - normal * (scratch.Height * inverseFacing);
-        var alongFace = scratch.Direction - normal * slope;
+        var slope = front.Y * inverseFacing;
+        var height = scratch.Height * inverseFacing;
         var border = scratch.Size * new Vector<float>(BorderTolerance);
         var start = -a.HalfLength;
         var end = a.HalfLength;
-        ClipToEdge(scratch.AB, onFace, alongFace, border, ref start, ref end);
-        ClipToEdge(scratch.BC, onFace, alongFace, border, ref start, ref end);
-        ClipToEdge(scratch.CA, onFace, alongFace, border, ref start, ref end);
+        ClipToSide(scratch.AB, normal, height, slope, border, ref start, ref end);
+        ClipToSide(scratch.BC, normal, height, slope, border, ref start, ref end);
+        ClipToSide(scratch.CA, normal, height, slope, border, ref start, ref end);
         var isOver = Vector.LessThanOrEqual(start, end) & Vector.GreaterThan(Vector.Abs(facing), new Vector<float>(EdgeOnCosine));
 
         // The place of the pair's own depth: the lower end of the segment on a face. Where it is beside the face, the nearest place over it is
@@ -208,9 +233,9 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         slope = Wide.Mask(isOver, slope);
 
         var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(MinimumContactDistance));
-        var u = QuaternionWide.TransformUnitY(pose.OrientationA);
         var worldNormal = Matrix3x3Wide.TransposeTimes(scratch.Axes, normal);
         manifold.Normal = worldNormal;
+        ref readonly var u = ref scratch.Axes.Y;
         ref var first = ref manifold.Contacts[0];
         WriteContact(a.Radius, u, scratch.PairDepth, deepest, slope, Wide.Select(two, start, deepest), worldNormal, ref first);
         first.FeatureId = Vector<int>.Zero;
@@ -222,55 +247,59 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
     }
 
     /// <summary>Tries the nearest points of the segment and an edge, and the axis across them.</summary>
+    /// <param name="start">First corner of the edge.</param>
+    /// <param name="edge">From there to the next corner.</param>
+    /// <param name="previous">From the corner before to the first.</param>
+    /// <param name="halfLength">Half the length of the segment.</param>
+    /// <param name="twoSided">All bits set where the triangle has no back.</param>
+    /// <param name="scratch">The triangle and what was found so far.</param>
     // The nearest points as in CapsuleCapsuleTester, the edge being the capsule B.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void VisitEdge(in TriangleEdgeWide edge, in Vector3Wide opposite, Vector<float> halfLength, Vector<int> twoSided, ref Scratch scratch)
+    static void VisitEdge(in Vector3Wide start, in Vector3Wide edge, in Vector3Wide previous, Vector<float> halfLength, Vector<int> twoSided,
+        ref Scratch scratch)
     {
         ref var search = ref scratch.Search;
-        ref var center = ref scratch.Center;
-        ref var direction = ref scratch.Direction;
+        ref var triangle = ref scratch.Triangle;
         var zero = Vector<float>.Zero;
-        var toStart = edge.Start - center;
-        var toEnd = toStart + edge.Direction * edge.Length;
-        var toOpposite = opposite - center;
-        var cosine = Vector3Wide.Dot(direction, edge.Direction);
-        // The part of the edge across the segment first, so that the cross product stays across the segment at small angles: an error in
-        // the other direction only turns the axis around the segment.
-        var across = edge.Direction - direction * cosine;
-        across -= direction * Vector3Wide.Dot(direction, across);
-        var cross = Vector3Wide.Cross(direction, across);
-        var sineSquared = cross.LengthSquared();
-        var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
-        var inverseSquared = Vector<float>.One / sineSquared;
-        var alongSegment = Vector3Wide.Dot(toStart, direction);
-        var alongEdge = Vector3Wide.Dot(toStart, edge.Direction);
-        var passing = Vector3Wide.Dot(Vector3Wide.Cross(toStart, edge.Direction), cross) * inverseSquared;
+        var one = Vector<float>.One;
+        var acrossSquared = edge.X * edge.X + edge.Z * edge.Z;
+        var inverseAcross = one / acrossSquared;
+        var squared = acrossSquared + edge.Y * edge.Y;
+        var inverseSquared = one / squared;
+        var parallel = Vector.LessThan(acrossSquared, squared * new Vector<float>(ParallelSineSquared));
         // A parallel segment is equally near all along the stretch that they share: in its middle.
-        var other = alongSegment + edge.Length * cosine;
-        var shared = Wide.Clamp(alongSegment, -halfLength, halfLength) + Wide.Clamp(other, -halfLength, halfLength);
-        passing = Wide.Clamp(Wide.Select(parallel, shared * new Vector<float>(0.5f), passing), -halfLength, halfLength);
-        var onEdge = Wide.Clamp(passing * cosine - alongEdge, zero, edge.Length);
-        var place = Wide.Clamp(alongSegment + onEdge * cosine, -halfLength, halfLength);
-        var offset = direction * place - toStart - edge.Direction * onEdge;
-        // Between inner points the way is across both. What is left along them is rounding, which counts when the segments nearly meet.
-        var innerSegment = Vector.LessThan(Vector.Abs(place), halfLength);
-        var innerEdge = Vector.GreaterThan(onEdge, zero) & Vector.LessThan(onEdge, edge.Length);
-        offset -= direction * Wide.Mask(innerSegment, Vector3Wide.Dot(offset, direction));
-        offset -= edge.Direction * Wide.Mask(innerEdge, Vector3Wide.Dot(offset, edge.Direction));
-        // Along the offset, the edge's start, its end, and the opposite corner; the segment is nearer by what its ends fall.
-        var corners = Wide.Max(Wide.Max(Vector3Wide.Dot(offset, toStart), Vector3Wide.Dot(offset, toEnd)), Vector3Wide.Dot(offset, toOpposite));
-        var shown = -corners - halfLength * Vector.Abs(Vector3Wide.Dot(offset, direction));
-        Keep(offset, place, shown, Vector<int>.AllBitsSet, ref search);
+        var shared = Wide.Clamp(start.Y, -halfLength, halfLength) + Wide.Clamp(start.Y + edge.Y, -halfLength, halfLength);
+        var away = start.X * edge.X + start.Z * edge.Z;
+        var passing = Wide.Select(parallel, shared * new Vector<float>(0.5f), start.Y - edge.Y * (away * inverseAcross));
+        passing = Wide.Clamp(passing, -halfLength, halfLength);
+        var onEdge = Wide.Clamp(((passing - start.Y) * edge.Y - away) * inverseSquared, zero, one);
+        // From the nearest point of the segment, to an inner one of which the way is across it.
+        var offset = start + edge * onEdge;
+        var place = Wide.Clamp(offset.Y, -halfLength, halfLength);
+        offset.Y -= place;
+        // To an inner point of the edge, it is across that. What is left along it is rounding, which counts when the two nearly meet.
+        var inner = Vector.GreaterThan(onEdge, zero) & Vector.LessThan(onEdge, one);
+        offset -= edge * Wide.Mask(inner, Vector3Wide.Dot(offset, edge) * inverseSquared);
+        // Along the offset, the nearest corner; the segment is nearer by what its ends rise.
+        var corners = Wide.Min(
+            Wide.Min(Vector3Wide.Dot(offset, triangle.A), Vector3Wide.Dot(offset, triangle.B)), Vector3Wide.Dot(offset, triangle.C));
+        var shown = corners - halfLength * Vector.Abs(offset.Y);
+        Keep(offset, offset.Length(), place, shown, Vector<int>.AllBitsSet, ref scratch);
 
         // Outwards is away from the opposite corner.
-        var axis = cross * Vector.SquareRoot(inverseSquared);
-        var isInward = Vector.GreaterThan(Vector3Wide.Dot(axis, toOpposite - toStart), zero);
-        axis = Vector3Wide.Select(isInward, -axis, axis);
-        var depth = Vector3Wide.Dot(axis, toStart);
-        var isAllowed = twoSided | Vector.GreaterThanOrEqual(Vector3Wide.Dot(axis, scratch.Front), new Vector<float>(-BehindTolerance));
-        var better = Vector.AndNot(Vector.LessThan(depth, search.AxisDepth) & isAllowed, parallel);
-        search.AxisNormal = Vector3Wide.Select(better, axis, search.AxisNormal);
-        search.AxisDepth = Wide.Select(better, depth, search.AxisDepth);
+        var inward = Wide.CopySign(one, edge.Z * previous.X - edge.X * previous.Z);
+        var axisX = edge.Z * inward;
+        var axisZ = -edge.X * inward;
+        var depth = axisX * start.X + axisZ * start.Z;
+        var score = depth * Vector.Abs(depth) * inverseAcross;
+        var toFront = axisX * triangle.Front.X + axisZ * triangle.Front.Z;
+        var isAllowed = twoSided | Vector.GreaterThanOrEqual(
+            toFront * Vector.Abs(toFront), acrossSquared * new Vector<float>(-BehindTolerance * BehindTolerance));
+        var better = Vector.AndNot(Vector.LessThan(score, search.AxisScore) & isAllowed, parallel);
+        search.AxisX = Wide.Select(better, axisX, search.AxisX);
+        search.AxisZ = Wide.Select(better, axisZ, search.AxisZ);
+        search.AxisInverseSquared = Wide.Select(better, inverseAcross, search.AxisInverseSquared);
+        search.AxisScore = Wide.Select(better, score, search.AxisScore);
         search.AxisPlace = Wide.Select(better, passing, search.AxisPlace);
     }
 
@@ -278,26 +307,30 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
     // Around the nearest points the distance hardly changes, so it tells them to the square root of its rounding only. How far the shapes are
     // apart along the offset, scaled by its length here, is never more than the distance, and falls short of it as the direction goes wrong.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Keep(in Vector3Wide offset, Vector<float> place, Vector<float> shown, Vector<int> mask, ref Search search)
+    static void Keep(in Vector3Wide offset, Vector<float> distance, Vector<float> place, Vector<float> shown, Vector<int> mask,
+        ref Scratch scratch)
     {
-        var squared = offset.LengthSquared();
-        var shorter = Vector.LessThan(squared, search.SquaredDistance * new Vector<float>(1 - SameDistance));
-        var asShort = Vector.LessThan(squared, search.SquaredDistance * new Vector<float>(1 + SameDistance));
+        ref var search = ref scratch.Search;
+        var tolerance = scratch.Size * new Vector<float>(SameDistance);
+        var shorter = Vector.LessThan(distance, search.Distance - tolerance);
+        var asShort = Vector.LessThan(distance, search.Distance + tolerance);
         var better = (shorter | (asShort & Vector.GreaterThan(shown, search.Shown))) & mask;
         search.Offset = Vector3Wide.Select(better, offset, search.Offset);
-        search.SquaredDistance = Wide.Select(better, squared, search.SquaredDistance);
+        search.Distance = Wide.Select(better, distance, search.Distance);
         search.Nearest = Wide.Select(better, place, search.Nearest);
         search.Shown = Wide.Select(better, shown, search.Shown);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ClipToEdge(in TriangleEdgeWide edge, in Vector3Wide point, in Vector3Wide velocity, Vector<float> border,
+    static void ClipToSide(in Side side, in Vector3Wide normal, Vector<float> height, Vector<float> slope, Vector<float> border,
         ref Vector<float> start, ref Vector<float> end)
     {
         // A segment that moves less than the tolerance of the border over its whole length counts as parallel to it.
-        var speed = Vector3Wide.Dot(edge.Outward, velocity);
-        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(BorderTolerance)), speed);
-        var crossing = (border - edge.GetBeyond(point)) * inverse;
+        var along = Vector3Wide.Dot(side.Outward, normal);
+        var speed = side.Outward.Y - along * slope;
+        var least = side.Length * new Vector<float>(BorderTolerance);
+        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), least), speed);
+        var crossing = (border * side.Length - (side.Beyond - along * height)) * inverse;
         var leaves = Vector.GreaterThan(inverse, Vector<float>.Zero);
         end = Wide.Select(leaves, Wide.Min(end, crossing), end);
         start = Wide.Select(leaves, start, Wide.Max(start, crossing));

@@ -23,13 +23,30 @@ struct PlacedTriangleWide
     [MethodImpl(MethodImplOptions.NoInlining)]
     public void Place(in TriangleWide triangle, in Matrix3x3Wide axes, in Vector3Wide offset)
     {
+        PlaceCorners(triangle, axes, offset);
+        FindFront();
+    }
+
+    /// <summary>Places triangles whose front is found in their own frames, which is finer where they are thin.</summary>
+    /// <param name="triangle">Triangles in their own frames.</param>
+    /// <param name="axes">Axes of the triangles, in the rows.</param>
+    /// <param name="offset">Positions of the triangles.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void PlaceThin(in TriangleWide triangle, in Matrix3x3Wide axes, in Vector3Wide offset)
+    {
+        PlaceCorners(triangle, axes, offset);
+        Front = Matrix3x3Wide.TransposeTimes(axes, triangle.GetNormal());
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void PlaceCorners(in TriangleWide triangle, in Matrix3x3Wide axes, in Vector3Wide offset)
+    {
         AB = Matrix3x3Wide.TransposeTimes(axes, triangle.B - triangle.A);
         BC = Matrix3x3Wide.TransposeTimes(axes, triangle.C - triangle.B);
         CA = Matrix3x3Wide.TransposeTimes(axes, triangle.A - triangle.C);
         A = Matrix3x3Wide.TransposeTimes(axes, triangle.A) + offset;
         B = A + AB;
         C = A - CA;
-        FindFront();
     }
 
     /// <summary>Takes triangles where they are.</summary>
