@@ -9,6 +9,9 @@ namespace BepuPhysics.CollisionDetection;
 public readonly struct CylinderSupport : ISupport<CylinderWide>
 {
     /// <inheritdoc/>
+    public static bool IsRound => true;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Margin(in CylinderWide shape) => Vector<float>.Zero;
 

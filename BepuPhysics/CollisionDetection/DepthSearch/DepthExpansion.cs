@@ -12,7 +12,7 @@ namespace BepuPhysics.CollisionDetection;
 /// Asks for support points one after the other: <see cref="Next"/> says in which direction, <see cref="Add"/> takes the answer. Points are
 /// floats, the geometry between them is in double precision.
 /// </remarks>
-ref struct DepthExpansion
+unsafe struct DepthExpansion
 {
     // Six times the volume of a tetrahedron that is too flat to begin with, as a part of its span cubed.
     const double LeastVolume = 1e-9;
@@ -58,25 +58,22 @@ ref struct DepthExpansion
     public bool HasSwitched;
 
     /// <summary>Starts with the simplex of a walk.</summary>
-    /// <param name="vertices">Memory.</param>
-    /// <param name="faces">Memory.</param>
-    /// <param name="indices">Memory.</param>
+    /// <param name="memory">Memory.</param>
     /// <param name="frame">Tolerances.</param>
     /// <param name="walk">Where the walk ended.</param>
     /// <param name="lane">Which of its lanes.</param>
     /// <param name="wanted">Depth below which a direction is of interest.</param>
-    public DepthExpansion(Span<PolytopeVertex> vertices, Span<PolytopeFace> faces, Span<int> indices, in SearchFrame frame,
-        in SearchWalk walk, int lane, double wanted)
+    public DepthExpansion(PolytopeMemory* memory, in SearchFrame frame, in SearchWalk walk, int lane, double wanted)
     {
         span = frame.Span[lane];
         slack = frame.CertificateSlack[lane];
         this.wanted = wanted;
         best = walk.Depth[lane];
         bestDirection = new(walk.Direction.X[lane], walk.Direction.Y[lane], walk.Direction.Z[lane]);
-        polytope = new(vertices, faces, indices[..(indices.Length / 2)], indices[(indices.Length / 2)..], Visibility * span);
-        Read(walk.Simplex.A, lane, out vertices[0]);
-        Read(walk.Simplex.B, lane, out vertices[1]);
-        Read(walk.Simplex.C, lane, out vertices[2]);
+        polytope = new(memory, Visibility * span);
+        Read(walk.Simplex.A, lane, out polytope[0]);
+        Read(walk.Simplex.B, lane, out polytope[1]);
+        Read(walk.Simplex.C, lane, out polytope[2]);
         phase = Phase.Opposite;
     }
 
@@ -87,7 +84,7 @@ ref struct DepthExpansion
         {
             Phase.Opposite => -bestDirection,
             Phase.Corner => probed,
-            Phase.Expand => polytope.Faces[face].Normal,
+            Phase.Expand => polytope.Normal(face),
             _ => default,
         };
         direction = wantedDirection.ToSingle();
@@ -115,7 +112,7 @@ ref struct DepthExpansion
         switch (phase)
         {
             case Phase.Opposite:
-                polytope.Vertices[3] = vertex;
+                polytope[3] = vertex;
                 Start();
                 break;
             case Phase.Corner:
@@ -137,17 +134,16 @@ ref struct DepthExpansion
         isSeeded = hasSeed;
         if (!hasSeed)
             return;
-        WriteVertex(polytope.Vertices[seed0], ref walk.Simplex.A, lane);
-        WriteVertex(polytope.Vertices[seed1], ref walk.Simplex.B, lane);
-        WriteVertex(polytope.Vertices[seed2], ref walk.Simplex.C, lane);
+        WriteVertex(polytope[seed0], ref walk.Simplex.A, lane);
+        WriteVertex(polytope[seed1], ref walk.Simplex.B, lane);
+        WriteVertex(polytope[seed2], ref walk.Simplex.C, lane);
     }
 
     void Start()
     {
-        var volume = ExpandingPolytope.Volume(polytope.Vertices);
+        var volume = polytope.Volume();
         if ((volume < 0 ? -volume : volume) > LeastVolume * span * span * span)
         {
-            polytope.VertexCount = 4;
             polytope.Start();
             phase = Phase.Expand;
             Choose();
@@ -162,13 +158,13 @@ ref struct DepthExpansion
     }
 
     /// <summary>Swaps the farthest of the vertices at hand into the place of the next corner.</summary>
-    readonly bool TryCornerAtHand()
+    bool TryCornerAtHand()
     {
         var farthest = 0;
         var distance = GoodDistance * span;
         for (int i = cornerCount; i < 4; ++i)
         {
-            var candidate = DistanceFromCorners(polytope.Vertices[i].Point);
+            var candidate = DistanceFromCorners(polytope[i].Point);
             if (candidate > distance)
             {
                 distance = candidate;
@@ -177,7 +173,7 @@ ref struct DepthExpansion
         }
         if (farthest == 0)
             return false;
-        (polytope.Vertices[cornerCount], polytope.Vertices[farthest]) = (polytope.Vertices[farthest], polytope.Vertices[cornerCount]);
+        (polytope[cornerCount], polytope[farthest]) = (polytope[farthest], polytope[cornerCount]);
         return true;
     }
 
@@ -195,7 +191,7 @@ ref struct DepthExpansion
         if (distance > probedDistance)
         {
             probedDistance = distance;
-            polytope.Vertices[cornerCount] = vertex;
+            polytope[cornerCount] = vertex;
         }
         // Both ways along each axis across the corners: three axes across a point, two across a line, one across a plane.
         if (++probe < 8 - 2 * cornerCount)
@@ -207,7 +203,6 @@ ref struct DepthExpansion
             StartProbing();
         else
         {
-            polytope.VertexCount = 4;
             polytope.Start();
             phase = Phase.Expand;
             Choose();
@@ -216,7 +211,7 @@ ref struct DepthExpansion
 
     readonly double DistanceFromCorners(in DoubleVector3 point)
     {
-        var offset = point - polytope.Vertices[0].Point;
+        var offset = point - polytope[0].Point;
         if (cornerCount == 1)
             return offset.Length;
         if (cornerCount == 2)
@@ -245,7 +240,7 @@ ref struct DepthExpansion
 
     readonly DoubleVector3 Unit(int corner)
     {
-        var edge = polytope.Vertices[corner].Point - polytope.Vertices[0].Point;
+        var edge = polytope[corner].Point - polytope[0].Point;
         return edge * (1 / edge.Length);
     }
 
@@ -257,22 +252,17 @@ ref struct DepthExpansion
 
     void Expand(in PolytopeVertex vertex, double depth, bool isBest)
     {
-        ref var expanded = ref polytope.Faces[face];
-        if (depth - expanded.Offset <= FaceRounding * span)
+        if (depth - polytope.Priority(face) <= FaceRounding * span)
         {
             // A face of the difference itself: as far out as can be.
-            expanded.Priority = double.PositiveInfinity;
+            polytope.Settle(face);
             if (isBest)
                 Seed(face);
         }
         else
         {
-            polytope.Vertices[polytope.VertexCount++] = vertex;
-            if (!polytope.Expand(face))
-            {
-                Finish(ExpansionEnd.Limit);
-                return;
-            }
+            polytope[polytope.VertexCount++] = vertex;
+            polytope.Expand(face);
         }
         Choose();
     }
@@ -281,24 +271,21 @@ ref struct DepthExpansion
     void Choose()
     {
         face = polytope.FindLeast();
-        var bound = polytope.Faces[face].Priority;
+        var bound = polytope.Priority(face);
         if (best - bound <= slack || bound >= wanted)
         {
             if (!hasSeed && bound < double.PositiveInfinity)
                 Seed(face);
             Finish(ExpansionEnd.Certified);
         }
-        else if (polytope.VertexCount == ExpandingPolytope.MaximumVertexCount || Evaluations >= 2 * ExpandingPolytope.MaximumExpansions)
+        else if (polytope.VertexCount == PolytopeMemory.VertexCapacity || Evaluations >= 2 * PolytopeMemory.VertexCapacity)
             Finish(ExpansionEnd.Limit);
     }
 
     void Seed(int index)
     {
-        ref var seed = ref polytope.Faces[index];
         hasSeed = true;
-        seed0 = seed.Vertex0;
-        seed1 = seed.Vertex1;
-        seed2 = seed.Vertex2;
+        polytope.GetCorners(index, out seed0, out seed1, out seed2);
     }
 
     void Finish(ExpansionEnd end)
@@ -319,7 +306,6 @@ ref struct DepthExpansion
         result.Point = new(vertex.Point.X[lane], vertex.Point.Y[lane], vertex.Point.Z[lane]);
         result.OnA = new(vertex.OnA.X[lane], vertex.OnA.Y[lane], vertex.OnA.Z[lane]);
         result.OnB = new(vertex.OnB.X[lane], vertex.OnB.Y[lane], vertex.OnB.Z[lane]);
-        result.FaceFrom = result.FaceTo = -1;
     }
 
     static void WriteVertex(in PolytopeVertex vertex, ref SearchVertex target, int lane)

@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -18,6 +17,12 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         var openMask = Vector.AndNot(dueMask, certifiedMask);
         if (openMask == Vector<int>.Zero)
             return;
+        if (TSupportA.IsRound || TSupportB.IsRound)
+        {
+            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, openMask, ref statistics));
+            if (openMask == Vector<int>.Zero)
+                return;
+        }
         // A remembered minimum is left only for a much better one: it must not flicker between two.
         var wanted = Wide.Select(knownMask,
             walk.Depth * new Vector<float>(Hysteresis) - frame.CertificateSlack, walk.Depth - frame.Tolerance);
@@ -35,14 +40,12 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
 
     /// <summary>Expands a polytope for one lane, and puts the lane's walk where it has found something better than wanted.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, int lane, double wanted,
+    static unsafe void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, int lane, double wanted,
         ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
         where TStatistics : struct, ISearchStatistics
     {
-        Span<PolytopeVertex> vertices = stackalloc PolytopeVertex[ExpandingPolytope.MaximumVertexCount];
-        Span<PolytopeFace> faces = stackalloc PolytopeFace[ExpandingPolytope.MaximumFaceCount];
-        Span<int> indices = stackalloc int[2 * ExpandingPolytope.MaximumFaceCount];
-        var expansion = new DepthExpansion(vertices, faces, indices, frame, walk, lane, wanted);
+        Unsafe.SkipInit(out PolytopeMemory memory);
+        var expansion = new DepthExpansion(&memory, frame, walk, lane, wanted);
         Unsafe.SkipInit(out SearchVertex found);
         while (expansion.Next(out var direction))
         {
