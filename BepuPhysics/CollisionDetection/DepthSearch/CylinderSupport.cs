@@ -32,4 +32,16 @@ public readonly struct CylinderSupport : ISupport<CylinderWide>
         var scale = Wide.DivideOrZero(shape.Radius, across);
         return new(direction.X * scale, Wide.CopySign(shape.HalfLength, direction.Y), direction.Z * scale);
     }
+
+    /// <inheritdoc/>
+    public static Vector<float> Shrink(ref CylinderWide shape, Vector<float> reach)
+    {
+        var needed = reach * new Vector<float>(2);
+        var thickness = Wide.Min(shape.Radius, shape.HalfLength);
+        var radius = Wide.Select(Vector.GreaterThan(shape.HalfLength - shape.Radius, needed), shape.Radius,
+            Wide.Max(thickness - needed, Vector<float>.Zero));
+        shape.Radius -= radius;
+        shape.HalfLength -= radius;
+        return radius;
+    }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -9,7 +10,7 @@ namespace BepuPhysics.CollisionDetection;
 /// until that is no nearer than the best depth that was found: then no direction is better.
 /// </summary>
 /// <remarks>
-/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <see cref="Add"/> takes the answer. Points are
+/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <c>Add</c> takes the answer. Points are
 /// floats, the geometry between them is in double precision.
 /// </remarks>
 unsafe struct DepthExpansion
@@ -24,9 +25,15 @@ unsafe struct DepthExpansion
     // a face's plane for the face to go. Support points are floats: they are that well known.
     const double FaceRounding = 2e-6;
     const double Visibility = 1e-6;
+    const int None = -1;
+    // In depths: how far beyond the origin a point inside of the difference must be to serve as a corner.
+    const double LeastBallReach = 2;
+    const int GreatestEvaluationCount = 2 * PolytopeMemory.VertexCapacity;
 
     enum Phase
     {
+        /// <summary>The first corner, where nothing is at hand: in the best direction.</summary>
+        First,
         /// <summary>The fourth corner: away from the walk's triangle.</summary>
         Opposite,
         /// <summary>Corners one by one, where the first four are flat.</summary>
@@ -35,8 +42,11 @@ unsafe struct DepthExpansion
         Ended,
     }
 
-    readonly double span;
     readonly double slack;
+    double span;
+    double rounding;
+    int evaluationLimit;
+    int innerCorner;
     readonly double wanted;
     ExpandingPolytope polytope;
     Phase phase;
@@ -74,7 +84,44 @@ unsafe struct DepthExpansion
         Read(walk.Simplex.A, lane, out polytope[0]);
         Read(walk.Simplex.B, lane, out polytope[1]);
         Read(walk.Simplex.C, lane, out polytope[2]);
+        evaluationLimit = GreatestEvaluationCount;
+        innerCorner = None;
         phase = Phase.Opposite;
+        // The fourth corner costs nothing where the ball inside of the difference reaches well beyond the origin.
+        var center = new DoubleVector3(frame.Center.X[lane], frame.Center.Y[lane], frame.Center.Z[lane]);
+        var below = center - bestDirection * frame.Inner[lane];
+        if (-DoubleVector3.Dot(below, bestDirection) > LeastBallReach * best)
+        {
+            innerCorner = 3;
+            Unsafe.SkipInit(out PolytopeVertex corner);
+            corner.Point = below;
+            polytope[3] = corner;
+            Start();
+        }
+    }
+
+    /// <summary>Starts once more, with the difference of smaller cores that a radius is to be added to.</summary>
+    /// <param name="coreSpan">Radius of a ball about the difference's centre that holds it, or the distance of the origin if that is more.</param>
+    /// <param name="coreRounding">Radius; what is found is at least as much deeper in any direction.</param>
+    public void Restart(double coreSpan, double coreRounding)
+    {
+        span = coreSpan;
+        rounding = coreRounding;
+        hasSeed = false;
+        innerCorner = None;
+        polytope.Restart(Visibility * span);
+        phase = Phase.First;
+        evaluationLimit = Evaluations + GreatestEvaluationCount;
+    }
+
+    /// <summary>Takes a point of the difference that is at hand, once there is a polytope.</summary>
+    public void Offer(in SearchVertex found, int lane)
+    {
+        if (phase != Phase.Expand)
+            return;
+        Read(found, lane, out polytope[polytope.VertexCount]);
+        if (polytope.TryExpand())
+            Choose();
     }
 
     /// <summary>Says which support point is wanted next; false when the expansion has ended.</summary>
@@ -82,6 +129,7 @@ unsafe struct DepthExpansion
     {
         var wantedDirection = phase switch
         {
+            Phase.First => bestDirection,
             Phase.Opposite => -bestDirection,
             Phase.Corner => probed,
             Phase.Expand => polytope.Normal(face),
@@ -94,9 +142,23 @@ unsafe struct DepthExpansion
     /// <summary>Takes the support point that was asked for.</summary>
     public void Add(in SearchVertex found, int lane, in Vector3 direction)
     {
-        ++Evaluations;
+        Read(found, lane, out var vertex);
+        Add(vertex, DoubleVector3.Dot(vertex.Point, new(direction)), direction);
+    }
+
+    /// <summary>Takes the support point of the smaller cores, and that of the shapes themselves.</summary>
+    public void Add(in SearchVertex foundOfCores, in SearchVertex found, int lane, in Vector3 direction)
+    {
         Read(found, lane, out var vertex);
         var depth = DoubleVector3.Dot(vertex.Point, new(direction));
+        Read(foundOfCores, lane, out vertex);
+        ++Evaluations;
+        Add(vertex, depth, direction);
+    }
+
+    void Add(in PolytopeVertex vertex, double depth, in Vector3 direction)
+    {
+        ++Evaluations;
         var isBest = depth < best;
         if (isBest)
         {
@@ -111,6 +173,12 @@ unsafe struct DepthExpansion
         }
         switch (phase)
         {
+            case Phase.First:
+                polytope[0] = vertex;
+                phase = Phase.Corner;
+                cornerCount = 1;
+                StartProbing();
+                break;
             case Phase.Opposite:
                 polytope[3] = vertex;
                 Start();
@@ -119,7 +187,7 @@ unsafe struct DepthExpansion
                 TakeCorner(vertex);
                 break;
             case Phase.Expand:
-                Expand(vertex, depth, isBest);
+                Expand(vertex, DoubleVector3.Dot(vertex.Point, new(direction)), isBest);
                 break;
         }
     }
@@ -174,6 +242,7 @@ unsafe struct DepthExpansion
         if (farthest == 0)
             return false;
         (polytope[cornerCount], polytope[farthest]) = (polytope[farthest], polytope[cornerCount]);
+        innerCorner = innerCorner == farthest ? cornerCount : innerCorner == cornerCount ? farthest : innerCorner;
         return true;
     }
 
@@ -192,13 +261,14 @@ unsafe struct DepthExpansion
         {
             probedDistance = distance;
             polytope[cornerCount] = vertex;
+            innerCorner = innerCorner == cornerCount ? None : innerCorner;
         }
         // Both ways along each axis across the corners: three axes across a point, two across a line, one across a plane.
         if (++probe < 8 - 2 * cornerCount)
             probed = GetProbe();
         else if (probedDistance <= LeastDistance * span)
             // No thicker than this across some direction, which has just been looked along both ways.
-            Finish(ExpansionEnd.Flat);
+            Finish(rounding == 0 ? ExpansionEnd.Flat : best - rounding <= slack ? ExpansionEnd.Certified : ExpansionEnd.Limit);
         else if (++cornerCount < 4)
             StartProbing();
         else
@@ -261,7 +331,7 @@ unsafe struct DepthExpansion
         }
         else
         {
-            polytope[polytope.VertexCount++] = vertex;
+            polytope[polytope.VertexCount] = vertex;
             polytope.Expand(face);
         }
         Choose();
@@ -271,21 +341,22 @@ unsafe struct DepthExpansion
     void Choose()
     {
         face = polytope.FindLeast();
-        var bound = polytope.Priority(face);
+        var bound = polytope.Priority(face) + rounding;
         if (best - bound <= slack || bound >= wanted)
         {
             if (!hasSeed && bound < double.PositiveInfinity)
                 Seed(face);
             Finish(ExpansionEnd.Certified);
         }
-        else if (polytope.VertexCount == PolytopeMemory.VertexCapacity || Evaluations >= 2 * PolytopeMemory.VertexCapacity)
+        else if (polytope.VertexCount == PolytopeMemory.VertexCapacity || Evaluations >= evaluationLimit)
             Finish(ExpansionEnd.Limit);
     }
 
     void Seed(int index)
     {
-        hasSeed = true;
         polytope.GetCorners(index, out seed0, out seed1, out seed2);
+        // Points of smaller cores are inside of the difference, and the free corner is no point of the shapes.
+        hasSeed = rounding == 0 && seed0 != innerCorner && seed1 != innerCorner && seed2 != innerCorner;
     }
 
     void Finish(ExpansionEnd end)

@@ -17,9 +17,11 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         var openMask = Vector.AndNot(dueMask, certifiedMask);
         if (openMask == Vector<int>.Zero)
             return;
+        Unsafe.SkipInit(out SupportRing ring);
+        ring.Mask = Vector<int>.Zero;
         if (TSupportA.IsRound || TSupportB.IsRound)
         {
-            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, openMask, ref statistics));
+            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, openMask, ref ring, ref statistics));
             if (openMask == Vector<int>.Zero)
                 return;
         }
@@ -32,7 +34,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         {
             if (openMask[lane] == 0)
                 continue;
-            ExpandLane(a, b, frame, lane, wanted[lane], ref walk, ref statistics, ref switchedMask, ref seededMask);
+            ExpandLane(a, b, frame, ring, lane, wanted[lane], ref walk, ref statistics, ref switchedMask, ref seededMask);
         }
         if (switchedMask != Vector<int>.Zero)
             Walk(a, b, frame, switchedMask, ref seededMask, ref walk, ref statistics);
@@ -40,24 +42,66 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
 
     /// <summary>Expands a polytope for one lane, and puts the lane's walk where it has found something better than wanted.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static unsafe void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, int lane, double wanted,
-        ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
+    static unsafe void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, in SupportRing ring,
+        int lane, double wanted,        ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
         where TStatistics : struct, ISearchStatistics
     {
         Unsafe.SkipInit(out PolytopeMemory memory);
         var expansion = new DepthExpansion(&memory, frame, walk, lane, wanted);
+        if (ring.Mask[lane] != 0)
+        {
+            expansion.Offer(ring.Vertex0, lane);
+            expansion.Offer(ring.Vertex1, lane);
+            expansion.Offer(ring.Vertex2, lane);
+            expansion.Offer(ring.Vertex3, lane);
+        }
         Unsafe.SkipInit(out SearchVertex found);
         while (expansion.Next(out var direction))
         {
             SupportLane(a, b, frame, lane, direction, ref found);
             expansion.Add(found, lane, direction);
         }
+        if (expansion.End == ExpansionEnd.Limit && (TSupportA.IsRound || TSupportB.IsRound))
+            ExpandShrunk(a, b, frame, lane, ref expansion);
         statistics.Expanded(lane, expansion.Evaluations, expansion.End);
         if (!expansion.HasSwitched)
             return;
         expansion.Write(ref walk, lane, out var isSeeded);
         GatherScatter.Get(ref switchedMask, lane) = -1;
         GatherScatter.Get(ref seededMask, lane) = isSeeded ? -1 : 0;
+    }
+
+    /// <summary>
+    /// Goes on where the polytope was full: with the difference of smaller cores, to which a radius is added. Around it directions are less
+    /// alike.
+    /// </summary>
+    // First the one shape smaller, then the other, then both, as far as they can be.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ExpandShrunk(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, int lane, ref DepthExpansion expansion)
+    {
+        TSupportA.GetExtents(a, out _, out _, out var outerA);
+        TSupportB.GetExtents(b, out _, out _, out var outerB);
+        var distance = frame.Center.Length() * frame.InverseScale;
+        for (int choice = 1; choice < 4 && expansion.End == ExpansionEnd.Limit; ++choice)
+        {
+            var (coreA, coreB) = (a, b);
+            var radiusA = (choice & 1) == 0 ? Vector<float>.Zero : TSupportA.Shrink(ref coreA, choice == 3 ? Vector<float>.Zero : outerB + distance);
+            var radiusB = (choice & 2) == 0 ? Vector<float>.Zero : TSupportB.Shrink(ref coreB, choice == 3 ? Vector<float>.Zero : outerA + distance);
+            if (((choice & 1) != 0 && radiusA[lane] == 0) || ((choice & 2) != 0 && radiusB[lane] == 0))
+                continue;
+            TSupportA.GetExtents(coreA, out _, out _, out var outerCoreA);
+            TSupportB.GetExtents(coreB, out _, out _, out var outerCoreB);
+            expansion.Restart(Wide.Max(outerCoreA + outerCoreB, distance)[lane] * (double)frame.Scale[lane],
+                (radiusA[lane] + (double)radiusB[lane]) * frame.Scale[lane]);
+            Unsafe.SkipInit(out SearchVertex foundOfCores);
+            Unsafe.SkipInit(out SearchVertex found);
+            while (expansion.Next(out var direction))
+            {
+                SupportLane(coreA, coreB, frame, lane, direction, ref foundOfCores);
+                SupportLane(a, b, frame, lane, direction, ref found);
+                expansion.Add(foundOfCores, found, lane, direction);
+            }
+        }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

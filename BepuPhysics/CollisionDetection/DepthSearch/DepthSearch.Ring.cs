@@ -9,31 +9,26 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     /// <summary>Lanes in which support points around the minimum show that no direction is better by more than the slack.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<int> CertifyByRing<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, in SearchWalk walk,
-        Vector<int> openMask, ref TStatistics statistics)
+        Vector<int> openMask, ref SupportRing ring, ref TStatistics statistics)
         where TStatistics : struct, ISearchStatistics
     {
-        Unsafe.SkipInit(out SupportRing ring);
         openMask = ring.Start(walk, frame, openMask);
         if (openMask == Vector<int>.Zero)
             return openMask;
         var doneMask = Vector.OnesComplement(openMask);
         statistics.EvaluatedRing(openMask, 4);
-        Support(a, b, frame, ring.Direction(ring.TangentX), doneMask, out var vertex);
-        ring.Vertex0 = vertex.Point;
-        Support(a, b, frame, ring.Direction(-ring.TangentX), doneMask, out vertex);
-        ring.Vertex2 = vertex.Point;
+        Support(a, b, frame, ring.Direction(ring.TangentX), doneMask, out ring.Vertex0);
+        Support(a, b, frame, ring.Direction(-ring.TangentX), doneMask, out ring.Vertex2);
         ring.Turn();
-        Support(a, b, frame, ring.Direction(ring.TangentY), doneMask, out vertex);
-        ring.Vertex1 = vertex.Point;
-        Support(a, b, frame, ring.Direction(-ring.TangentY), doneMask, out vertex);
-        ring.Vertex3 = vertex.Point;
+        Support(a, b, frame, ring.Direction(ring.TangentY), doneMask, out ring.Vertex1);
+        Support(a, b, frame, ring.Direction(-ring.TangentY), doneMask, out ring.Vertex3);
         var topMask = openMask & ring.HasTop();
         if (topMask == Vector<int>.Zero)
             return topMask;
-        return topMask & CertifySide(a, b, frame, ring, ring.Vertex0, ring.Vertex1, topMask, ref statistics) &
-            CertifySide(a, b, frame, ring, ring.Vertex1, ring.Vertex2, topMask, ref statistics) &
-            CertifySide(a, b, frame, ring, ring.Vertex2, ring.Vertex3, topMask, ref statistics) &
-            CertifySide(a, b, frame, ring, ring.Vertex3, ring.Vertex0, topMask, ref statistics);
+        return topMask & CertifySide(a, b, frame, ring, ring.Vertex0.Point, ring.Vertex1.Point, topMask, ref statistics) &
+            CertifySide(a, b, frame, ring, ring.Vertex1.Point, ring.Vertex2.Point, topMask, ref statistics) &
+            CertifySide(a, b, frame, ring, ring.Vertex2.Point, ring.Vertex3.Point, topMask, ref statistics) &
+            CertifySide(a, b, frame, ring, ring.Vertex3.Point, ring.Vertex0.Point, topMask, ref statistics);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

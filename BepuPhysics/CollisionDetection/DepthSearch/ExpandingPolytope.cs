@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
-using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -26,9 +25,10 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     // Below this, a normal's length says that its face has no area. Edges are about one unit long.
     const double LeastArea = 1e-12;
     const byte None = byte.MaxValue;
+    const int NoFace = -1;
 
     readonly PolytopeMemory* memory = memory;
-    readonly double visibility = visibility;
+    double visibility = visibility;
     public int VertexCount;
     int faceCount;
 
@@ -59,6 +59,9 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
         c = (byte)(corners >> 16);
     }
 
+    /// <summary>Forgets everything.</summary>
+    public void Restart(double newVisibility) => visibility = newVisibility;
+
     /// <summary>Makes the first four vertices a tetrahedron.</summary>
     public void Start()
     {
@@ -88,31 +91,43 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     [MethodImpl(MethodImplOptions.NoInlining)]
     public readonly int FindLeast()
     {
-        var least = new Vector<double>(double.PositiveInfinity);
-        for (int i = 0; i < faceCount; i += Vector<double>.Count)
+        var least = Vector256.Create(double.PositiveInfinity);
+        for (int i = 0; i < faceCount; i += Vector256<double>.Count)
         {
-            var priority = Unsafe.ReadUnaligned<Vector<double>>(memory->Priority + i);
-            least = Vector.ConditionalSelect(Vector.LessThan(priority, least), priority, least);
+            var priority = Vector256.Load(memory->Priority + i);
+            least = Vector256.ConditionalSelect(Vector256.LessThan(priority, least), priority, least);
         }
-        var smallest = least[0];
-        for (int i = 1; i < Vector<double>.Count; ++i)
-            smallest = least[i] < smallest ? least[i] : smallest;
-        least = new(smallest);
-        for (int i = 0; ; i += Vector<double>.Count)
+        var other = Vector256.Shuffle(least, Vector256.Create(2L, 3, 0, 1));
+        least = Vector256.ConditionalSelect(Vector256.LessThan(other, least), other, least);
+        other = Vector256.Shuffle(least, Vector256.Create(1L, 0, 3, 2));
+        least = Vector256.ConditionalSelect(Vector256.LessThan(other, least), other, least);
+        for (int i = 0; ; i += Vector256<double>.Count)
         {
-            var bits = LanesOf(Vector.Equals(Unsafe.ReadUnaligned<Vector<double>>(memory->Priority + i), least));
+            var bits = Vector256.Equals(Vector256.Load(memory->Priority + i), least).ExtractMostSignificantBits();
             if (bits != 0)
                 return i + BitOperations.TrailingZeroCount(bits);
         }
     }
 
-    /// <summary>Replaces the faces that see the last vertex by new ones that end in it.</summary>
+    /// <summary>Takes in the vertex behind the last one, if it is outside.</summary>
+    public bool TryExpand()
+    {
+        var seeingCount = FindSeeing(NoFace, this[VertexCount].Point);
+        if (seeingCount == 0)
+            return false;
+        Replace(memory->Removed[0], seeingCount);
+        return true;
+    }
+
+    /// <summary>Takes in the vertex behind the last one.</summary>
     /// <param name="seen">A face that sees it.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Expand(int seen)
+    public void Expand(int seen) => Replace(seen, FindSeeing(seen, this[VertexCount].Point));
+
+    /// <summary>Replaces faces that see the vertex behind the last one by new ones that end in it.</summary>
+    void Replace(int seen, int removedCount)
     {
-        var vertex = VertexCount - 1;
-        var removedCount = FindSeeing(seen, this[vertex].Point);
+        var vertex = VertexCount++;
         if (!TryFindRim(removedCount, out var rimCount))
         {
             // By rounding: the faces that see a point of a convex surface do not enclose any that does not, and are connected.
@@ -134,19 +149,18 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     readonly int FindSeeing(int seen, in DoubleVector3 point)
     {
         var count = 0;
-        var x = new Vector<double>(point.X);
-        var y = new Vector<double>(point.Y);
-        var z = new Vector<double>(point.Z);
-        var threshold = new Vector<double>(visibility);
-        for (int i = 0; i < faceCount; i += Vector<double>.Count)
+        var x = Vector256.Create(point.X);
+        var y = Vector256.Create(point.Y);
+        var z = Vector256.Create(point.Z);
+        var threshold = Vector256.Create(visibility);
+        for (int i = 0; i < faceCount; i += Vector256<double>.Count)
         {
-            var height = Unsafe.ReadUnaligned<Vector<double>>(memory->NormalX + i) * x +
-                Unsafe.ReadUnaligned<Vector<double>>(memory->NormalY + i) * y +
-                Unsafe.ReadUnaligned<Vector<double>>(memory->NormalZ + i) * z - Unsafe.ReadUnaligned<Vector<double>>(memory->Offset + i);
-            var bits = LanesOf(Vector.GreaterThan(height, threshold));
-            if (seen >= i && seen < i + Vector<double>.Count)
+            var height = Vector256.Load(memory->NormalX + i) * x + Vector256.Load(memory->NormalY + i) * y +
+                Vector256.Load(memory->NormalZ + i) * z - Vector256.Load(memory->Offset + i);
+            var bits = Vector256.GreaterThan(height, threshold).ExtractMostSignificantBits();
+            if (seen >= i && seen < i + Vector256<double>.Count)
                 bits |= 1u << (seen - i);
-            if (faceCount - i < Vector<double>.Count)
+            if (faceCount - i < Vector256<double>.Count)
                 bits &= (1u << (faceCount - i)) - 1;
             for (; bits != 0; bits &= bits - 1)
                 memory->Removed[count++] = (short)(i + BitOperations.TrailingZeroCount(bits));
@@ -157,6 +171,15 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     /// <summary>Lists the vertices around the removed faces; false where that is not one ring.</summary>
     readonly bool TryFindRim(int removedCount, out int rimCount)
     {
+        if (removedCount == 1)
+        {
+            GetCorners(memory->Removed[0], out var a, out var b, out var c);
+            memory->Rim[0] = memory->Rim[3] = (byte)a;
+            memory->Rim[1] = (byte)b;
+            memory->Rim[2] = (byte)c;
+            rimCount = 3;
+            return true;
+        }
         for (int i = 0; i < removedCount; ++i)
         {
             GetCorners(memory->Removed[i], out var a, out var b, out var c);
@@ -268,59 +291,51 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     /// <summary>Adds a face from each edge of the rim to a vertex.</summary>
     void AddFan(int edgeCount, int vertex)
     {
-        for (int i = 0; i < edgeCount; ++i)
-        {
-            ref var point = ref this[memory->Rim[i]].Point;
-            memory->RimX[i] = point.X;
-            memory->RimY[i] = point.Y;
-            memory->RimZ[i] = point.Z;
-            memory->Corners[faceCount + i] = memory->Rim[i] | (uint)memory->Rim[i + 1] << 8 | (uint)vertex << 16;
-        }
-        ref var last = ref this[memory->Rim[edgeCount]].Point;
-        memory->RimX[edgeCount] = last.X;
-        memory->RimY[edgeCount] = last.Y;
-        memory->RimZ[edgeCount] = last.Z;
         ref var tip = ref this[vertex].Point;
-        var tipX = new Vector<double>(tip.X);
-        var tipY = new Vector<double>(tip.Y);
-        var tipZ = new Vector<double>(tip.Z);
-        var infinity = new Vector<double>(double.PositiveInfinity);
-        for (int i = 0; i < edgeCount; i += Vector<double>.Count)
+        var tipX = Vector256.Create(tip.X);
+        var tipY = Vector256.Create(tip.Y);
+        var tipZ = Vector256.Create(tip.Z);
+        var infinity = Vector256.Create(double.PositiveInfinity);
+        for (int i = 0; i < edgeCount; i += Vector256<double>.Count)
         {
-            var fromX = Unsafe.ReadUnaligned<Vector<double>>(memory->RimX + i) - tipX;
-            var fromY = Unsafe.ReadUnaligned<Vector<double>>(memory->RimY + i) - tipY;
-            var fromZ = Unsafe.ReadUnaligned<Vector<double>>(memory->RimZ + i) - tipZ;
-            var toX = Unsafe.ReadUnaligned<Vector<double>>(memory->RimX + i + 1) - tipX;
-            var toY = Unsafe.ReadUnaligned<Vector<double>>(memory->RimY + i + 1) - tipY;
-            var toZ = Unsafe.ReadUnaligned<Vector<double>>(memory->RimZ + i + 1) - tipZ;
+            // Beyond the last edge, where the rim holds anything, the last one once more.
+            int i0 = memory->Rim[i], i1 = memory->Rim[i + 1];
+            int i2 = i + 2 <= edgeCount ? memory->Rim[i + 2] : i1;
+            int i3 = i + 3 <= edgeCount ? memory->Rim[i + 3] : i2;
+            int i4 = i + 4 <= edgeCount ? memory->Rim[i + 4] : i3;
+            ref var p0 = ref this[i0].Point;
+            ref var p1 = ref this[i1].Point;
+            ref var p2 = ref this[i2].Point;
+            ref var p3 = ref this[i3].Point;
+            ref var p4 = ref this[i4].Point;
+            memory->Corners[faceCount + i] = (uint)(i0 | i1 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 1] = (uint)(i1 | i2 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 2] = (uint)(i2 | i3 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 3] = (uint)(i3 | i4 << 8 | vertex << 16);
+            var fromX = Vector256.Create(p0.X, p1.X, p2.X, p3.X) - tipX;
+            var fromY = Vector256.Create(p0.Y, p1.Y, p2.Y, p3.Y) - tipY;
+            var fromZ = Vector256.Create(p0.Z, p1.Z, p2.Z, p3.Z) - tipZ;
+            var toX = Vector256.Create(p1.X, p2.X, p3.X, p4.X) - tipX;
+            var toY = Vector256.Create(p1.Y, p2.Y, p3.Y, p4.Y) - tipY;
+            var toZ = Vector256.Create(p1.Z, p2.Z, p3.Z, p4.Z) - tipZ;
             var x = fromY * toZ - fromZ * toY;
             var y = fromZ * toX - fromX * toZ;
             var z = fromX * toY - fromY * toX;
-            var length = Vector.SquareRoot(x * x + y * y + z * z);
-            var hasArea = Vector.GreaterThan(length, new Vector<double>(LeastArea));
-            var inverse = Vector.ConditionalSelect(hasArea, Vector<double>.One / length, Vector<double>.Zero);
+            var length = Vector256.Sqrt(x * x + y * y + z * z);
+            var hasArea = Vector256.GreaterThan(length, Vector256.Create(LeastArea));
+            var inverse = Vector256<double>.One / length & hasArea;
             x *= inverse;
             y *= inverse;
             z *= inverse;
-            var offset = Vector.ConditionalSelect(hasArea, x * tipX + y * tipY + z * tipZ, infinity);
-            Unsafe.WriteUnaligned(memory->NormalX + faceCount + i, x);
-            Unsafe.WriteUnaligned(memory->NormalY + faceCount + i, y);
-            Unsafe.WriteUnaligned(memory->NormalZ + faceCount + i, z);
-            Unsafe.WriteUnaligned(memory->Offset + faceCount + i, offset);
-            Unsafe.WriteUnaligned(memory->Priority + faceCount + i, offset);
+            var offset = Vector256.ConditionalSelect(hasArea, x * tipX + y * tipY + z * tipZ, infinity);
+            x.Store(memory->NormalX + faceCount + i);
+            y.Store(memory->NormalY + faceCount + i);
+            z.Store(memory->NormalZ + faceCount + i);
+            offset.Store(memory->Offset + faceCount + i);
+            offset.Store(memory->Priority + faceCount + i);
         }
         faceCount += edgeCount;
         // So that vectors which reach beyond the last face find nothing there.
-        Unsafe.WriteUnaligned(memory->Priority + faceCount, infinity);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static uint LanesOf(Vector<long> mask)
-    {
-        if (Vector<long>.Count == 4)
-            return mask.AsVector256().ExtractMostSignificantBits();
-        if (Vector<long>.Count == 2)
-            return mask.AsVector128().ExtractMostSignificantBits();
-        return (uint)mask.AsVector512().ExtractMostSignificantBits();
+        infinity.Store(memory->Priority + faceCount);
     }
 }

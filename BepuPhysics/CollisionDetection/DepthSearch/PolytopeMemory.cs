@@ -11,8 +11,8 @@ unsafe struct PolytopeMemory
     /// <summary>A closed surface of triangles has twice as many faces as vertices, less four; and what a vector writes behind them.</summary>
     public const int FaceCapacity = 2 * VertexCapacity + Behind;
     const int RimCapacity = VertexCapacity + Behind;
-    // Doubles of the widest vector, and the first vertex of the rim once more.
-    const int Behind = 9;
+    // Doubles of a vector, and the first vertex of the rim once more.
+    const int Behind = 5;
 
     [InlineArray(VertexCapacity)]
     public struct VertexArray
@@ -29,9 +29,6 @@ unsafe struct PolytopeMemory
     public fixed double Priority[FaceCapacity];
     /// <summary>Vertices, counterclockwise seen from outside: a byte each.</summary>
     public fixed uint Corners[FaceCapacity];
-    public fixed double RimX[RimCapacity];
-    public fixed double RimY[RimCapacity];
-    public fixed double RimZ[RimCapacity];
     /// <summary>By vertex: the vertices to which edges of removed faces lead from there, a bit each.</summary>
     public fixed ulong Edges[2 * VertexCapacity];
     /// <summary>Numbers of the faces that go, ascending.</summary>

@@ -10,8 +10,9 @@ struct SupportRing
     const float GreatestTangent = 0.5f;
 
     public Vector3Wide Normal, TangentX, TangentY;
-    public Vector3Wide Vertex0, Vertex1, Vertex2, Vertex3;
+    public SearchVertex Vertex0, Vertex1, Vertex2, Vertex3;
     public Vector3Wide Top, Bottom;
+    public Vector<int> Mask;
     Vector<float> bound, squaredBound, normalScale, tangentLength;
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -41,13 +42,13 @@ struct SupportRing
         normalScale = one / Vector.SquareRoot(one + tangent * tangent);
         TangentX *= tangent;
         tangentLength = tangent;
-        return mask & Vector.LessThan(walk.Depth, frame.CertificateSlack * new Vector<float>(500));
+        return Mask = mask & Vector.LessThan(walk.Depth, frame.CertificateSlack * new Vector<float>(500));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Turn()
     {
-        TangentY = Vector3Wide.Cross(Normal, Vertex0 - Vertex2);
+        TangentY = Vector3Wide.Cross(Normal, Vertex0.Point - Vertex2.Point);
         var length = TangentY.Length();
         var has = Vector.GreaterThan(length, new Vector<float>(1e-6f));
         TangentY = Vector3Wide.Select(has, TangentY * (tangentLength / length), Vector3Wide.Cross(Normal, TangentX));
@@ -66,9 +67,11 @@ struct SupportRing
     public readonly Vector3Wide Direction(in Vector3Wide tangent) => (Normal + tangent) * normalScale;
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly Vector<int> HasTop() =>
-        (IsBeyond(Top, Vertex0, Vertex1) | AreEqual(Vertex0, Vertex1)) & (IsBeyond(Top, Vertex1, Vertex2) | AreEqual(Vertex1, Vertex2)) &
-        (IsBeyond(Top, Vertex2, Vertex3) | AreEqual(Vertex2, Vertex3)) & (IsBeyond(Top, Vertex3, Vertex0) | AreEqual(Vertex3, Vertex0));
+    public readonly Vector<int> HasTop() => HasTop(Vertex0.Point, Vertex1.Point) & HasTop(Vertex1.Point, Vertex2.Point) &
+        HasTop(Vertex2.Point, Vertex3.Point) & HasTop(Vertex3.Point, Vertex0.Point);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector<int> HasTop(in Vector3Wide from, in Vector3Wide to) => IsBeyond(Top, from, to) | AreEqual(from, to);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector<int> IsBeyond(in Vector3Wide a, in Vector3Wide b, in Vector3Wide c)
