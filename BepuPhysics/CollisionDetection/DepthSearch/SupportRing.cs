@@ -4,54 +4,111 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
+/// <summary>
+/// A lower bound of the depth that costs four support points, for all lanes at once: from directions tilted by a little, every quarter of a turn
+/// around that of the minimum.
+/// </summary>
+/// <remarks>
+/// The walk's triangle shrinks to a point where the difference is round, and the tetrahedron on it is a needle. The ring is as wide as the
+/// slack allows. With the point that the walk found in the middle and one of the inner ball below it makes a closed surface of eight
+/// triangles whose corners are points of the difference. Where the origin is on the inner side of all their planes it is inside, and a ball
+/// around it that no plane cuts lies in the difference: no depth is less than its radius.
+/// </remarks>
 struct SupportRing
 {
+    public const int VertexCount = 4;
+    // Squared sine below which a triangle is too narrow to say where its plane is.
     const float LeastSquaredSine = 1e-6f;
-    const float GreatestTangent = 0.5f;
+    // Tangent of the tilt, at most: where shapes hardly touch, anything would do.
+    const float GreatestTilt = 0.5f;
+    // In slacks. The ring reaches the tilt times the radius of curvature to the side, and below it must be at least the depth from the origin:
+    // with a tilt of the square root of twice the slack over the depth, no shape gets there that is much deeper than this.
+    const float GreatestDepth = 500;
+    // Part of the longest edge of the walk's triangle that must be across the direction, squared; and length at which there is an edge.
+    const float LeastAcross = 0.5f;
+    const float LeastSquaredEdge = 1e-12f;
+    const float LeastEdge = 1e-6f;
 
-    public Vector3Wide Normal, TangentX, TangentY;
+    /// <summary>Counterclockwise, seen against the direction.</summary>
     public SearchVertex Vertex0, Vertex1, Vertex2, Vertex3;
-    public Vector3Wide Top, Bottom;
+    /// <summary>Lanes that have a ring.</summary>
     public Vector<int> Mask;
-    Vector<float> bound, squaredBound, normalScale, tangentLength;
+    /// <summary>Across the direction, as long as the tilt's tangent.</summary>
+    public Vector3Wide Along;
+    Vector3Wide normal, top, bottom;
+    Vector<float> squaredBound, tilt, tiltedScale;
 
+    /// <summary>Chooses which way to tilt, and how far.</summary>
+    // A face that holds the origin's projection in its middle is tilted from the direction by the tilt at most, and so at least as far away as
+    // the depth times the tilt's cosine: less than the slack is lost.
+    // First along the longest edge of the walk's triangle: where the difference is flat, its face is longest about there.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public Vector<int> Start(in SearchWalk walk, in SearchFrame frame, Vector<int> mask)
+    public void Start(in SearchWalk walk, in SearchFrame frame, Vector<int> openMask)
     {
-        var one = Vector<float>.One;
-        Normal = walk.Direction;
-        var sign = Wide.CopySign(one, Normal.Z);
-        var inverse = -one / (sign + Normal.Z);
-        var mixed = Normal.X * Normal.Y * inverse;
-        var across = new Vector3Wide(mixed, sign + Normal.Y * Normal.Y * inverse, -Normal.Y);
+        Mask = openMask & Vector.LessThan(walk.Depth, frame.CertificateSlack * new Vector<float>(GreatestDepth));
+        if (Mask == Vector<int>.Zero)
+            return;
         ref readonly var simplex = ref walk.Simplex;
+        normal = walk.Direction;
+        var weights = simplex.GetWeights(walk.Target());
+        top = simplex.A.Point * weights.X + simplex.B.Point * weights.Y + simplex.C.Point * weights.Z;
+        bottom = frame.Center - normal * frame.Inner;
+        var bound = walk.Depth - frame.CertificateSlack;
+        squaredBound = bound * bound;
+        // All lanes of the mask are deeper than the slack, which is above zero.
+        tilt = Wide.Min(
+            Vector.SquareRoot((frame.CertificateSlack + frame.CertificateSlack) / walk.Depth), new Vector<float>(GreatestTilt));
+        tiltedScale = Vector<float>.One / Vector.SquareRoot(Vector<float>.One + tilt * tilt);
+
         var edge = simplex.B.Point - simplex.A.Point;
         var squaredEdge = edge.LengthSquared();
         TakeLonger(simplex.C.Point - simplex.B.Point, ref edge, ref squaredEdge);
         TakeLonger(simplex.A.Point - simplex.C.Point, ref edge, ref squaredEdge);
-        var along = edge - Normal * Vector3Wide.Dot(edge, Normal);
-        var squaredAlong = along.LengthSquared();
-        var hasEdge = Vector.GreaterThan(squaredAlong, squaredEdge * new Vector<float>(0.5f)) & Vector.GreaterThan(squaredEdge, new Vector<float>(1e-12f));
-        TangentX = Vector3Wide.Select(hasEdge, along * (one / Vector.SquareRoot(squaredAlong)), across);
-        var weights = walk.Simplex.GetWeights(walk.Target());
-        Top = walk.Simplex.A.Point * weights.X + walk.Simplex.B.Point * weights.Y + walk.Simplex.C.Point * weights.Z;
-        Bottom = frame.Center - Normal * frame.Inner;
-        bound = walk.Depth - frame.CertificateSlack;
-        squaredBound = bound * bound;
-        var tangent = Wide.Min(Vector.SquareRoot(frame.CertificateSlack * new Vector<float>(2) / walk.Depth), new Vector<float>(GreatestTangent));
-        normalScale = one / Vector.SquareRoot(one + tangent * tangent);
-        TangentX *= tangent;
-        tangentLength = tangent;
-        return Mask = mask & Vector.LessThan(walk.Depth, frame.CertificateSlack * new Vector<float>(500));
+        edge -= normal * Vector3Wide.Dot(edge, normal);
+        var squaredAcross = edge.LengthSquared();
+        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge)) &
+            Vector.GreaterThan(squaredAcross, squaredEdge * new Vector<float>(LeastAcross));
+        Vector3Wide.BuildOrthonormalBasis(normal, out var any, out _);
+        Along = Vector3Wide.Select(hasEdge, edge * (tilt / Vector.SquareRoot(squaredAcross)), any * tilt);
     }
 
+    /// <summary>Across the line between the first and the third point, so that the other two are on either side of it.</summary>
+    // Where the difference is round and curved unequally, support points are not in the direction of the tilt.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Turn()
+    public readonly Vector3Wide Across(in Vector3Wide direction)
     {
-        TangentY = Vector3Wide.Cross(Normal, Vertex0.Point - Vertex2.Point);
-        var length = TangentY.Length();
-        var has = Vector.GreaterThan(length, new Vector<float>(1e-6f));
-        TangentY = Vector3Wide.Select(has, TangentY * (tangentLength / length), Vector3Wide.Cross(Normal, TangentX));
+        var across = Vector3Wide.Cross(direction, Vertex0.Point - Vertex2.Point);
+        var length = across.Length();
+        return Vector3Wide.Select(
+            Vector.GreaterThan(length, new Vector<float>(LeastEdge)), across * (tilt / length), Vector3Wide.Cross(direction, Along));
+    }
+
+    /// <summary>The direction tilted, as a unit vector.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector3Wide Tilt(in Vector3Wide tangent) => (normal + tangent) * tiltedScale;
+
+    /// <summary>Lanes in which no direction can be better by more than the slack.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public readonly Vector<int> Certifies() => Mask & IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
+        IsBeyond(Vertex2.Point, Vertex3.Point) & IsBeyond(Vertex3.Point, Vertex0.Point);
+
+    /// <summary>Whether the triangles above and below a side of the ring are far enough from the origin. Two points that are one have none.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector<int> IsBeyond(in Vector3Wide from, in Vector3Wide to) =>
+        (Vector.Equals(from.X, to.X) & Vector.Equals(from.Y, to.Y) & Vector.Equals(from.Z, to.Z)) |
+        (IsBeyond(top, from, to) & IsBeyond(bottom, to, from));
+
+    /// <summary>Whether the origin is far enough inside of a triangle that is counterclockwise seen from outside.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector<int> IsBeyond(in Vector3Wide a, in Vector3Wide b, in Vector3Wide c)
+    {
+        var e1 = b - a;
+        var e2 = c - a;
+        var outward = Vector3Wide.Cross(e1, e2);
+        var squared = outward.LengthSquared();
+        var offset = Vector3Wide.Dot(outward, a);
+        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
+            Vector.GreaterThan(offset, Vector<float>.Zero) & Vector.GreaterThanOrEqual(offset * offset, squaredBound * squared);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -62,30 +119,4 @@ struct SupportRing
         edge = Vector3Wide.Select(isLonger, other, edge);
         squaredEdge = Wide.Select(isLonger, squaredOther, squaredEdge);
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly Vector3Wide Direction(in Vector3Wide tangent) => (Normal + tangent) * normalScale;
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly Vector<int> HasTop() => HasTop(Vertex0.Point, Vertex1.Point) & HasTop(Vertex1.Point, Vertex2.Point) &
-        HasTop(Vertex2.Point, Vertex3.Point) & HasTop(Vertex3.Point, Vertex0.Point);
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly Vector<int> HasTop(in Vector3Wide from, in Vector3Wide to) => IsBeyond(Top, from, to) | AreEqual(from, to);
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly Vector<int> IsBeyond(in Vector3Wide a, in Vector3Wide b, in Vector3Wide c)
-    {
-        var e1 = b - a;
-        var e2 = c - a;
-        var normal = Vector3Wide.Cross(e1, e2);
-        var squared = normal.LengthSquared();
-        var offset = Vector3Wide.Dot(normal, a);
-        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
-            Vector.GreaterThan(offset, Vector<float>.Zero) & Vector.GreaterThanOrEqual(offset * offset, squaredBound * squared);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Vector<int> AreEqual(in Vector3Wide a, in Vector3Wide b) =>
-        Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
 }
