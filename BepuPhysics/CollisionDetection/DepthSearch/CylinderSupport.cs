@@ -34,6 +34,11 @@ public readonly struct CylinderSupport : ISupport<CylinderWide>
     }
 
     /// <inheritdoc/>
+    // With r off the radius R and off half the length H, and a ball of r around, the depth at an angle v from the axis is
+    // (R - r) sin v + (H - r) cos v + r: that of the cylinder across the axis and along it, less in between. What is added by another shape within
+    // a reach changes by the reach times the angle at most. So with twice the reach left of R and of H, the least of all is still across or
+    // along the axis, as it is before. A cylinder that is longer than thick by that much may become a segment: only along its axis does it
+    // get shallower than the cylinder then, and there it is deeper by more than the other shape.
     public static Vector<float> Shrink(ref CylinderWide shape, Vector<float> reach)
     {
         var needed = reach * new Vector<float>(2);

@@ -12,7 +12,11 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         ref SearchWalk walk, ref TStatistics statistics)
         where TStatistics : struct, ISearchStatistics
     {
-        var certifiedMask = dueMask & FreeTetrahedron.Certifies(walk, frame);
+        // A remembered minimum is left only for a much better one: it must not flicker between two. So that is all there is to show, too.
+        var least = Wide.Select(knownMask, walk.Depth * new Vector<float>(Hysteresis), walk.Depth) - frame.CertificateSlack;
+        var wanted = Wide.Select(knownMask, least, walk.Depth - frame.Tolerance);
+        var bound = Wide.Max(least, Vector<float>.Zero);
+        var certifiedMask = dueMask & FreeTetrahedron.Certifies(walk, frame, bound);
         statistics.TriedTetrahedron(dueMask, certifiedMask);
         var openMask = Vector.AndNot(dueMask, certifiedMask);
         if (openMask == Vector<int>.Zero)
@@ -21,13 +25,10 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         ring.Mask = Vector<int>.Zero;
         if (TSupportA.IsRound || TSupportB.IsRound)
         {
-            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, openMask, ref ring, ref statistics));
+            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, bound, openMask, ref ring, ref statistics));
             if (openMask == Vector<int>.Zero)
                 return;
         }
-        // A remembered minimum is left only for a much better one: it must not flicker between two.
-        var wanted = Wide.Select(knownMask,
-            walk.Depth * new Vector<float>(Hysteresis) - frame.CertificateSlack, walk.Depth - frame.Tolerance);
         var switchedMask = Vector<int>.Zero;
         var seededMask = Vector<int>.Zero;
         for (int lane = 0; lane < Vector<float>.Count; ++lane)
@@ -43,7 +44,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     /// <summary>Expands a polytope for one lane, and puts the lane's walk where it has found something better than wanted.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     static unsafe void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, in SupportRing ring,
-        int lane, double wanted,        ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
+        int lane, double wanted, ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
         where TStatistics : struct, ISearchStatistics
     {
         Unsafe.SkipInit(out PolytopeMemory memory);
@@ -85,9 +86,13 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         for (int choice = 1; choice < 4 && expansion.End == ExpansionEnd.Limit; ++choice)
         {
             var (coreA, coreB) = (a, b);
-            var radiusA = (choice & 1) == 0 ? Vector<float>.Zero : TSupportA.Shrink(ref coreA, choice == 3 ? Vector<float>.Zero : outerB + distance);
-            var radiusB = (choice & 2) == 0 ? Vector<float>.Zero : TSupportB.Shrink(ref coreB, choice == 3 ? Vector<float>.Zero : outerA + distance);
-            if (((choice & 1) != 0 && radiusA[lane] == 0) || ((choice & 2) != 0 && radiusB[lane] == 0))
+            var radiusA = Vector<float>.Zero;
+            var radiusB = Vector<float>.Zero;
+            if (choice != 2)
+                radiusA = TSupportA.Shrink(ref coreA, choice == 1 ? outerB + distance : Vector<float>.Zero);
+            if (choice != 1)
+                radiusB = TSupportB.Shrink(ref coreB, choice == 2 ? outerA + distance : Vector<float>.Zero);
+            if ((choice != 2 && radiusA[lane] == 0) || (choice != 1 && radiusB[lane] == 0))
                 continue;
             TSupportA.GetExtents(coreA, out _, out _, out var outerCoreA);
             TSupportB.GetExtents(coreB, out _, out _, out var outerCoreB);

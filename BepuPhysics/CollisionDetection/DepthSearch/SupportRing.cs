@@ -21,9 +21,9 @@ struct SupportRing
     const float LeastSquaredSine = 1e-6f;
     // Tangent of the tilt, at most: where shapes hardly touch, anything would do.
     const float GreatestTilt = 0.5f;
-    // In slacks. The ring reaches the tilt times the radius of curvature to the side, and below it must be at least the depth from the origin:
-    // with a tilt of the square root of twice the slack over the depth, no shape gets there that is much deeper than this.
-    const float GreatestDepth = 500;
+    // In sizes of the smaller shape. The ring reaches the tilt times a radius of curvature to the side, and there its planes must be as far from
+    // the origin as the depth: with depths of more than the tilt times this, they hardly ever are.
+    const float GreatestRadius = 1.6f;
     // Part of the longest edge of the walk's triangle that must be across the direction, squared; and length at which there is an edge.
     const float LeastAcross = 0.5f;
     const float LeastSquaredEdge = 1e-12f;
@@ -39,26 +39,24 @@ struct SupportRing
     Vector<float> squaredBound, tilt, tiltedScale;
 
     /// <summary>Chooses which way to tilt, and how far.</summary>
-    // A face that holds the origin's projection in its middle is tilted from the direction by the tilt at most, and so at least as far away as
-    // the depth times the tilt's cosine: less than the slack is lost.
+    // A plane through the middle of the ring that is tilted by an angle is the depth times the angle's cosine away: so far that this is the bound,
+    // or nearly.
     // First along the longest edge of the walk's triangle: where the difference is flat, its face is longest about there.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Start(in SearchWalk walk, in SearchFrame frame, Vector<int> openMask)
+    public void Start(in SearchWalk walk, in SearchFrame frame, Vector<float> bound, Vector<int> openMask)
     {
-        Mask = openMask & Vector.LessThan(walk.Depth, frame.CertificateSlack * new Vector<float>(GreatestDepth));
+        // All lanes of the mask are deeper than the slack, which is above zero.
+        tilt = Wide.Min(Vector.SquareRoot((walk.Depth - bound) * new Vector<float>(2) / walk.Depth), new Vector<float>(GreatestTilt));
+        Mask = openMask & Vector.LessThan(walk.Depth, tilt * frame.Smaller * new Vector<float>(GreatestRadius));
         if (Mask == Vector<int>.Zero)
             return;
-        ref readonly var simplex = ref walk.Simplex;
+        tiltedScale = Vector<float>.One / Vector.SquareRoot(Vector<float>.One + tilt * tilt);
+        squaredBound = bound * bound;
         normal = walk.Direction;
+        ref readonly var simplex = ref walk.Simplex;
         var weights = simplex.GetWeights(walk.Target());
         top = simplex.A.Point * weights.X + simplex.B.Point * weights.Y + simplex.C.Point * weights.Z;
         bottom = frame.Center - normal * frame.Inner;
-        var bound = walk.Depth - frame.CertificateSlack;
-        squaredBound = bound * bound;
-        // All lanes of the mask are deeper than the slack, which is above zero.
-        tilt = Wide.Min(
-            Vector.SquareRoot((frame.CertificateSlack + frame.CertificateSlack) / walk.Depth), new Vector<float>(GreatestTilt));
-        tiltedScale = Vector<float>.One / Vector.SquareRoot(Vector<float>.One + tilt * tilt);
 
         var edge = simplex.B.Point - simplex.A.Point;
         var squaredEdge = edge.LengthSquared();
@@ -87,7 +85,7 @@ struct SupportRing
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector3Wide Tilt(in Vector3Wide tangent) => (normal + tangent) * tiltedScale;
 
-    /// <summary>Lanes in which no direction can be better by more than the slack.</summary>
+    /// <summary>Lanes in which no direction can be less deep than the bound.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public readonly Vector<int> Certifies() => Mask & IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
         IsBeyond(Vertex2.Point, Vertex3.Point) & IsBeyond(Vertex3.Point, Vertex0.Point);
