@@ -26,8 +26,8 @@ public interface ISupport<TShapeWide> where TShapeWide : unmanaged
     static abstract void GetExtents(in TShapeWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer);
 
     /// <summary>
-    /// Makes a round core smaller: with a ball around each of its points it lies in the one that it was, and where that one is deepest in a small
-    /// shape inside of it, it is as deep as before.
+    /// Makes a round core smaller. With a ball around each of its points it lies in the one that it was, and the least depth of something small
+    /// that is inside of both is the same.
     /// </summary>
     /// <param name="shape">Shapes; the smaller ones.</param>
     /// <param name="reach">Radius of a ball about the shape's centre that holds the other shape, m.</param>
