@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Numerics;
 using BepuUtilities.Memory;
 using DemoTests.Support;
 using Xunit;
@@ -54,6 +55,43 @@ public class DepthSearchAccuracyTests(ITestOutputHelper output)
             }
             Check($"{kindA} {kindB} {regime}", a, b, cases);
         }
+    }
+
+    // Around the larger cylinder's side, all ways out are nearly as short, and far more of them differ by a part of the smaller shape than a polytope
+    // of the two has room for.
+    [Theory]
+    [InlineData(0.683455f, 0.16448f, 56.7085f, 64.4052f, -0.00025990984f, -7.004363E-05f, -0.00011547682f, 0.9459051f, -0.3129194f, -0.08529084f, 0.008397264f)]
+    [InlineData(27.576f, 40.2435f, 0.791274f, 0.0128215f, -8e-8f, -4.5e-7f, 1.9e-7f, -0.9623395f, -0.08902566f, -0.24247198f, 0.08476069f)]
+    [InlineData(0.141951f, 0.238886f, 0.00265397f, 0.00226726f, 2.7e-9f, -1.1e-9f, -4.2e-9f, -0.9781452f, 0.048878934f, 0.20071477f, -0.023587916f)]
+    [InlineData(0.5f, 0.25f, 30, 50, 0, 0, 0, 0, 0, 0, 1)]
+    [InlineData(0.5f, 0.25f, 50, 50, 0, 0, 0, 0, 0, 0.1f, 0.99498744f)]
+    public void Small_cylinders_inside_of_large_ones_find_the_least_depth(float radiusA, float halfLengthA, float radiusB, float halfLengthB,
+        float offsetX, float offsetY, float offsetZ, float x, float y, float z, float w)
+    {
+        using var pool = new BufferPool();
+        var a = DepthSearchShapes.Create(ConvexShape.Cylinder(radiusA, 2 * halfLengthA), pool);
+        var b = DepthSearchShapes.Create(ConvexShape.Cylinder(radiusB, 2 * halfLengthB), pool);
+        var pose = new ConvexPose(new(offsetX, offsetY, offsetZ), Quaternion.Identity, new(x, y, z, w));
+        Check("Cylinder Cylinder", [a], [b], [ConvexPoses.Measure(a.Reference, b.Reference, pose)]);
+    }
+
+    [Fact]
+    public void Round_shapes_that_overlap_a_little_seldom_need_a_polytope()
+    {
+        const int Count = 96;
+        using var pool = new BufferPool();
+        var random = new ConvexRandom(Seed, 1);
+        List<DepthSearchShape> a = [], b = [];
+        List<ConvexCase> cases = [];
+        for (int i = 0; i < Count; ++i)
+        {
+            a.Add(DepthSearchShapes.Create(ConvexKind.Cylinder, ConvexForm.Fat, 1, random, pool));
+            b.Add(DepthSearchShapes.Create(ConvexKind.Cylinder, ConvexForm.Fat, 1, random, pool));
+            cases.Add(ConvexPoses.Create(a[i].Reference, b[i].Reference, ConvexRegime.Shallow, random));
+        }
+        var outcomes = DepthSearchShape.Find(a, b, [.. cases.Select(SearchPlace.Of)], [.. cases.Select(_ => 0.1f)]);
+        output.WriteLine($"{outcomes.Sum(o => o.Freed)} by tetrahedra, {outcomes.Sum(o => o.Expansions)} by polytopes, of {Count}");
+        Assert.InRange(outcomes.Sum(o => o.Expansions), 0, Count / 3);
     }
 
     void Check(string name, List<DepthSearchShape> a, List<DepthSearchShape> b, List<ConvexCase> cases)

@@ -31,6 +31,8 @@ struct LaneCounts : ISearchStatistics
         Freed -= certifiedMask;
     }
 
+    public void EvaluatedRing(Vector<int> mask, int count) => ExpansionEvaluations -= mask * count;
+
     public void Expanded(int lane, int evaluations, ExpansionEnd end)
     {
         ++GatherScatter.Get(ref Expansions, lane);

@@ -9,6 +9,9 @@ namespace BepuPhysics.CollisionDetection;
 public readonly struct CylinderSupport : ISupport<CylinderWide>
 {
     /// <inheritdoc/>
+    public static bool IsRound => true;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Margin(in CylinderWide shape) => Vector<float>.Zero;
 
@@ -28,5 +31,22 @@ public readonly struct CylinderSupport : ISupport<CylinderWide>
         var across = Vector.SquareRoot(direction.X * direction.X + direction.Z * direction.Z);
         var scale = Wide.DivideOrZero(shape.Radius, across);
         return new(direction.X * scale, Wide.CopySign(shape.HalfLength, direction.Y), direction.Z * scale);
+    }
+
+    /// <inheritdoc/>
+    // With r off the radius R and off half the length H, and a ball of r around, the depth at an angle v from the axis is
+    // (R - r) sin v + (H - r) cos v + r: that of the cylinder across the axis and along it, less in between. What is added by another shape within
+    // a reach changes by the reach times the angle at most. So with twice the reach left of R and of H, the least of all is still across or
+    // along the axis, as it is before. A cylinder that is longer than thick by that much may become a segment: only along its axis does it
+    // get shallower than the cylinder then, and there it is deeper by more than the other shape.
+    public static Vector<float> Shrink(ref CylinderWide shape, Vector<float> reach)
+    {
+        var needed = reach * new Vector<float>(2);
+        var thickness = Wide.Min(shape.Radius, shape.HalfLength);
+        var radius = Wide.Select(Vector.GreaterThan(shape.HalfLength - shape.Radius, needed), shape.Radius,
+            Wide.Max(thickness - needed, Vector<float>.Zero));
+        shape.Radius -= radius;
+        shape.HalfLength -= radius;
+        return radius;
     }
 }

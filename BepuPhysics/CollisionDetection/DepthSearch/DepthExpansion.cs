@@ -1,5 +1,5 @@
-using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -9,10 +9,10 @@ namespace BepuPhysics.CollisionDetection;
 /// until that is no nearer than the best depth that was found: then no direction is better.
 /// </summary>
 /// <remarks>
-/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <see cref="Add"/> takes the answer. Points are
+/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <c>Add</c> takes the answer. Points are
 /// floats, the geometry between them is in double precision.
 /// </remarks>
-ref struct DepthExpansion
+unsafe struct DepthExpansion
 {
     // Six times the volume of a tetrahedron that is too flat to begin with, as a part of its span cubed.
     const double LeastVolume = 1e-9;
@@ -24,9 +24,15 @@ ref struct DepthExpansion
     // a face's plane for the face to go. Support points are floats: they are that well known.
     const double FaceRounding = 2e-6;
     const double Visibility = 1e-6;
+    const int None = -1;
+    // In depths: how far beyond the origin a point inside of the difference must be to serve as a corner.
+    const double LeastBallReach = 2;
+    const int GreatestEvaluationCount = 2 * PolytopeMemory.VertexCapacity;
 
     enum Phase
     {
+        /// <summary>The first corner, where nothing is at hand: in the best direction.</summary>
+        First,
         /// <summary>The fourth corner: away from the walk's triangle.</summary>
         Opposite,
         /// <summary>Corners one by one, where the first four are flat.</summary>
@@ -35,8 +41,11 @@ ref struct DepthExpansion
         Ended,
     }
 
-    readonly double span;
     readonly double slack;
+    double span;
+    double rounding;
+    int evaluationLimit;
+    int innerCorner;
     readonly double wanted;
     ExpandingPolytope polytope;
     Phase phase;
@@ -58,26 +67,60 @@ ref struct DepthExpansion
     public bool HasSwitched;
 
     /// <summary>Starts with the simplex of a walk.</summary>
-    /// <param name="vertices">Memory.</param>
-    /// <param name="faces">Memory.</param>
-    /// <param name="indices">Memory.</param>
+    /// <param name="memory">Memory.</param>
     /// <param name="frame">Tolerances.</param>
     /// <param name="walk">Where the walk ended.</param>
     /// <param name="lane">Which of its lanes.</param>
     /// <param name="wanted">Depth below which a direction is of interest.</param>
-    public DepthExpansion(Span<PolytopeVertex> vertices, Span<PolytopeFace> faces, Span<int> indices, in SearchFrame frame,
-        in SearchWalk walk, int lane, double wanted)
+    public DepthExpansion(PolytopeMemory* memory, in SearchFrame frame, in SearchWalk walk, int lane, double wanted)
     {
         span = frame.Span[lane];
         slack = frame.CertificateSlack[lane];
         this.wanted = wanted;
         best = walk.Depth[lane];
         bestDirection = new(walk.Direction.X[lane], walk.Direction.Y[lane], walk.Direction.Z[lane]);
-        polytope = new(vertices, faces, indices[..(indices.Length / 2)], indices[(indices.Length / 2)..], Visibility * span);
-        Read(walk.Simplex.A, lane, out vertices[0]);
-        Read(walk.Simplex.B, lane, out vertices[1]);
-        Read(walk.Simplex.C, lane, out vertices[2]);
+        polytope = new(memory, Visibility * span);
+        Read(walk.Simplex.A, lane, out polytope[0]);
+        Read(walk.Simplex.B, lane, out polytope[1]);
+        Read(walk.Simplex.C, lane, out polytope[2]);
+        evaluationLimit = GreatestEvaluationCount;
+        innerCorner = None;
         phase = Phase.Opposite;
+        // The fourth corner costs nothing where the ball inside of the difference reaches well beyond the origin.
+        var center = new DoubleVector3(frame.Center.X[lane], frame.Center.Y[lane], frame.Center.Z[lane]);
+        var below = center - bestDirection * frame.Inner[lane];
+        if (-DoubleVector3.Dot(below, bestDirection) > LeastBallReach * best)
+        {
+            innerCorner = 3;
+            Unsafe.SkipInit(out PolytopeVertex corner);
+            corner.Point = below;
+            polytope[3] = corner;
+            Start();
+        }
+    }
+
+    /// <summary>Starts once more, with the difference of smaller cores that a radius is to be added to.</summary>
+    /// <param name="coreSpan">Radius of a ball about the difference's centre that holds it, or the distance of the origin if that is more.</param>
+    /// <param name="coreRounding">Radius; what is found is at least as much deeper in any direction.</param>
+    public void Restart(double coreSpan, double coreRounding)
+    {
+        span = coreSpan;
+        rounding = coreRounding;
+        hasSeed = false;
+        innerCorner = None;
+        polytope.Restart(Visibility * span);
+        phase = Phase.First;
+        evaluationLimit = Evaluations + GreatestEvaluationCount;
+    }
+
+    /// <summary>Takes a point of the difference that is at hand, once there is a polytope.</summary>
+    public void Offer(in SearchVertex found, int lane)
+    {
+        if (phase != Phase.Expand)
+            return;
+        Read(found, lane, out polytope[polytope.VertexCount]);
+        if (polytope.TryExpand())
+            Choose();
     }
 
     /// <summary>Says which support point is wanted next; false when the expansion has ended.</summary>
@@ -85,9 +128,10 @@ ref struct DepthExpansion
     {
         var wantedDirection = phase switch
         {
+            Phase.First => bestDirection,
             Phase.Opposite => -bestDirection,
             Phase.Corner => probed,
-            Phase.Expand => polytope.Faces[face].Normal,
+            Phase.Expand => polytope.Normal(face),
             _ => default,
         };
         direction = wantedDirection.ToSingle();
@@ -97,9 +141,23 @@ ref struct DepthExpansion
     /// <summary>Takes the support point that was asked for.</summary>
     public void Add(in SearchVertex found, int lane, in Vector3 direction)
     {
-        ++Evaluations;
+        Read(found, lane, out var vertex);
+        Add(vertex, DoubleVector3.Dot(vertex.Point, new(direction)), direction);
+    }
+
+    /// <summary>Takes the support point of the smaller cores, and that of the shapes themselves.</summary>
+    public void Add(in SearchVertex foundOfCores, in SearchVertex found, int lane, in Vector3 direction)
+    {
         Read(found, lane, out var vertex);
         var depth = DoubleVector3.Dot(vertex.Point, new(direction));
+        Read(foundOfCores, lane, out vertex);
+        ++Evaluations;
+        Add(vertex, depth, direction);
+    }
+
+    void Add(in PolytopeVertex vertex, double depth, in Vector3 direction)
+    {
+        ++Evaluations;
         var isBest = depth < best;
         if (isBest)
         {
@@ -114,15 +172,21 @@ ref struct DepthExpansion
         }
         switch (phase)
         {
+            case Phase.First:
+                polytope[0] = vertex;
+                phase = Phase.Corner;
+                cornerCount = 1;
+                StartProbing();
+                break;
             case Phase.Opposite:
-                polytope.Vertices[3] = vertex;
+                polytope[3] = vertex;
                 Start();
                 break;
             case Phase.Corner:
                 TakeCorner(vertex);
                 break;
             case Phase.Expand:
-                Expand(vertex, depth, isBest);
+                Expand(vertex, DoubleVector3.Dot(vertex.Point, new(direction)), isBest);
                 break;
         }
     }
@@ -137,17 +201,16 @@ ref struct DepthExpansion
         isSeeded = hasSeed;
         if (!hasSeed)
             return;
-        WriteVertex(polytope.Vertices[seed0], ref walk.Simplex.A, lane);
-        WriteVertex(polytope.Vertices[seed1], ref walk.Simplex.B, lane);
-        WriteVertex(polytope.Vertices[seed2], ref walk.Simplex.C, lane);
+        WriteVertex(polytope[seed0], ref walk.Simplex.A, lane);
+        WriteVertex(polytope[seed1], ref walk.Simplex.B, lane);
+        WriteVertex(polytope[seed2], ref walk.Simplex.C, lane);
     }
 
     void Start()
     {
-        var volume = ExpandingPolytope.Volume(polytope.Vertices);
+        var volume = polytope.Volume();
         if ((volume < 0 ? -volume : volume) > LeastVolume * span * span * span)
         {
-            polytope.VertexCount = 4;
             polytope.Start();
             phase = Phase.Expand;
             Choose();
@@ -162,13 +225,13 @@ ref struct DepthExpansion
     }
 
     /// <summary>Swaps the farthest of the vertices at hand into the place of the next corner.</summary>
-    readonly bool TryCornerAtHand()
+    bool TryCornerAtHand()
     {
         var farthest = 0;
         var distance = GoodDistance * span;
         for (int i = cornerCount; i < 4; ++i)
         {
-            var candidate = DistanceFromCorners(polytope.Vertices[i].Point);
+            var candidate = DistanceFromCorners(polytope[i].Point);
             if (candidate > distance)
             {
                 distance = candidate;
@@ -177,7 +240,8 @@ ref struct DepthExpansion
         }
         if (farthest == 0)
             return false;
-        (polytope.Vertices[cornerCount], polytope.Vertices[farthest]) = (polytope.Vertices[farthest], polytope.Vertices[cornerCount]);
+        (polytope[cornerCount], polytope[farthest]) = (polytope[farthest], polytope[cornerCount]);
+        innerCorner = innerCorner == farthest ? cornerCount : innerCorner == cornerCount ? farthest : innerCorner;
         return true;
     }
 
@@ -195,19 +259,19 @@ ref struct DepthExpansion
         if (distance > probedDistance)
         {
             probedDistance = distance;
-            polytope.Vertices[cornerCount] = vertex;
+            polytope[cornerCount] = vertex;
+            innerCorner = innerCorner == cornerCount ? None : innerCorner;
         }
         // Both ways along each axis across the corners: three axes across a point, two across a line, one across a plane.
         if (++probe < 8 - 2 * cornerCount)
             probed = GetProbe();
         else if (probedDistance <= LeastDistance * span)
             // No thicker than this across some direction, which has just been looked along both ways.
-            Finish(ExpansionEnd.Flat);
+            Finish(rounding == 0 ? ExpansionEnd.Flat : best - rounding <= slack ? ExpansionEnd.Certified : ExpansionEnd.Limit);
         else if (++cornerCount < 4)
             StartProbing();
         else
         {
-            polytope.VertexCount = 4;
             polytope.Start();
             phase = Phase.Expand;
             Choose();
@@ -216,7 +280,7 @@ ref struct DepthExpansion
 
     readonly double DistanceFromCorners(in DoubleVector3 point)
     {
-        var offset = point - polytope.Vertices[0].Point;
+        var offset = point - polytope[0].Point;
         if (cornerCount == 1)
             return offset.Length;
         if (cornerCount == 2)
@@ -245,7 +309,7 @@ ref struct DepthExpansion
 
     readonly DoubleVector3 Unit(int corner)
     {
-        var edge = polytope.Vertices[corner].Point - polytope.Vertices[0].Point;
+        var edge = polytope[corner].Point - polytope[0].Point;
         return edge * (1 / edge.Length);
     }
 
@@ -257,22 +321,17 @@ ref struct DepthExpansion
 
     void Expand(in PolytopeVertex vertex, double depth, bool isBest)
     {
-        ref var expanded = ref polytope.Faces[face];
-        if (depth - expanded.Offset <= FaceRounding * span)
+        if (depth - polytope.Priority(face) <= FaceRounding * span)
         {
             // A face of the difference itself: as far out as can be.
-            expanded.Priority = double.PositiveInfinity;
+            polytope.Settle(face);
             if (isBest)
                 Seed(face);
         }
         else
         {
-            polytope.Vertices[polytope.VertexCount++] = vertex;
-            if (!polytope.Expand(face))
-            {
-                Finish(ExpansionEnd.Limit);
-                return;
-            }
+            polytope[polytope.VertexCount] = vertex;
+            polytope.Expand(face);
         }
         Choose();
     }
@@ -281,24 +340,22 @@ ref struct DepthExpansion
     void Choose()
     {
         face = polytope.FindLeast();
-        var bound = polytope.Faces[face].Priority;
+        var bound = polytope.Priority(face) + rounding;
         if (best - bound <= slack || bound >= wanted)
         {
             if (!hasSeed && bound < double.PositiveInfinity)
                 Seed(face);
             Finish(ExpansionEnd.Certified);
         }
-        else if (polytope.VertexCount == ExpandingPolytope.MaximumVertexCount || Evaluations >= 2 * ExpandingPolytope.MaximumExpansions)
+        else if (polytope.VertexCount == PolytopeMemory.VertexCapacity || Evaluations >= evaluationLimit)
             Finish(ExpansionEnd.Limit);
     }
 
     void Seed(int index)
     {
-        ref var seed = ref polytope.Faces[index];
-        hasSeed = true;
-        seed0 = seed.Vertex0;
-        seed1 = seed.Vertex1;
-        seed2 = seed.Vertex2;
+        polytope.GetCorners(index, out seed0, out seed1, out seed2);
+        // Points of smaller cores are inside of the difference, and the free corner is no point of the shapes.
+        hasSeed = rounding == 0 && seed0 != innerCorner && seed1 != innerCorner && seed2 != innerCorner;
     }
 
     void Finish(ExpansionEnd end)
@@ -319,7 +376,6 @@ ref struct DepthExpansion
         result.Point = new(vertex.Point.X[lane], vertex.Point.Y[lane], vertex.Point.Z[lane]);
         result.OnA = new(vertex.OnA.X[lane], vertex.OnA.Y[lane], vertex.OnA.Z[lane]);
         result.OnB = new(vertex.OnB.X[lane], vertex.OnB.Y[lane], vertex.OnB.Z[lane]);
-        result.FaceFrom = result.FaceTo = -1;
     }
 
     static void WriteVertex(in PolytopeVertex vertex, ref SearchVertex target, int lane)

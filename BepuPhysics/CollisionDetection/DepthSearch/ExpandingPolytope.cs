@@ -1,5 +1,6 @@
-using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -9,21 +10,6 @@ struct PolytopeVertex
     public DoubleVector3 Point;
     public Vector3 OnA;
     public Vector3 OnB;
-    /// <summary>During an expansion: the new faces whose rim edges begin and end here; negative where there is none.</summary>
-    public int FaceFrom, FaceTo;
-}
-
-/// <summary>A triangle of the polytope's surface, counterclockwise seen from outside.</summary>
-struct PolytopeFace
-{
-    public DoubleVector3 Normal;
-    /// <summary>Height of its plane over the origin; negative where the origin is outside.</summary>
-    public double Offset;
-    /// <summary>The same, or infinite for a face that need not be looked at any more.</summary>
-    public double Priority;
-    /// <summary>Vertices; neighbour I is beyond the edge from vertex I to the next one.</summary>
-    public int Vertex0, Vertex1, Vertex2, Neighbor0, Neighbor1, Neighbor2;
-    public bool Removed;
 }
 
 /// <summary>
@@ -32,205 +18,324 @@ struct PolytopeFace
 /// </summary>
 // Also where the surface is slightly dented, as it may get by the threshold of visibility: a ball about the origin that all planes are
 // outside of is inside the surface, and so in the convex hull of the vertices.
-ref struct ExpandingPolytope(
-    Span<PolytopeVertex> vertices, Span<PolytopeFace> faces, Span<int> removed, Span<int> free, double visibility)
+// Faces have no order and no links: a new vertex is compared with all their planes, several at once, which for some dozens of faces is less
+// work than going from neighbour to neighbour; and the rim of those that go is what their edges leave when the pairs are taken out.
+unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
 {
-    /// <summary>Vertices that may be added to the four of the start.</summary>
-    public const int MaximumExpansions = 64;
-    /// <summary>Greatest number of vertices.</summary>
-    public const int MaximumVertexCount = 4 + MaximumExpansions;
-    // A closed surface of triangles has two faces for each vertex, less four. While it is expanded, the faces that go are still there.
-    public const int MaximumFaceCount = 4 * MaximumVertexCount;
-
     // Below this, a normal's length says that its face has no area. Edges are about one unit long.
     const double LeastArea = 1e-12;
+    const byte None = byte.MaxValue;
+    const int NoFace = -1;
 
-    public readonly Span<PolytopeVertex> Vertices = vertices;
-    public readonly Span<PolytopeFace> Faces = faces;
-    readonly Span<int> removed = removed;
-    readonly Span<int> free = free;
-    readonly double visibility = visibility;
+    readonly PolytopeMemory* memory = memory;
+    double visibility = visibility;
     public int VertexCount;
     int faceCount;
-    int freeCount;
+
+    public readonly ref PolytopeVertex this[int vertex]
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => ref Unsafe.Add(ref Unsafe.As<PolytopeMemory.VertexArray, PolytopeVertex>(ref memory->Vertices), vertex);
+    }
+
+    /// <summary>Outward unit normal of a face; zero where it has no area.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly DoubleVector3 Normal(int face) => new(memory->NormalX[face], memory->NormalY[face], memory->NormalZ[face]);
+
+    /// <summary>Height of a face's plane over the origin, or infinity for one that need not be looked at any more.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly double Priority(int face) => memory->Priority[face];
+
+    /// <summary>Says that a face need not be looked at any more.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly void Settle(int face) => memory->Priority[face] = double.PositiveInfinity;
+
+    /// <summary>Vertices of a face.</summary>
+    public readonly void GetCorners(int face, out int a, out int b, out int c)
+    {
+        var corners = memory->Corners[face];
+        a = (byte)corners;
+        b = (byte)(corners >> 8);
+        c = (byte)(corners >> 16);
+    }
+
+    /// <summary>Forgets everything.</summary>
+    public void Restart(double newVisibility) => visibility = newVisibility;
 
     /// <summary>Makes the first four vertices a tetrahedron.</summary>
     public void Start()
     {
-        faceCount = 4;
-        freeCount = 0;
+        VertexCount = 4;
+        faceCount = 0;
         int b = 1, c = 2;
-        if (Volume(Vertices) > 0)
+        if (Volume() > 0)
             (b, c) = (c, b);
-        SetFace(0, 0, b, c, 3, 2, 1);
-        SetFace(1, 0, c, 3, 0, 2, 3);
-        SetFace(2, c, b, 3, 0, 3, 1);
-        SetFace(3, b, 0, 3, 0, 1, 2);
+        memory->Rim[0] = (byte)b;
+        memory->Rim[1] = (byte)c;
+        AddFan(1, 0);
+        memory->Rim[0] = 0;
+        memory->Rim[1] = (byte)c;
+        memory->Rim[2] = (byte)b;
+        memory->Rim[3] = 0;
+        AddFan(3, 3);
     }
 
     /// <summary>Six times the volume of the first four vertices; positive where the first three are counterclockwise seen from the fourth.</summary>
-    public static double Volume(ReadOnlySpan<PolytopeVertex> vertices)
+    public readonly double Volume()
     {
-        var origin = vertices[0].Point;
-        return DoubleVector3.Dot(
-            DoubleVector3.Cross(vertices[1].Point - origin, vertices[2].Point - origin), vertices[3].Point - origin);
+        var origin = this[0].Point;
+        return DoubleVector3.Dot(DoubleVector3.Cross(this[1].Point - origin, this[2].Point - origin), this[3].Point - origin);
     }
 
     /// <summary>The face that is nearest to the origin, or that the origin is farthest outside of.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public readonly int FindLeast()
     {
-        var least = 0;
-        var priority = double.PositiveInfinity;
-        for (int i = 0; i < faceCount; ++i)
+        var least = Vector256.Create(double.PositiveInfinity);
+        for (int i = 0; i < faceCount; i += Vector256<double>.Count)
         {
-            if (Faces[i].Priority < priority)
-            {
-                priority = Faces[i].Priority;
-                least = i;
-            }
+            var priority = Vector256.Load(memory->Priority + i);
+            least = Vector256.ConditionalSelect(Vector256.LessThan(priority, least), priority, least);
         }
-        return least;
+        var other = Vector256.Shuffle(least, Vector256.Create(2L, 3, 0, 1));
+        least = Vector256.ConditionalSelect(Vector256.LessThan(other, least), other, least);
+        other = Vector256.Shuffle(least, Vector256.Create(1L, 0, 3, 2));
+        least = Vector256.ConditionalSelect(Vector256.LessThan(other, least), other, least);
+        for (int i = 0; ; i += Vector256<double>.Count)
+        {
+            var bits = Vector256.Equals(Vector256.Load(memory->Priority + i), least).ExtractMostSignificantBits();
+            if (bits != 0)
+                return i + BitOperations.TrailingZeroCount(bits);
+        }
     }
 
-    /// <summary>Replaces the faces that see the last vertex by new ones that end in it.</summary>
-    /// <param name="seen">A face that sees it. Others are replaced as well where they are connected to it.</param>
-    /// <returns>Whether there was room.</returns>
-    public bool Expand(int seen)
+    /// <summary>Takes in the vertex behind the last one, if it is outside.</summary>
+    public bool TryExpand()
     {
-        var vertex = VertexCount - 1;
-        var point = Vertices[vertex].Point;
-        Faces[seen].Removed = true;
-        removed[0] = seen;
-        var removedCount = 1;
-        for (int i = 0; i < removedCount; ++i)
-        {
-            ref var face = ref Faces[removed[i]];
-            Look(face.Neighbor0, point, ref removedCount);
-            Look(face.Neighbor1, point, ref removedCount);
-            Look(face.Neighbor2, point, ref removedCount);
-        }
-        if (!TryMarkRim(removedCount, out var rimCount))
-        {
-            // The rim touches itself: by rounding, as the faces that see a point of a convex surface do not enclose any that does not.
-            // One face alone always has a rim.
-            for (int i = 1; i < removedCount; ++i)
-                Faces[removed[i]].Removed = false;
-            removedCount = 1;
-            TryMarkRim(removedCount, out rimCount);
-        }
-        if (MaximumFaceCount - faceCount + freeCount < rimCount)
+        var seeingCount = FindSeeing(NoFace, this[VertexCount].Point);
+        if (seeingCount == 0)
             return false;
-        AddRim(removedCount, vertex);
+        Replace(memory->Removed[0], seeingCount);
         return true;
     }
 
-    readonly void Look(int face, in DoubleVector3 point, ref int removedCount)
+    /// <summary>Takes in the vertex behind the last one.</summary>
+    /// <param name="seen">A face that sees it.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void Expand(int seen) => Replace(seen, FindSeeing(seen, this[VertexCount].Point));
+
+    /// <summary>Replaces faces that see the vertex behind the last one by new ones that end in it.</summary>
+    void Replace(int seen, int removedCount)
     {
-        ref var other = ref Faces[face];
-        if (other.Removed)
-            return;
-        // Faces without an area have a normal of zero and see everything: they go as soon as one beside them goes.
-        if (DoubleVector3.Dot(other.Normal, point) - other.Offset > visibility)
+        var vertex = VertexCount++;
+        if (!TryFindRim(removedCount, out var rimCount))
         {
-            other.Removed = true;
-            removed[removedCount++] = face;
+            // By rounding: the faces that see a point of a convex surface do not enclose any that does not, and are connected.
+            removedCount = KeepConnected(seen, removedCount);
+            if (!TryFindRim(removedCount, out rimCount))
+            {
+                // One face alone always has a rim.
+                memory->Removed[0] = (short)seen;
+                removedCount = 1;
+                TryFindRim(removedCount, out rimCount);
+            }
         }
+        for (int i = removedCount - 1; i >= 0; --i)
+            Move(--faceCount, memory->Removed[i]);
+        AddFan(rimCount, vertex);
     }
 
-    /// <summary>Counts the edges between removed faces and others; false where two of them begin at one vertex.</summary>
-    readonly bool TryMarkRim(int removedCount, out int rimCount)
+    /// <summary>Lists the faces that a point is over, and one of which that is known.</summary>
+    readonly int FindSeeing(int seen, in DoubleVector3 point)
     {
-        for (int i = 0; i < VertexCount; ++i)
-            Vertices[i].FaceFrom = Vertices[i].FaceTo = -1;
-        rimCount = 0;
-        var simple = true;
-        for (int i = 0; i < removedCount; ++i)
+        var count = 0;
+        var x = Vector256.Create(point.X);
+        var y = Vector256.Create(point.Y);
+        var z = Vector256.Create(point.Z);
+        var threshold = Vector256.Create(visibility);
+        for (int i = 0; i < faceCount; i += Vector256<double>.Count)
         {
-            ref var face = ref Faces[removed[i]];
-            simple &= TryMark(face.Vertex0, face.Neighbor0, ref rimCount);
-            simple &= TryMark(face.Vertex1, face.Neighbor1, ref rimCount);
-            simple &= TryMark(face.Vertex2, face.Neighbor2, ref rimCount);
+            var height = Vector256.Load(memory->NormalX + i) * x + Vector256.Load(memory->NormalY + i) * y +
+                Vector256.Load(memory->NormalZ + i) * z - Vector256.Load(memory->Offset + i);
+            var bits = Vector256.GreaterThan(height, threshold).ExtractMostSignificantBits();
+            if (seen >= i && seen < i + Vector256<double>.Count)
+                bits |= 1u << (seen - i);
+            if (faceCount - i < Vector256<double>.Count)
+                bits &= (1u << (faceCount - i)) - 1;
+            for (; bits != 0; bits &= bits - 1)
+                memory->Removed[count++] = (short)(i + BitOperations.TrailingZeroCount(bits));
         }
-        return simple;
+        return count;
     }
 
-    readonly bool TryMark(int from, int neighbor, ref int rimCount)
+    /// <summary>Lists the vertices around the removed faces; false where that is not one ring.</summary>
+    readonly bool TryFindRim(int removedCount, out int rimCount)
     {
-        if (Faces[neighbor].Removed)
+        if (removedCount == 1)
+        {
+            GetCorners(memory->Removed[0], out var a, out var b, out var c);
+            memory->Rim[0] = memory->Rim[3] = (byte)a;
+            memory->Rim[1] = (byte)b;
+            memory->Rim[2] = (byte)c;
+            rimCount = 3;
             return true;
-        ++rimCount;
-        ref var mark = ref Vertices[from].FaceFrom;
-        var isFirst = mark < 0;
-        mark = 0;
-        return isFirst;
-    }
-
-    void AddRim(int removedCount, int vertex)
-    {
-        // The places of removed faces are free only after their edges have been read.
-        for (int i = 0; i < removedCount; ++i)
-        {
-            var face = Faces[removed[i]];
-            AddFace(face.Vertex0, face.Vertex1, vertex, face.Neighbor0);
-            AddFace(face.Vertex1, face.Vertex2, vertex, face.Neighbor1);
-            AddFace(face.Vertex2, face.Vertex0, vertex, face.Neighbor2);
         }
         for (int i = 0; i < removedCount; ++i)
         {
-            Faces[removed[i]].Priority = double.PositiveInfinity;
-            free[freeCount++] = removed[i];
+            GetCorners(memory->Removed[i], out var a, out var b, out var c);
+            Clear(a);
+            Clear(b);
+            Clear(c);
         }
-        for (int i = 0; i < vertex; ++i)
+        for (int i = 0; i < removedCount; ++i)
         {
-            var from = Vertices[i].FaceFrom;
-            if (from < 0)
-                continue;
-            Faces[from].Neighbor2 = Vertices[i].FaceTo;
-            Faces[Vertices[i].FaceTo].Neighbor1 = from;
+            GetCorners(memory->Removed[i], out var a, out var b, out var c);
+            memory->Edges[2 * a + (b >> 6)] |= 1UL << b;
+            memory->Edges[2 * b + (c >> 6)] |= 1UL << c;
+            memory->Edges[2 * c + (a >> 6)] |= 1UL << a;
         }
+        var start = 0;
+        var isSimple = true;
+        rimCount = 0;
+        for (int i = 0; i < removedCount; ++i)
+        {
+            GetCorners(memory->Removed[i], out var a, out var b, out var c);
+            AddEdge(a, b, ref start, ref rimCount, ref isSimple);
+            AddEdge(b, c, ref start, ref rimCount, ref isSimple);
+            AddEdge(c, a, ref start, ref rimCount, ref isSimple);
+        }
+        if (!isSimple)
+            return false;
+        var vertex = start;
+        for (int i = 0; i < rimCount; ++i)
+        {
+            memory->Rim[i] = (byte)vertex;
+            vertex = memory->NextOnRim[vertex];
+            if (vertex == start && i != rimCount - 1)
+                return false;
+        }
+        memory->Rim[rimCount] = (byte)start;
+        return rimCount > 0;
     }
 
-    void AddFace(int from, int to, int vertex, int neighbor)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void Clear(int vertex)
     {
-        ref var beyond = ref Faces[neighbor];
-        if (beyond.Removed)
+        memory->Edges[2 * vertex] = 0;
+        memory->Edges[2 * vertex + 1] = 0;
+        memory->NextOnRim[vertex] = None;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void AddEdge(int from, int to, ref int start, ref int rimCount, ref bool isSimple)
+    {
+        if ((memory->Edges[2 * to + (from >> 6)] >> from & 1) != 0)
             return;
-        var face = freeCount > 0 ? free[--freeCount] : faceCount++;
-        SetFace(face, from, to, vertex, neighbor, -1, -1);
-        Vertices[from].FaceFrom = face;
-        Vertices[to].FaceTo = face;
-        if (beyond.Vertex0 == to)
-            beyond.Neighbor0 = face;
-        else if (beyond.Vertex1 == to)
-            beyond.Neighbor1 = face;
-        else
-            beyond.Neighbor2 = face;
+        isSimple &= memory->NextOnRim[from] == None;
+        memory->NextOnRim[from] = (byte)to;
+        start = from;
+        ++rimCount;
     }
 
-    readonly void SetFace(int index, int a, int b, int c, int neighbor0, int neighbor1, int neighbor2)
+    /// <summary>Leaves those of the removed faces that are connected to one of them by edges.</summary>
+    readonly int KeepConnected(int seen, int removedCount)
     {
-        ref var face = ref Faces[index];
-        face.Vertex0 = a;
-        face.Vertex1 = b;
-        face.Vertex2 = c;
-        face.Neighbor0 = neighbor0;
-        face.Neighbor1 = neighbor1;
-        face.Neighbor2 = neighbor2;
-        face.Removed = false;
-        var origin = Vertices[a].Point;
-        var normal = DoubleVector3.Cross(Vertices[b].Point - origin, Vertices[c].Point - origin);
-        var length = normal.Length;
-        if (length > LeastArea)
+        // Connected ones to the front.
+        var connectedCount = 0;
+        for (int i = 0; i < removedCount; ++i)
         {
-            face.Normal = normal * (1 / length);
-            face.Offset = DoubleVector3.Dot(face.Normal, origin);
-            face.Priority = face.Offset;
+            if (memory->Removed[i] == seen)
+                Swap(i, connectedCount++);
         }
-        else
+        for (int i = 0; i < connectedCount; ++i)
         {
-            face.Normal = default;
-            face.Offset = double.NegativeInfinity;
-            face.Priority = double.PositiveInfinity;
+            for (int j = connectedCount; j < removedCount; ++j)
+            {
+                if (ShareEdge(memory->Removed[i], memory->Removed[j]))
+                    Swap(j, connectedCount++);
+            }
         }
+        // Ascending again.
+        for (int i = 1; i < connectedCount; ++i)
+        {
+            for (int j = i; j > 0 && memory->Removed[j] < memory->Removed[j - 1]; --j)
+                Swap(j, j - 1);
+        }
+        return connectedCount;
+    }
+
+    readonly void Swap(int i, int j) => (memory->Removed[i], memory->Removed[j]) = (memory->Removed[j], memory->Removed[i]);
+
+    readonly bool ShareEdge(int face, int other)
+    {
+        GetCorners(face, out var a, out var b, out var c);
+        return HasEdge(other, b, a) || HasEdge(other, c, b) || HasEdge(other, a, c);
+    }
+
+    readonly bool HasEdge(int face, int from, int to)
+    {
+        GetCorners(face, out var a, out var b, out var c);
+        return (a == from && b == to) || (b == from && c == to) || (c == from && a == to);
+    }
+
+    readonly void Move(int from, int to)
+    {
+        memory->NormalX[to] = memory->NormalX[from];
+        memory->NormalY[to] = memory->NormalY[from];
+        memory->NormalZ[to] = memory->NormalZ[from];
+        memory->Offset[to] = memory->Offset[from];
+        memory->Priority[to] = memory->Priority[from];
+        memory->Corners[to] = memory->Corners[from];
+    }
+
+    /// <summary>Adds a face from each edge of the rim to a vertex.</summary>
+    void AddFan(int edgeCount, int vertex)
+    {
+        ref var tip = ref this[vertex].Point;
+        var tipX = Vector256.Create(tip.X);
+        var tipY = Vector256.Create(tip.Y);
+        var tipZ = Vector256.Create(tip.Z);
+        var infinity = Vector256.Create(double.PositiveInfinity);
+        for (int i = 0; i < edgeCount; i += Vector256<double>.Count)
+        {
+            // Beyond the last edge, where the rim holds anything, the last one once more.
+            int i0 = memory->Rim[i], i1 = memory->Rim[i + 1];
+            int i2 = i + 2 <= edgeCount ? memory->Rim[i + 2] : i1;
+            int i3 = i + 3 <= edgeCount ? memory->Rim[i + 3] : i2;
+            int i4 = i + 4 <= edgeCount ? memory->Rim[i + 4] : i3;
+            ref var p0 = ref this[i0].Point;
+            ref var p1 = ref this[i1].Point;
+            ref var p2 = ref this[i2].Point;
+            ref var p3 = ref this[i3].Point;
+            ref var p4 = ref this[i4].Point;
+            memory->Corners[faceCount + i] = (uint)(i0 | i1 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 1] = (uint)(i1 | i2 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 2] = (uint)(i2 | i3 << 8 | vertex << 16);
+            memory->Corners[faceCount + i + 3] = (uint)(i3 | i4 << 8 | vertex << 16);
+            var fromX = Vector256.Create(p0.X, p1.X, p2.X, p3.X) - tipX;
+            var fromY = Vector256.Create(p0.Y, p1.Y, p2.Y, p3.Y) - tipY;
+            var fromZ = Vector256.Create(p0.Z, p1.Z, p2.Z, p3.Z) - tipZ;
+            var toX = Vector256.Create(p1.X, p2.X, p3.X, p4.X) - tipX;
+            var toY = Vector256.Create(p1.Y, p2.Y, p3.Y, p4.Y) - tipY;
+            var toZ = Vector256.Create(p1.Z, p2.Z, p3.Z, p4.Z) - tipZ;
+            var x = fromY * toZ - fromZ * toY;
+            var y = fromZ * toX - fromX * toZ;
+            var z = fromX * toY - fromY * toX;
+            var length = Vector256.Sqrt(x * x + y * y + z * z);
+            var hasArea = Vector256.GreaterThan(length, Vector256.Create(LeastArea));
+            var inverse = Vector256<double>.One / length & hasArea;
+            x *= inverse;
+            y *= inverse;
+            z *= inverse;
+            var offset = Vector256.ConditionalSelect(hasArea, x * tipX + y * tipY + z * tipZ, infinity);
+            x.Store(memory->NormalX + faceCount + i);
+            y.Store(memory->NormalY + faceCount + i);
+            z.Store(memory->NormalZ + faceCount + i);
+            offset.Store(memory->Offset + faceCount + i);
+            offset.Store(memory->Priority + faceCount + i);
+        }
+        faceCount += edgeCount;
+        // So that vectors which reach beyond the last face find nothing there.
+        infinity.Store(memory->Priority + faceCount);
     }
 }

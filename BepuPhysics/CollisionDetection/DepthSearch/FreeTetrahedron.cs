@@ -15,15 +15,14 @@ static class FreeTetrahedron
     // Squared sine below which a side is too narrow to say where its plane is.
     const float LeastSquaredSine = 1e-6f;
 
-    /// <summary>Lanes in which no direction can be better by more than the slack.</summary>
+    /// <summary>Lanes in which no direction can be less deep than a bound; zero or more.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static Vector<int> Certifies(in SearchWalk walk, in SearchFrame frame)
+    public static Vector<int> Certifies(in SearchWalk walk, in SearchFrame frame, Vector<float> bound)
     {
         var a = walk.Simplex.A.Point;
         var b = walk.Simplex.B.Point;
         var c = walk.Simplex.C.Point;
         var apex = frame.Center - walk.Direction * frame.Inner;
-        var bound = walk.Depth - frame.CertificateSlack;
         return IsBeyond(a, b, c, apex, bound) & IsBeyond(a, b, apex, c, bound) & IsBeyond(b, c, apex, a, bound) &
             IsBeyond(c, a, apex, b, bound);
     }

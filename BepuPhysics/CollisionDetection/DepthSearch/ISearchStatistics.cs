@@ -14,6 +14,9 @@ interface ISearchStatistics
     /// <summary>The free tetrahedron was tried in the lanes of the first mask, and showed that the depth is the least in those of the second.</summary>
     void TriedTetrahedron(Vector<int> triedMask, Vector<int> certifiedMask);
 
+    /// <summary>A number of support points around the minimum was asked for in the lanes that are set.</summary>
+    void EvaluatedRing(Vector<int> mask, int count);
+
     /// <summary>The polytope was expanded for a lane.</summary>
     void Expanded(int lane, int evaluations, ExpansionEnd end);
 }
@@ -26,6 +29,8 @@ readonly struct NoSearchStatistics : ISearchStatistics
     public void Capped(Vector<int> mask) { }
 
     public void TriedTetrahedron(Vector<int> triedMask, Vector<int> certifiedMask) { }
+
+    public void EvaluatedRing(Vector<int> mask, int count) { }
 
     public void Expanded(int lane, int evaluations, ExpansionEnd end) { }
 }

@@ -11,6 +11,9 @@ namespace BepuPhysics.CollisionDetection;
 /// <typeparam name="TShapeWide">Wide form of the shape.</typeparam>
 public interface ISupport<TShapeWide> where TShapeWide : unmanaged
 {
+    /// <summary>Whether cores have surfaces or edges that are not straight, so that many of their points may be farthest in turn.</summary>
+    static virtual bool IsRound => false;
+
     /// <summary>Distance of the surface from the core, m.</summary>
     /// <param name="shape">Shapes.</param>
     static abstract Vector<float> Margin(in TShapeWide shape);
@@ -21,6 +24,15 @@ public interface ISupport<TShapeWide> where TShapeWide : unmanaged
     /// <param name="inner">Radius of a ball that lies in the core, m; zero where the core is flat.</param>
     /// <param name="outer">Radius of a ball that holds the core, m.</param>
     static abstract void GetExtents(in TShapeWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer);
+
+    /// <summary>
+    /// Makes a round core smaller. With a ball around each of its points it lies in the one that it was, and the least depth of something small
+    /// that is inside of both is the same.
+    /// </summary>
+    /// <param name="shape">Shapes; the smaller ones.</param>
+    /// <param name="reach">Radius of a ball about the shape's centre that holds the other shape, m.</param>
+    /// <returns>Radius of the balls, m; zero where the shape stays as it is.</returns>
+    static virtual Vector<float> Shrink(ref TShapeWide shape, Vector<float> reach) => Vector<float>.Zero;
 
     /// <summary>A point of the core that is farthest along a direction. Of several, always the same.</summary>
     /// <param name="shape">Shapes.</param>

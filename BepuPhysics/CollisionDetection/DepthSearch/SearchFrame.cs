@@ -36,6 +36,8 @@ struct SearchFrame
     public Vector<float> Inner;
     /// <summary>Radius of a ball about <see cref="Center"/> that holds the difference, or the distance of the origin if that is more.</summary>
     public Vector<float> Span;
+    /// <summary>The smaller radius, scaled.</summary>
+    public Vector<float> Smaller;
     /// <summary>How far the search may stop from its target.</summary>
     public Vector<float> Tolerance;
     public Vector<float> CertificateSlack;
@@ -70,7 +72,8 @@ struct SearchFrame
         frame.Tolerance = frame.Scale * Wide.Max(
             Wide.Max(smaller * new Vector<float>(SmallerTolerance), larger * new Vector<float>(LargerTolerance)),
             distance * new Vector<float>(DistanceTolerance));
-        frame.CertificateSlack = Wide.Max(frame.Scale * smaller * new Vector<float>(CertificateTolerance), frame.Tolerance);
+        frame.Smaller = smaller * frame.Scale;
+        frame.CertificateSlack = Wide.Max(frame.Smaller * new Vector<float>(CertificateTolerance), frame.Tolerance);
         frame.Rounding = frame.Span * new Vector<float>(SupportRounding);
         return frame;
     }
