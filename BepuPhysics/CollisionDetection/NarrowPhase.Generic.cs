@@ -16,8 +16,6 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     TCallbacks callbacks;
     Worker[] workers = [];
     QuickList<PairKey> order;
-    // Number of pairs that all workers tested in the last step.
-    int testedPairCount;
 
     internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
         : base(simulation, collisionTaskRegistry, initialPairCapacity) => this.callbacks = callbacks;
@@ -27,19 +25,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     {
         public PairQueue Queue;
         public CollisionBatcher<Completion> Batcher;
-        public QuickList<TestedPair> TestedPairs;
+        public TestedPairs TestedPairs;
+        public ContactQueue Contacts;
         public QuickList<PendingPair> Pending;
         public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
-    }
-
-    // A pair that waits for its contacts.
-    struct TestedPair
-    {
-        public CollidablePair Pair;
-        // Index in the cache; negative for a pair that is not in it.
-        public int CacheIndex;
-        public bool KeepsHistory;
     }
 
     // A pair whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
@@ -106,8 +96,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
                 Pairs.Histories.Memory);
-            // Who tests how many is up to chance. Each has room for all, or a worker's memory would grow whenever it is luckier than ever.
-            worker.TestedPairs = new QuickList<TestedPair>(Math.Max(256, testedPairCount), worker.Pool);
+            worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
+            worker.Contacts = default;
             worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
             worker.Bouncing = default;
         }
@@ -140,6 +130,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
                 NarrowPhase.TestPair(block, pair.A, pair.B);
             NarrowPhase.workers[block].Batcher.Flush();
+            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
         }
     }
 
@@ -151,7 +142,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (a.Mobility != CollidableMobility.Dynamic)
             return;
         ref var queue = ref workers[workerIndex].Queue;
-        queue.Add(Pairs, new(a, b));
+        queue.Add(Pairs, Simulation.Bodies, new(a, b));
         if (queue.TryTake(out var pair))
             TestPair(workerIndex, pair.A, pair.B);
     }
@@ -183,11 +174,18 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             return;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
-        var tested = new TestedPair { Pair = new(a, b), KeepsHistory = task.KeepsHistories };
+        var tested = new TestedPair { Pair = new(a, b), KeepsHistory = task.KeepsHistories, ConstraintTypeId = CachedPair.NoConstraint };
         tested.CacheIndex = Pairs.Pairs.IndexOf(tested.Pair);
         var history = PairInput.NoHistory;
-        if (task.KeepsHistories && tested.CacheIndex >= 0)
-            history = Pairs.Pairs.Values[tested.CacheIndex].History;
+        if (tested.CacheIndex >= 0)
+        {
+            ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
+            tested.Constraint = cached.Constraint;
+            tested.ConstraintTypeId = cached.ConstraintTypeId;
+            tested.HasHistory = cached.History >= 0;
+            if (task.KeepsHistories)
+                history = cached.History;
+        }
         if (history >= 0)
         {
             Unsafe.SkipInit(out ConvexContactManifold manifold);
@@ -198,8 +196,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             }
         }
         ref var worker = ref workers[workerIndex];
-        var pairId = worker.TestedPairs.Count;
-        worker.TestedPairs.Add(tested, worker.Pool);
+        var pairId = worker.TestedPairs.Add(tested, worker.Pool);
         worker.Batcher.Add(task, taskIndex, flipped, collidableA.Shape.Index, shapeB.Index, offsetB, poseA.Orientation, poseB.Orientation,
             margin, pairId, history);
     }
@@ -216,8 +213,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     ShapeIdentity Identify(TypedIndex shape) => new(shape, Simulation.Shapes.GetBatch(shape.Type).Generation(shape.Index));
 
-    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
-        Complete(workerIndex, workers[workerIndex].TestedPairs[pairId], ref manifold);
+    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        ref var worker = ref workers[workerIndex];
+        Complete(workerIndex, worker.TestedPairs.Take(pairId, worker.Pool), ref manifold);
+    }
 
     void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
@@ -237,14 +237,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
-            // A pair whose shapes have become such as keep a history gets it with the changes.
-            if (cached.ConstraintTypeId == typeId && (cached.History >= 0 || !tested.KeepsHistory))
+            if (tested.KeepsConstraint(typeId))
             {
-                var target = new ContactConstraint(Simulation.Solver, cached.Constraint, convex.Count);
-                target.ReadImpulses(cached.Features, out var impulses);
-                target.Write(convex, material);
-                target.WriteImpulses(impulses, convex, ref cached.Features);
+                worker.Contacts.Add(Pairs, Simulation.Solver, tested.CacheIndex, tested.Constraint, convex, material);
                 return;
             }
         }
@@ -258,7 +253,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            if (!Pairs.Pairs.Values[tested.CacheIndex].HasConstraint)
+            if (tested.ConstraintTypeId == CachedPair.NoConstraint)
                 return;
         }
         worker.Pending.Add(new() { Pair = tested.Pair, KeepsHistory = true }, worker.Pool);
@@ -274,9 +269,6 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     internal override void Flush()
     {
-        testedPairCount = 0;
-        for (int i = 0; i < workers.Length; ++i)
-            testedPairCount += workers[i].TestedPairs.Count;
         RemoveUnseenPairs();
         order = new QuickList<PairKey>(64, Pool);
         for (int i = 0; i < workers.Length; ++i)

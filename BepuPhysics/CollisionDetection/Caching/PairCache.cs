@@ -17,6 +17,8 @@ struct CachedPair
     public FeatureIds Features;
     /// <summary>Index of the pair's history; negative for shapes whose test keeps none.</summary>
     public int History;
+    // 32 bytes, so that none lies across two cache lines.
+    readonly int padding;
 
     /// <summary>Type id of a pair without contacts.</summary>
     public const int NoConstraint = -1;
@@ -70,14 +72,6 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
 
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
-
-    /// <summary>Asks the processor to load a pair's history, if it has one. Changes no result.</summary>
-    public readonly void PrefetchHistory(int index)
-    {
-        var history = Pairs.Values[index].History;
-        if (history >= 0)
-            Histories.Prefetch(history);
-    }
 
     /// <summary>Adds a pair without constraint that has been seen in this step.</summary>
     public void Add(CollidablePair pair, bool keepsHistory, BufferPool pool)
