@@ -128,7 +128,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         public readonly void Execute(int stage, int block, int workerIndex)
         {
             while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
-                NarrowPhase.TestPair(block, pair.A, pair.B);
+                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
             NarrowPhase.workers[block].Batcher.Flush();
             NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
         }
@@ -143,12 +143,14 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             return;
         ref var queue = ref workers[workerIndex].Queue;
         queue.Add(Pairs, Simulation.Bodies, new(a, b));
-        if (queue.TryTake(out var pair))
-            TestPair(workerIndex, pair.A, pair.B);
+        if (queue.TryTake(out var pair, out var guess))
+            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
     }
 
-    void TestPair(int workerIndex, CollidableReference a, CollidableReference b)
+    void TestPair(int workerIndex, CollidablePair pair, int cacheIndex)
     {
+        var a = pair.A;
+        var b = pair.B;
         ref var set = ref Simulation.Bodies.ActiveSet;
         var handleToLocation = Simulation.Bodies.HandleToLocation;
         var indexA = handleToLocation[a.RawHandleValue].Index;
@@ -174,8 +176,13 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             return;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
-        var tested = new TestedPair { Pair = new(a, b), KeepsHistory = task.KeepsHistories, ConstraintTypeId = CachedPair.NoConstraint };
-        tested.CacheIndex = Pairs.Pairs.IndexOf(tested.Pair);
+        Unsafe.SkipInit(out TestedPair tested);
+        tested.Pair = pair;
+        tested.CacheIndex = cacheIndex;
+        tested.Constraint = default;
+        tested.ConstraintTypeId = CachedPair.NoConstraint;
+        tested.KeepsHistory = task.KeepsHistories;
+        tested.HasHistory = false;
         var history = PairInput.NoHistory;
         if (tested.CacheIndex >= 0)
         {
@@ -194,6 +201,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
                 Complete(workerIndex, tested, ref manifold);
                 return;
             }
+            Pairs.Histories.PrefetchRest(history);
         }
         ref var worker = ref workers[workerIndex];
         var pairId = worker.TestedPairs.Add(tested, worker.Pool);

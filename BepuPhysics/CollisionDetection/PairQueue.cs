@@ -51,7 +51,11 @@ unsafe struct PairQueue
         {
             ref var cached = ref cache.Pairs.Values[elements[third % Length]];
             if (cached.History >= 0)
+            {
                 cache.Histories.Prefetch(cached.History);
+                if (cached.HasConstraint)
+                    cache.Histories.PrefetchRest(cached.History);
+            }
         }
         ++added;
     }
@@ -68,9 +72,12 @@ unsafe struct PairQueue
     }
 
     /// <summary>Takes the oldest pair when its turn has come.</summary>
-    public bool TryTake(out CollidablePair pair)
+    /// <param name="pair">The pair.</param>
+    /// <param name="guess">Its index in the cache, or that of another; negative where it is in none.</param>
+    public bool TryTake(out CollidablePair pair, out int guess)
     {
         pair = pairs[taken % Length];
+        guess = elements[taken % Length];
         if (added - taken < 3 * StageLength)
             return false;
         ++taken;

@@ -73,6 +73,19 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
 
+    /// <summary>Index of a pair, or -1.</summary>
+    /// <param name="pair">The pair.</param>
+    /// <param name="guess">What <see cref="QuickDictionary{TKey, TValue, TComparer}.PrefetchElement"/> has said of it.</param>
+    // Where the first place that a pair may have is empty, the pair is nowhere.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly int IndexOf(in CollidablePair pair, int guess)
+    {
+        if (guess < 0)
+            return -1;
+        ref var key = ref Pairs.Keys[guess];
+        return key.A.Packed == pair.A.Packed && key.B.Packed == pair.B.Packed ? guess : Pairs.IndexOf(pair);
+    }
+
     /// <summary>Adds a pair without constraint that has been seen in this step.</summary>
     public void Add(CollidablePair pair, bool keepsHistory, BufferPool pool)
     {

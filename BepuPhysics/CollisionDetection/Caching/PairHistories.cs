@@ -18,12 +18,15 @@ unsafe struct PairHistories
     /// <summary>Whether an index is that of a history in use, as far as can be told.</summary>
     public readonly bool MayExist(int index) => index > 0 && index <= ids.HighestPossiblyClaimedId + 1;
 
-    /// <summary>Asks the processor to load a history. Changes no result.</summary>
-    public readonly void Prefetch(int index)
+    /// <summary>Asks the processor to load what decides whether there will be a test. Changes no result.</summary>
+    public readonly void Prefetch(int index) => BepuUtilities.Memory.Prefetch.Read(histories.Memory + index);
+
+    /// <summary>Asks the processor to load the rest, for contacts to be carried along or a test. Changes no result.</summary>
+    public readonly void PrefetchRest(int index)
     {
         const int line = 64;
         var history = (byte*)(histories.Memory + index);
-        for (int offset = 0; offset < sizeof(PairHistory); offset += line)
+        for (int offset = line; offset < sizeof(PairHistory); offset += line)
             BepuUtilities.Memory.Prefetch.Read(history + offset);
     }
 
