@@ -202,6 +202,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
                 return;
             }
             Pairs.Histories.PrefetchRest(history);
+            history = Pairs.Histories.Memory[history].GetReference(history);
         }
         ref var worker = ref workers[workerIndex];
         var pairId = worker.TestedPairs.Add(tested, worker.Pool);
@@ -286,10 +287,28 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         }
         SortByKey();
         for (int i = 0; i < order.Count; ++i)
+        {
+            PrefetchPending(i);
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
+        }
         WatchBouncingPairs();
         order.Dispose(Pool);
         ReleaseWorkers();
+    }
+
+    /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
+    void PrefetchPending(int index)
+    {
+        const int distance = 8;
+        if (index + 2 * distance < order.Count)
+            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 2 * distance].Key));
+        if (index + distance >= order.Count)
+            return;
+        ref var next = ref order[index + distance];
+        Pairs.Pairs.PrefetchElement(PairOf(next.Key));
+        ref var pending = ref workers[next.Worker].Pending[next.Index];
+        Prefetch.Read(Unsafe.AsPointer(ref pending));
+        Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
     }
 
     void ReleaseWorkers()
@@ -317,6 +336,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     }
 
     static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
+
+    static CollidablePair PairOf(ulong key) =>
+        new(new CollidableReference { Packed = (uint)(key >> 32) }, new CollidableReference { Packed = (uint)key });
 
     static int ConstraintType(in CollidablePair pair, int contactCount) =>
         ConstraintTypeIds.ConvexContact(contactCount, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);

@@ -34,7 +34,7 @@ readonly ref struct PairInput
     public readonly int PairId;
     /// <summary>Whether the caller's A is B here, because the task has the types in the other order.</summary>
     public readonly bool Flipped;
-    /// <summary>Index of the pair's history; <see cref="NoHistory"/> where it has none.</summary>
+    /// <summary>Reference to the pair's history (<see cref="PairHistory.GetReference"/>); <see cref="NoHistory"/> where it has none.</summary>
     public readonly int History;
 
     /// <summary>Index that no history has.</summary>

@@ -36,9 +36,10 @@ unsafe struct PairHistory
     short remaining;
     byte contactCount;
     bool aIsLarger;
+    bool isSlow;
     ShapeIdentity shapeA;
     ShapeIdentity shapeB;
-    long padding;
+    int padding;
 
     /// <summary>Where the depth search ended, and which corners were the first contacts.</summary>
     public DepthSearchState Search;
@@ -59,6 +60,10 @@ unsafe struct PairHistory
     /// </summary>
     public const int Lifetime = 16;
 
+    // Support points of a search beyond which it is a slow one.
+    const int QuickEvaluations = 4;
+    const int SlowFlag = 1 << 30;
+
     // Relative rounding of offsets and depths, with room: what shapes that are apart must be farther apart by.
     const float Rounding = 1e-5f;
 
@@ -72,6 +77,16 @@ unsafe struct PairHistory
         shapeB = b;
     }
 
+    /// <summary>What a test is told of the pair: the index of its history, and whether the last test was a slow one.</summary>
+    /// <param name="index">Index of this history.</param>
+    public readonly int GetReference(int index) => isSlow ? index | SlowFlag : index;
+
+    /// <summary>The index of a reference; negative for <see cref="PairInput.NoHistory"/>.</summary>
+    public static int GetIndex(int reference) => reference < 0 ? reference : reference & ~SlowFlag;
+
+    /// <summary>Whether the last test of a pair was a slow one, and the next will most likely be.</summary>
+    public static bool IsSlow(int reference) => reference >= SlowFlag;
+
     /// <summary>Records the outcome of a test.</summary>
     /// <param name="found">Contacts, as they were found.</param>
     /// <param name="measures">What the test knows besides.</param>
@@ -82,20 +97,24 @@ unsafe struct PairHistory
     public void Record(in ConvexContactManifold found, in PairMeasures measures, in Quaternion turnA, in Quaternion turnB, float speculativeMargin,
         int leastCarriedCount)
     {
+        isSlow = measures.Evaluations > QuickEvaluations;
+        remaining = (short)(found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0);
+        if (remaining == 0)
+            return;
+        contactCount = (byte)found.Count;
         aIsLarger = measures.ReachA > measures.ReachB;
         reach = aIsLarger ? measures.ReachB : measures.ReachA;
         FindPose(found.OffsetB, turnA, turnB, out turn, out offset);
         room = found.Count == 0 ? -measures.Depth - Rounding * (measures.ReachA + measures.ReachB) : speculativeMargin;
-        remaining = (short)(found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0);
-        contactCount = (byte)found.Count;
-        if (remaining == 0 || found.Count == 0)
+        if (found.Count == 0)
             return;
-        var toLarger = Exact.Conjugate(aIsLarger ? turnA : turnB);
-        normal = Exact.Rotate(found.Normal, toLarger);
+        Matrix3x3.CreateFromQuaternion(Exact.Conjugate(aIsLarger ? turnA : turnB), out var toLarger);
+        Matrix3x3.Transform(found.Normal, toLarger, out normal);
+        var center = aIsLarger ? found.OffsetB : default;
         for (int i = 0; i < found.Count; ++i)
         {
             ref readonly var contact = ref ConvexContactManifold.GetConvexContactReference(ref Unsafe.AsRef(in found), i);
-            places[i] = Exact.Rotate(aIsLarger ? contact.Offset - found.OffsetB : contact.Offset, toLarger);
+            Matrix3x3.Transform(contact.Offset - center, toLarger, out places[i]);
             depths[i] = contact.Depth;
             features[i] = contact.FeatureId;
         }
