@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
-using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
