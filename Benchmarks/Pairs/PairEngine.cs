@@ -35,7 +35,7 @@ static unsafe class PairEngine
             {
                 ref readonly PairPlacement pair = ref pairs[i];
                 batcher.Add(task, taskIndex, flipped, world.Shape(pair.A).Index, world.Shape(pair.B).Index, pair.OffsetB,
-                    pair.OrientationA, pair.OrientationB, world.Margin, i, task.KeepsHistories ? i + 1 : PairInput.NoHistory);
+                    pair.OrientationA, pair.OrientationB, world.Margin, i, task.KeepsHistories ? histories[i + 1].GetReference(i + 1) : PairInput.NoHistory);
             }
             batcher.Flush();
             return batcher.Callbacks.Contacts;

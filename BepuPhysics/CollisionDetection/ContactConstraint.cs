@@ -24,7 +24,7 @@ struct FourVectors
 }
 
 /// <summary>The column of one convex contact constraint in its type batch, for any number of contacts.</summary>
-unsafe readonly ref struct ContactConstraint
+unsafe readonly struct ContactConstraint
 {
     readonly float* prestep;
     readonly float* impulses;
@@ -38,6 +38,20 @@ unsafe readonly ref struct ContactConstraint
         prestep = (float*)Unsafe.AsPointer(ref processor.PrestepFloat(ref batch, location.IndexInTypeBatch, 0));
         impulses = (float*)Unsafe.AsPointer(ref processor.Impulse(ref batch, location.IndexInTypeBatch, 0));
         this.contactCount = contactCount;
+    }
+
+    /// <summary>Asks the processor to load the column. Changes no result.</summary>
+    internal void Prefetch()
+    {
+        Prefetch(prestep, ContactPrestepLayout.PrestepFloats(contactCount));
+        Prefetch(impulses, ContactPrestepLayout.ImpulseFloats(contactCount));
+    }
+
+    static void Prefetch(float* column, int count)
+    {
+        const int line = 64 / sizeof(float);
+        for (int i = 0; i < count * Vector<float>.Count; i += line)
+            BepuUtilities.Memory.Prefetch.Read(column + i);
     }
 
     /// <summary>Writes the geometry and the material of a manifold.</summary>

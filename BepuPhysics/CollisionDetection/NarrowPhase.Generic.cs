@@ -16,8 +16,6 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     TCallbacks callbacks;
     Worker[] workers = [];
     QuickList<PairKey> order;
-    // Number of pairs that all workers tested in the last step.
-    int testedPairCount;
 
     internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
         : base(simulation, collisionTaskRegistry, initialPairCapacity) => this.callbacks = callbacks;
@@ -27,19 +25,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     {
         public PairQueue Queue;
         public CollisionBatcher<Completion> Batcher;
-        public QuickList<TestedPair> TestedPairs;
+        public TestedPairs TestedPairs;
+        public ContactQueue Contacts;
         public QuickList<PendingPair> Pending;
         public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
-    }
-
-    // A pair that waits for its contacts.
-    struct TestedPair
-    {
-        public CollidablePair Pair;
-        // Index in the cache; negative for a pair that is not in it.
-        public int CacheIndex;
-        public bool KeepsHistory;
     }
 
     // A pair whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
@@ -106,8 +96,8 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
                 Pairs.Histories.Memory);
-            // Who tests how many is up to chance. Each has room for all, or a worker's memory would grow whenever it is luckier than ever.
-            worker.TestedPairs = new QuickList<TestedPair>(Math.Max(256, testedPairCount), worker.Pool);
+            worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
+            worker.Contacts = default;
             worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
             worker.Bouncing = default;
         }
@@ -138,8 +128,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         public readonly void Execute(int stage, int block, int workerIndex)
         {
             while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
-                NarrowPhase.TestPair(block, pair.A, pair.B);
+                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
             NarrowPhase.workers[block].Batcher.Flush();
+            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
         }
     }
 
@@ -151,13 +142,15 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (a.Mobility != CollidableMobility.Dynamic)
             return;
         ref var queue = ref workers[workerIndex].Queue;
-        queue.Add(Pairs, new(a, b));
-        if (queue.TryTake(out var pair))
-            TestPair(workerIndex, pair.A, pair.B);
+        queue.Add(Pairs, Simulation.Bodies, new(a, b));
+        if (queue.TryTake(out var pair, out var guess))
+            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
     }
 
-    void TestPair(int workerIndex, CollidableReference a, CollidableReference b)
+    void TestPair(int workerIndex, CollidablePair pair, int cacheIndex)
     {
+        var a = pair.A;
+        var b = pair.B;
         ref var set = ref Simulation.Bodies.ActiveSet;
         var handleToLocation = Simulation.Bodies.HandleToLocation;
         var indexA = handleToLocation[a.RawHandleValue].Index;
@@ -183,11 +176,23 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             return;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
-        var tested = new TestedPair { Pair = new(a, b), KeepsHistory = task.KeepsHistories };
-        tested.CacheIndex = Pairs.Pairs.IndexOf(tested.Pair);
+        Unsafe.SkipInit(out TestedPair tested);
+        tested.Pair = pair;
+        tested.CacheIndex = cacheIndex;
+        tested.Constraint = default;
+        tested.ConstraintTypeId = CachedPair.NoConstraint;
+        tested.KeepsHistory = task.KeepsHistories;
+        tested.HasHistory = false;
         var history = PairInput.NoHistory;
-        if (task.KeepsHistories && tested.CacheIndex >= 0)
-            history = Pairs.Pairs.Values[tested.CacheIndex].History;
+        if (tested.CacheIndex >= 0)
+        {
+            ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
+            tested.Constraint = cached.Constraint;
+            tested.ConstraintTypeId = cached.ConstraintTypeId;
+            tested.HasHistory = cached.History >= 0;
+            if (task.KeepsHistories)
+                history = cached.History;
+        }
         if (history >= 0)
         {
             Unsafe.SkipInit(out ConvexContactManifold manifold);
@@ -196,10 +201,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
                 Complete(workerIndex, tested, ref manifold);
                 return;
             }
+            Pairs.Histories.PrefetchRest(history);
+            history = Pairs.Histories.Memory[history].GetReference(history);
         }
         ref var worker = ref workers[workerIndex];
-        var pairId = worker.TestedPairs.Count;
-        worker.TestedPairs.Add(tested, worker.Pool);
+        var pairId = worker.TestedPairs.Add(tested, worker.Pool);
         worker.Batcher.Add(task, taskIndex, flipped, collidableA.Shape.Index, shapeB.Index, offsetB, poseA.Orientation, poseB.Orientation,
             margin, pairId, history);
     }
@@ -216,8 +222,11 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     ShapeIdentity Identify(TypedIndex shape) => new(shape, Simulation.Shapes.GetBatch(shape.Type).Generation(shape.Index));
 
-    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
-        Complete(workerIndex, workers[workerIndex].TestedPairs[pairId], ref manifold);
+    void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        ref var worker = ref workers[workerIndex];
+        Complete(workerIndex, worker.TestedPairs.Take(pairId, worker.Pool), ref manifold);
+    }
 
     void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
@@ -237,14 +246,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
-            // A pair whose shapes have become such as keep a history gets it with the changes.
-            if (cached.ConstraintTypeId == typeId && (cached.History >= 0 || !tested.KeepsHistory))
+            if (tested.KeepsConstraint(typeId))
             {
-                var target = new ContactConstraint(Simulation.Solver, cached.Constraint, convex.Count);
-                target.ReadImpulses(cached.Features, out var impulses);
-                target.Write(convex, material);
-                target.WriteImpulses(impulses, convex, ref cached.Features);
+                worker.Contacts.Add(Pairs, Simulation.Solver, tested.CacheIndex, tested.Constraint, convex, material);
                 return;
             }
         }
@@ -258,7 +262,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            if (!Pairs.Pairs.Values[tested.CacheIndex].HasConstraint)
+            if (tested.ConstraintTypeId == CachedPair.NoConstraint)
                 return;
         }
         worker.Pending.Add(new() { Pair = tested.Pair, KeepsHistory = true }, worker.Pool);
@@ -274,9 +278,6 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     internal override void Flush()
     {
-        testedPairCount = 0;
-        for (int i = 0; i < workers.Length; ++i)
-            testedPairCount += workers[i].TestedPairs.Count;
         RemoveUnseenPairs();
         order = new QuickList<PairKey>(64, Pool);
         for (int i = 0; i < workers.Length; ++i)
@@ -286,10 +287,28 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
         }
         SortByKey();
         for (int i = 0; i < order.Count; ++i)
+        {
+            PrefetchPending(i);
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
+        }
         WatchBouncingPairs();
         order.Dispose(Pool);
         ReleaseWorkers();
+    }
+
+    /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
+    void PrefetchPending(int index)
+    {
+        const int distance = 8;
+        if (index + 2 * distance < order.Count)
+            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 2 * distance].Key));
+        if (index + distance >= order.Count)
+            return;
+        ref var next = ref order[index + distance];
+        Pairs.Pairs.PrefetchElement(PairOf(next.Key));
+        ref var pending = ref workers[next.Worker].Pending[next.Index];
+        Prefetch.Read(Unsafe.AsPointer(ref pending));
+        Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
     }
 
     void ReleaseWorkers()
@@ -317,6 +336,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
     }
 
     static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
+
+    static CollidablePair PairOf(ulong key) =>
+        new(new CollidableReference { Packed = (uint)(key >> 32) }, new CollidableReference { Packed = (uint)key });
 
     static int ConstraintType(in CollidablePair pair, int contactCount) =>
         ConstraintTypeIds.ConvexContact(contactCount, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);

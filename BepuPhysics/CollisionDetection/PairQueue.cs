@@ -1,13 +1,15 @@
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Overlapping pairs on their way to their test, for as long as it takes to load what is remembered of them.</summary>
+/// <summary>Overlapping pairs on their way to their test, for as long as it takes to load what is known of them.</summary>
 /// <remarks>
 /// The tree finds pairs in the order of space, the cache holds them in the order of time: each lookup would wait for memory, three times
 /// one after the other. Here each pair asks for the next of the three while others are tested. Tests are in the order of the pairs.
 /// </remarks>
-struct PairQueue
+unsafe struct PairQueue
 {
     const int Length = 32;
     // Pairs between two stages of one pair.
@@ -26,28 +28,56 @@ struct PairQueue
     }
 
     Ring pairs;
+    // Index in the cache that a pair most likely has.
     Elements elements;
     int added;
     int taken;
 
     /// <summary>Adds a pair. There must be room: <see cref="TryTake"/> after each.</summary>
-    public void Add(in PairCache cache, CollidablePair pair)
+    public void Add(in PairCache cache, Bodies bodies, CollidablePair pair)
     {
         pairs[added % Length] = pair;
         cache.Pairs.PrefetchSlot(pair);
         var second = added - StageLength;
         if (second >= taken)
-            elements[second % Length] = cache.Pairs.PrefetchElement(pairs[second % Length]);
+        {
+            ref var pairInTable = ref pairs[second % Length];
+            elements[second % Length] = cache.Pairs.PrefetchElement(pairInTable);
+            PrefetchBody(bodies, pairInTable.A);
+            PrefetchBody(bodies, pairInTable.B);
+        }
         var third = second - StageLength;
         if (third >= taken && elements[third % Length] >= 0)
-            cache.PrefetchHistory(elements[third % Length]);
+        {
+            ref var cached = ref cache.Pairs.Values[elements[third % Length]];
+            if (cached.History >= 0)
+            {
+                cache.Histories.Prefetch(cached.History);
+                if (cached.HasConstraint)
+                    cache.Histories.PrefetchRest(cached.History);
+            }
+        }
         ++added;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void PrefetchBody(Bodies bodies, CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            return;
+        var index = bodies.HandleToLocation[collidable.RawHandleValue].Index;
+        ref var set = ref bodies.ActiveSet;
+        Prefetch.Read(set.MotionStates.Memory + index);
+        Prefetch.Read(set.Collidables.Memory + index);
+    }
+
     /// <summary>Takes the oldest pair when its turn has come.</summary>
-    public bool TryTake(out CollidablePair pair)
+    /// <param name="pair">The pair.</param>
+    /// <param name="guess">Its index in the cache, or that of another; negative where it is in none.</param>
+    public bool TryTake(out CollidablePair pair, out int guess)
     {
         pair = pairs[taken % Length];
+        guess = elements[taken % Length];
         if (added - taken < 3 * StageLength)
             return false;
         ++taken;

@@ -27,7 +27,7 @@ public class PairHistoryTests
         public Vector3 PointA, PointB;
         public PairHistory History;
 
-        public Found(bool touching = true, float depth = 0.002f, int leastCarriedCount = 1)
+        public Found(bool touching = true, float depth = 0.002f, int leastCarriedCount = 1, bool bIsLarger = false)
         {
             B = new(new Vector3(3.4f, 0.3f, 4.8f), Turn(new Vector3(-0.4f, 0.1f, 0.6f)));
             // The surface points lie half the depth to either side of the contact, A's towards B.
@@ -37,8 +37,8 @@ public class PairHistoryTests
             var manifold = new ConvexContactManifold { Count = touching ? 1 : 0, OffsetB = B.Position - A.Position, Normal = Normal };
             manifold.Contact0 = new ConvexContact { Offset = contact - A.Position, Depth = depth, FeatureId = 42 };
             History.Identify(shapeA, shapeB);
-            History.Record(manifold, new PairMeasures { Depth = depth, ReachA = ReachA, ReachB = ReachB }, A.Orientation, B.Orientation, Margin,
-                leastCarriedCount);
+            var measures = new PairMeasures { Depth = depth, ReachA = bIsLarger ? ReachB : ReachA, ReachB = bIsLarger ? ReachA : ReachB };
+            History.Record(manifold, measures, A.Orientation, B.Orientation, Margin, leastCarriedCount);
         }
 
         public bool Reuse(in RigidPose a, in RigidPose b, out ConvexContactManifold manifold, float margin = Margin)
@@ -61,10 +61,12 @@ public class PairHistoryTests
         AssertNear(found.Normal, manifold.Normal);
     }
 
-    [Fact]
-    public void A_pair_that_moves_as_one_body_takes_its_contact_along()
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void A_pair_that_moves_as_one_body_takes_its_contact_along(bool bIsLarger)
     {
-        var found = new Found();
+        var found = new Found(bIsLarger: bIsLarger);
         // Far more than the tolerance, but the same for both.
         var motion = new RigidPose(new Vector3(20, 7, -9), Turn(new Vector3(1, 2, -0.5f)));
         var a = Moved(found.A, motion);
@@ -93,6 +95,23 @@ public class PairHistoryTests
         AssertNear(found.Normal, manifold.Normal);
         Assert.Equal(depth, manifold.Contact0.Depth, 1e-6);
         Assert.NotEqual(0.002, depth, 1e-5);
+    }
+
+    [Fact]
+    public void The_normal_turns_with_the_larger_shape()
+    {
+        var found = new Found(bIsLarger: true);
+        var motion = new RigidPose(new Vector3(5e-5f, -1e-4f, 5e-5f), Turn(new Vector3(2.5e-5f, 7.5e-5f, -5e-5f)));
+        var b = new RigidPose(found.B.Position + motion.Position, Exact.Concatenate(found.B.Orientation, motion.Orientation));
+
+        Assert.True(found.Reuse(found.A, b, out var manifold));
+
+        var normal = ((DoubleQuaternion)motion.Orientation).Rotate((Double3)found.Normal);
+        Double3 pointB = (Double3)b.Position + ((DoubleQuaternion)motion.Orientation).Rotate((Double3)found.PointB - found.B.Position);
+        AssertNear(Narrow(normal), manifold.Normal);
+        Assert.Equal(Double3.Dot(pointB - found.PointA, normal), manifold.Contact0.Depth, 1e-6);
+        AssertNear(Narrow((pointB + found.PointA) * 0.5 - found.A.Position), manifold.Contact0.Offset);
+        Assert.NotEqual(0.002, manifold.Contact0.Depth, 1e-5);
     }
 
     /// <summary>Whatever the motion: if any point of the smaller shape moves beyond the tolerance, the pair is tested again.</summary>
@@ -189,6 +208,8 @@ public class PairHistoryTests
     public unsafe void A_history_is_made_of_whole_rows() => Assert.Equal(0, sizeof(PairHistory) % (Rows8.Count * sizeof(float)));
 
     static Vector3 Transform(Vector3 point, in RigidPose motion) => Exact.Rotate(point, motion.Orientation) + motion.Position;
+
+    static Vector3 Narrow(Double3 v) => new((float)v.X, (float)v.Y, (float)v.Z);
 
     static RigidPose Moved(in RigidPose pose, in RigidPose motion) =>
         new(Transform(pose.Position, motion), Exact.Concatenate(pose.Orientation, motion.Orientation));

@@ -25,7 +25,7 @@ readonly struct PairInput(float speculativeMargin, int pairId, bool flipped, int
     public readonly int PairId = pairId;
     /// <summary>All bits set where the caller's A is B here, because the task has the types in the other order.</summary>
     public readonly int FlipMask = flipped ? -1 : 0;
-    /// <summary>Index of the pair's history; <see cref="NoHistory"/> where it has none.</summary>
+    /// <summary>Reference to the pair's history (<see cref="PairHistory.GetReference"/>); <see cref="NoHistory"/> where it has none.</summary>
     public readonly int History = history;
 
     /// <summary>Index that no history has.</summary>

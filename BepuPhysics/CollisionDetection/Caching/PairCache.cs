@@ -17,6 +17,8 @@ struct CachedPair
     public FeatureIds Features;
     /// <summary>Index of the pair's history; negative for shapes whose test keeps none.</summary>
     public int History;
+    // 32 bytes, so that none lies across two cache lines.
+    readonly int padding;
 
     /// <summary>Type id of a pair without contacts.</summary>
     public const int NoConstraint = -1;
@@ -71,12 +73,17 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
 
-    /// <summary>Asks the processor to load a pair's history, if it has one. Changes no result.</summary>
-    public readonly void PrefetchHistory(int index)
+    /// <summary>Index of a pair, or -1.</summary>
+    /// <param name="pair">The pair.</param>
+    /// <param name="guess">What <see cref="QuickDictionary{TKey, TValue, TComparer}.PrefetchElement"/> has said of it.</param>
+    // Where the first place that a pair may have is empty, the pair is nowhere.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly int IndexOf(in CollidablePair pair, int guess)
     {
-        var history = Pairs.Values[index].History;
-        if (history >= 0)
-            Histories.Prefetch(history);
+        if (guess < 0)
+            return -1;
+        ref var key = ref Pairs.Keys[guess];
+        return key.A.Packed == pair.A.Packed && key.B.Packed == pair.B.Packed ? guess : Pairs.IndexOf(pair);
     }
 
     /// <summary>Adds a pair without constraint that has been seen in this step.</summary>

@@ -19,9 +19,11 @@ unsafe struct PairHistories
     public readonly bool MayExist(int index) => index > 0 && index <= ids.HighestPossiblyClaimedId + 1;
 
     /// <summary>Asks the processor to load what decides whether there will be a test. Changes no result.</summary>
-    public readonly void Prefetch(int index)
+    public readonly void Prefetch(int index) => BepuUtilities.Memory.Prefetch.Read(histories.Memory + index);
+
+    /// <summary>Asks the processor to load the rest, for contacts to be carried along or a test. Changes no result.</summary>
+    public readonly void PrefetchRest(int index)
     {
-        // The state of the search, one line and a half, is read in bundles.
         const int line = 64;
         var history = (byte*)(histories.Memory + index);
         for (int offset = line; offset < sizeof(PairHistory); offset += line)

@@ -1,7 +1,9 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -15,26 +17,39 @@ namespace BepuPhysics.CollisionDetection;
 // What carrying contacts along costs in accuracy: a vertex that rests on a face is followed exactly, as the face turns with its body;
 // other features slide by the square of the angle, which the tolerance bounds to 1e-6 of the size. The normal turns with the larger
 // shape; where it belongs to the smaller, it lags by up to Tolerance rad until the next test.
-// The first three rows are gathered and scattered as bundles: size and alignment are multiples of a row of eight floats.
+// Everything is in the axes of the larger shape, as seen from the centre of the smaller: these are short distances, even on a floor of
+// a kilometre.
+// Four cache lines. The first decides whether there will be a test, and all that a pair without contacts needs. What comes then is
+// gathered and scattered as bundles, so that the size is a multiple of a row of eight floats.
+[StructLayout(LayoutKind.Sequential, Size = 4 * CacheLine)]
 unsafe struct PairHistory
 {
+    // Pose of the smaller shape in the frame of the larger at the last test.
+    Quaternion turn;
+    Vector3 offset;
+    // Of a pair without contacts: how much closer the shapes may come, less the margin, until they can have some. Of others: the margin that
+    // these were found with.
+    float room;
+    // Distance from the centre of the smaller shape to its farthest point.
+    float reach;
+    // Steps until the next test, come what may; zero where nothing is known.
+    short remaining;
+    byte contactCount;
+    bool aIsLarger;
+    bool isSlow;
+    ShapeIdentity shapeA;
+    ShapeIdentity shapeB;
+    int padding;
+
     /// <summary>Where the depth search ended, and which corners were the first contacts.</summary>
     public DepthSearchState Search;
 
-    Quaternion orientationA;
-    Quaternion orientationB;
-    ConvexContactManifold manifold;
-    // Upper bound of the depth of the pair; the margin that its contacts were found with.
-    float depth;
-    float margin;
-    // Distance from each centre to the farthest point of the shape.
-    float reachA;
-    float reachB;
-    // Steps until the next test, come what may; zero where nothing is known.
-    int remaining;
-    ShapeIdentity shapeA;
-    ShapeIdentity shapeB;
-    int padding0, padding1, padding2, padding3;
+    Vector3 normal;
+    FourVectors places;
+    FourFloats depths;
+    FeatureIds features;
+
+    const int CacheLine = 64;
 
     /// <summary>Greatest displacement, against each other, of bodies whose contacts are carried along; part of the smaller's reach.</summary>
     public const float Tolerance = 1e-3f;
@@ -44,6 +59,10 @@ unsafe struct PairHistory
     /// shape that was changed in place keeps the contacts of its old form.
     /// </summary>
     public const int Lifetime = 16;
+
+    // Support points of a search beyond which it is a slow one.
+    const int QuickEvaluations = 4;
+    const int SlowFlag = 1 << 30;
 
     // Relative rounding of offsets and depths, with room: what shapes that are apart must be farther apart by.
     const float Rounding = 1e-5f;
@@ -58,6 +77,16 @@ unsafe struct PairHistory
         shapeB = b;
     }
 
+    /// <summary>What a test is told of the pair: the index of its history, and whether the last test was a slow one.</summary>
+    /// <param name="index">Index of this history.</param>
+    public readonly int GetReference(int index) => isSlow ? index | SlowFlag : index;
+
+    /// <summary>The index of a reference; negative for <see cref="PairInput.NoHistory"/>.</summary>
+    public static int GetIndex(int reference) => reference < 0 ? reference : reference & ~SlowFlag;
+
+    /// <summary>Whether the last test of a pair was a slow one, and the next will most likely be.</summary>
+    public static bool IsSlow(int reference) => reference >= SlowFlag;
+
     /// <summary>Records the outcome of a test.</summary>
     /// <param name="found">Contacts, as they were found.</param>
     /// <param name="measures">What the test knows besides.</param>
@@ -68,14 +97,27 @@ unsafe struct PairHistory
     public void Record(in ConvexContactManifold found, in PairMeasures measures, in Quaternion turnA, in Quaternion turnB, float speculativeMargin,
         int leastCarriedCount)
     {
-        manifold = found;
-        orientationA = turnA;
-        orientationB = turnB;
-        depth = measures.Depth;
-        margin = speculativeMargin;
-        reachA = measures.ReachA;
-        reachB = measures.ReachB;
-        remaining = found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0;
+        isSlow = measures.Evaluations > QuickEvaluations;
+        remaining = (short)(found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0);
+        if (remaining == 0)
+            return;
+        contactCount = (byte)found.Count;
+        aIsLarger = measures.ReachA > measures.ReachB;
+        reach = aIsLarger ? measures.ReachB : measures.ReachA;
+        FindPose(found.OffsetB, turnA, turnB, out turn, out offset);
+        room = found.Count == 0 ? -measures.Depth - Rounding * (measures.ReachA + measures.ReachB) : speculativeMargin;
+        if (found.Count == 0)
+            return;
+        Matrix3x3.CreateFromQuaternion(Exact.Conjugate(aIsLarger ? turnA : turnB), out var toLarger);
+        Matrix3x3.Transform(found.Normal, toLarger, out normal);
+        var center = aIsLarger ? found.OffsetB : default;
+        for (int i = 0; i < found.Count; ++i)
+        {
+            ref readonly var contact = ref ConvexContactManifold.GetConvexContactReference(ref Unsafe.AsRef(in found), i);
+            Matrix3x3.Transform(contact.Offset - center, toLarger, out places[i]);
+            depths[i] = contact.Depth;
+            features[i] = contact.FeatureId;
+        }
     }
 
     /// <summary>Finds the contacts without a test, if the bodies have hardly moved since the last one.</summary>
@@ -91,25 +133,26 @@ unsafe struct PairHistory
         if (remaining == 0)
             return false;
         --remaining;
-        var turnA = Exact.Concatenate(Exact.Conjugate(orientationA), currentA);
-        var turnB = Exact.Concatenate(Exact.Conjugate(orientationB), currentB);
-        var aIsLarger = reachA > reachB;
-        var displacement = Displacement(offsetB, aIsLarger ? turnA : turnB, aIsLarger ? turnB : turnA, aIsLarger ? reachB : reachA);
-        if (manifold.Count == 0)
+        FindPose(offsetB, currentA, currentB, out var currentTurn, out var currentOffset);
+        var translation = currentOffset - offset;
+        var displacement = Exact.Length(translation) + reach * Displacement(currentTurn);
+        if (contactCount == 0)
         {
-            if (!(displacement + speculativeMargin < -depth - Rounding * (reachA + reachB)))
+            if (!(displacement + speculativeMargin < room))
                 return false;
             result.Count = 0;
             result.OffsetB = offsetB;
             result.Normal = default;
             return true;
         }
-        var allowed = Tolerance * (aIsLarger ? reachB : reachA);
-        if (!(displacement < allowed && (speculativeMargin <= margin || speculativeMargin <= allowed)))
+        var allowed = Tolerance * reach;
+        if (!(displacement < allowed && (speculativeMargin <= room || speculativeMargin <= allowed)))
             return false;
-        Carry(offsetB, turnA, turnB, aIsLarger, ref result);
+        Carry(offsetB, translation, currentTurn, aIsLarger ? currentA : currentB, ref result);
         return true;
     }
+
+    static float* SearchOf(PairHistory* histories) => (float*)&histories->Search;
 
     static int SearchRowCount => sizeof(DepthSearchState) / (Rows8.Count * sizeof(float));
 
@@ -125,7 +168,7 @@ unsafe struct PairHistory
         Unsafe.SkipInit(out state);
         ref var target = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref state);
         for (int i = 0; i < SearchRowCount; ++i)
-            Unsafe.Add(ref target, i) = Transpose.Gather((float*)histories + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
+            Unsafe.Add(ref target, i) = Transpose.Gather(SearchOf(histories) + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
     }
 
     /// <summary>Writes the state of the search of each lane that has a history.</summary>
@@ -135,44 +178,51 @@ unsafe struct PairHistory
             return;
         ref var source = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref Unsafe.AsRef(in state));
         for (int i = 0; i < SearchRowCount; ++i)
-            Transpose.Scatter(Unsafe.Add(ref source, i), (float*)histories + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
+            Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
     }
 
-    /// <summary>Upper bound of how far any point of the smaller shape has moved, as the larger one sees it.</summary>
+    /// <summary>Pose of the smaller shape in the frame of the larger.</summary>
+    readonly void FindPose(in Vector3 offsetB, in Quaternion turnA, in Quaternion turnB, out Quaternion relative, out Vector3 place)
+    {
+        var toLarger = Exact.Conjugate(aIsLarger ? turnA : turnB);
+        relative = Exact.Concatenate(aIsLarger ? turnB : turnA, toLarger);
+        place = Exact.Rotate(aIsLarger ? offsetB : -offsetB, toLarger);
+    }
+
+    /// <summary>Upper bound of how far a point of the smaller shape at a distance of one has moved by rotation, as the larger one sees it.</summary>
     // Unit quaternions q and r that differ by a rotation of t have |q - r| = 2 sin(t / 4); a point at a distance of 1 moves by
     // 2 sin(t / 2) = 4 sin(t / 4) cos(t / 4) <= 2 |q - r|. A dot product near one would lose the angle to rounding.
-    readonly float Displacement(in Vector3 offsetB, in Quaternion turnLarger, in Quaternion turnSmaller, float reachSmaller)
+    readonly float Displacement(in Quaternion current)
     {
-        var translation = Exact.Distance(offsetB, Exact.Rotate(manifold.OffsetB, turnLarger));
-        var sign = Exact.Dot(turnLarger, turnSmaller) < 0 ? -1f : 1f;
-        var x = turnLarger.X - sign * turnSmaller.X;
-        var y = turnLarger.Y - sign * turnSmaller.Y;
-        var z = turnLarger.Z - sign * turnSmaller.Z;
-        var w = turnLarger.W - sign * turnSmaller.W;
-        return translation + 2 * reachSmaller * MathF.Sqrt(x * x + y * y + z * z + w * w);
+        var sign = Exact.Dot(turn, current) < 0 ? -1f : 1f;
+        var x = current.X - sign * turn.X;
+        var y = current.Y - sign * turn.Y;
+        var z = current.Z - sign * turn.Z;
+        var w = current.W - sign * turn.W;
+        return 2 * MathF.Sqrt(x * x + y * y + z * z + w * w);
     }
 
-    // Each contact is a point of A's surface and one of B's, half its depth to either side.
-    readonly void Carry(in Vector3 offsetB, in Quaternion turnA, in Quaternion turnB, bool aIsLarger, ref ConvexContactManifold result)
+    // Each contact is a point of the larger shape's surface and one of the smaller's, half its depth to either side.
+    readonly void Carry(in Vector3 offsetB, in Vector3 translation, in Quaternion currentTurn, in Quaternion larger, ref ConvexContactManifold result)
     {
-        Matrix3x3.CreateFromQuaternion(turnA, out var rotationA);
-        Matrix3x3.CreateFromQuaternion(turnB, out var rotationB);
-        var normal = manifold.Normal;
-        result.Count = manifold.Count;
+        Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(turn), currentTurn), out var rotation);
+        Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
+        result.Count = contactCount;
         result.OffsetB = offsetB;
-        Matrix3x3.Transform(normal, aIsLarger ? rotationA : rotationB, out result.Normal);
-        var source = manifold;
-        for (int i = 0; i < manifold.Count; ++i)
+        Matrix3x3.Transform(normal, toWorld, out result.Normal);
+        // From the larger shape's surface to the smaller one's where they touch.
+        var across = aIsLarger ? normal : -normal;
+        var center = aIsLarger ? offsetB : default;
+        for (int i = 0; i < contactCount; ++i)
         {
-            ref readonly var contact = ref ConvexContactManifold.GetConvexContactReference(ref source, i);
             ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, i);
-            var halfway = normal * (contact.Depth * 0.5f);
-            Matrix3x3.Transform(contact.Offset - halfway, rotationA, out var pointA);
-            Matrix3x3.Transform(contact.Offset + halfway - manifold.OffsetB, rotationB, out var pointB);
-            pointB += offsetB;
-            carried.Offset = (pointA + pointB) * 0.5f;
-            carried.Depth = Exact.Dot(pointB - pointA, result.Normal);
-            carried.FeatureId = contact.FeatureId;
+            var halfway = across * (depths[i] * 0.5f);
+            var onLarger = places[i] - halfway - translation;
+            Matrix3x3.Transform(places[i] + halfway, rotation, out var onSmaller);
+            Matrix3x3.Transform((onLarger + onSmaller) * 0.5f, toWorld, out var place);
+            carried.Offset = place + center;
+            carried.Depth = Exact.Dot(onSmaller - onLarger, across);
+            carried.FeatureId = features[i];
         }
     }
 }

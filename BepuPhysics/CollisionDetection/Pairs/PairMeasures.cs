@@ -12,6 +12,8 @@ struct PairMeasures
     public float ReachA;
     /// <summary>Distance from B's centre to the farthest point of B, m.</summary>
     public float ReachB;
+    /// <summary>Number of support points that the search took.</summary>
+    public int Evaluations;
 }
 
 /// <summary>A bundle of <see cref="PairMeasures"/>.</summary>
@@ -23,4 +25,6 @@ struct PairMeasuresWide : IWide<PairMeasures>
     public Vector<float> ReachA;
     /// <inheritdoc cref="PairMeasures.ReachB"/>
     public Vector<float> ReachB;
+    /// <inheritdoc cref="PairMeasures.Evaluations"/>
+    public Vector<int> Evaluations;
 }

@@ -30,8 +30,10 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     {
         Unsafe.SkipInit(out manifold);
         pose.GetLocal(out var axesA, out var localAxesB, out var localOffsetB);
+        var effort = default(SearchEffort);
         DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Find(
-            a, b, localOffsetB, localAxesB, speculativeMargin, ref state, out var found);
+            a, b, localOffsetB, localAxesB, speculativeMargin, ref state, ref effort, out var found);
+        measures.Evaluations = effort.Evaluations;
         measures.Depth = found.Depth;
         measures.ReachA = Reach<TShapeWideA, TSupportA>(a);
         measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
