@@ -26,7 +26,9 @@ public static class RunResultJson
         json.WriteNumber("dt", result.StepDuration);
         json.WriteNumber("substeps", result.Substeps);
         json.WriteNumber("iterations", result.Iterations);
-        json.WriteNumber("relaxations", result.Relaxations);
+        // What other engines do not have is there only where it was asked for.
+        if (result.Relaxations > 0)
+            json.WriteNumber("relaxations", result.Relaxations);
         json.WriteNumber("threads", result.Threads);
         json.WriteNumber("lanes", result.Lanes);
         json.WriteNumber("seed", result.Seed);
