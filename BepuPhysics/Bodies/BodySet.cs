@@ -130,6 +130,7 @@ public struct BodySet
             IndexToHandle[index] = IndexToHandle[last];
             MotionStates[index] = MotionStates[last];
             LocalInertias[index] = LocalInertias[last];
+            WorldInertias[index] = WorldInertias[last];
             Displacements[index] = Displacements[last];
             Origins[index] = Origins[last];
             if (Stiffness.Allocated)

@@ -32,7 +32,7 @@ public struct SpringSettings
         TwiceDampingRatio = dampingRatio * 2;
     }
 
-    /// <summary>Frequency of rigid joints, and upper limit of every joint's, in periods per substep.</summary>
+    /// <summary>Frequency of rigid joints in periods per substep; without relaxations, the upper limit of every joint's.</summary>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
     /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
     // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either
@@ -43,7 +43,7 @@ public struct SpringSettings
         return MathF.Min(MathF.Min(0.125f * sweeps, 0.0625f * (sweeps + 3)), MaximumCycles);
     }
 
-    /// <summary>Frequency of rigid contacts, and upper limit of every contact's, in periods per substep.</summary>
+    /// <summary>Frequency of rigid contacts in periods per substep; without relaxations, the upper limit of every contact's.</summary>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
     /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
     // The worst case is a heap of many boxes: pyramids of 20 layers stay where they are with these values, and begin to shift at 0.25 with
@@ -96,7 +96,7 @@ public struct SpringSettingsWide : IWide<SpringSettings>
         var rigid = Vector.Equals(given, Vector<float>.Zero);
         if (substep.IsRelaxation)
             return new() { MassScale = Wide.Mask(rigid, Vector<float>.One) };
-        var stiffest = new Vector<float>(limits.StiffestFrequencyDt);
+        var stiffest = new Vector<float>(limits.GreatestFrequencyDt);
         var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(limits.RigidFrequencyDt), Wide.Min(given, stiffest));
         var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(2), TwiceDampingRatio);
         var product = frequencyDt * sum;

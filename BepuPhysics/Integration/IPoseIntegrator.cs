@@ -11,10 +11,8 @@ enum IntegrationStage
     Poses,
     /// <summary>The substep before has been relaxed, and the next begins: velocities only.</summary>
     Velocities,
-    /// <summary>The step ends: poses only.</summary>
+    /// <summary>The step ends without relaxation: poses only.</summary>
     Last,
-    /// <summary>The step ends and will be relaxed: poses, and the inertias that go with them.</summary>
-    LastPoses,
 }
 
 /// <summary>Moves bodies by their velocities, and velocities by what the game's callbacks say.</summary>

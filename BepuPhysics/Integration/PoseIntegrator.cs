@@ -55,8 +55,6 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 Begin(origins, displacements, indices, pose.Position);
             else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
-            if (stage >= IntegrationStage.Last)
-                End(origins, displacements, indices, pose.Position);
             if (stage == IntegrationStage.Last)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation.
@@ -64,7 +62,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 continue;
             }
             var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
-            if (stage is IntegrationStage.Poses or IntegrationStage.LastPoses)
+            if (stage == IntegrationStage.Poses)
             {
                 // A sweep with inertias from before the turn would give energy to bodies that spin.
                 if (stiffness.Allocated)
@@ -141,17 +139,18 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             Vector.Equals(i.ZX, zero) & Vector.Equals(i.ZY, zero) & Vector.Equals(i.ZZ, zero);
     }
 
-    // A position that is not what the last step wrote was written since: nothing is left over from the step before.
+    // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
     {
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);
-        var kept = Vector.Equals(origin.R0, position.X) & Vector.Equals(origin.R1, position.Y) & Vector.Equals(origin.R2, position.Z);
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        var kept = Vector.Equals(origin.R0 + row.R0, position.X) & Vector.Equals(origin.R1 + row.R1, position.Y) &
+            Vector.Equals(origin.R2 + row.R2, position.Z);
         Rows8 start = default;
-        start.R0 = Wide.Mask(kept, row.R0);
-        start.R1 = Wide.Mask(kept, row.R1);
-        start.R2 = Wide.Mask(kept, row.R2);
+        start.R0 = Wide.Mask(kept, LeftOver(origin.R0, row.R0, position.X));
+        start.R1 = Wide.Mask(kept, LeftOver(origin.R1, row.R1, position.Y));
+        start.R2 = Wide.Mask(kept, LeftOver(origin.R2, row.R2, position.Z));
         Transpose.Scatter(start, displacements, FloatsPerRow, indices);
         origin.R0 = position.X;
         origin.R1 = position.Y;
@@ -168,21 +167,6 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     {
         var second = sum - a;
         return (a - (sum - second)) + (b - second);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void End(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
-    {
-        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
-        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
-        row.R0 = LeftOver(origin.R0, row.R0, position.X);
-        row.R1 = LeftOver(origin.R1, row.R1, position.Y);
-        row.R2 = LeftOver(origin.R2, row.R2, position.Z);
-        Transpose.Scatter(row, displacements, FloatsPerRow, indices);
-        origin.R0 = position.X;
-        origin.R1 = position.Y;
-        origin.R2 = position.Z;
-        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

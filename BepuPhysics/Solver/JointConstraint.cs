@@ -61,7 +61,7 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-        var softness = TJoint.Spring(prestep).ForSubstep(substep, substep.Joints);
+        var softness = TJoint.Spring(prestep).ForSubstep(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
 
         var wanted = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)

@@ -164,7 +164,7 @@ public sealed unsafe partial class Solver
                 AddSweep(ref work, StageKind.Solve, substep);
             AddOptional(ref work, SolverPoint.AfterSolve, substep);
             if (relaxes)
-                AddIntegration(ref work, substep == substepCount - 1 ? IntegrationStage.LastPoses : IntegrationStage.Poses, substep);
+                AddIntegration(ref work, IntegrationStage.Poses, substep);
             for (int i = relaxationIterationCount; i > 0; --i)
                 AddSweep(ref work, StageKind.Relax, substep);
             if (SubstepEnded is not null)

@@ -45,10 +45,10 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         }
         if ((access & BodyAccess.Displacement) != 0)
         {
-            // Nothing has moved yet in the first substep.
+            // Nothing has moved yet while the first substep is solved.
             body.Translation = default;
             body.Rotation = default;
-            if (substep.Index > 0)
+            if (substep.Index > 0 || substep.IsRelaxation)
             {
                 var row = Transpose.Gather(displacements, FloatsPerRow, references);
                 body.Translation = new(row.R0, row.R1, row.R2);

@@ -19,8 +19,10 @@ public readonly struct Substep
     /// <summary>Whether the sweep comes after the bodies have moved, and brings rigid constraints to rest without correcting positions.</summary>
     public readonly bool IsRelaxation;
 
-    /// <summary>How stiff joints may be.</summary>
+    /// <summary>How stiff joints may be that are no servos.</summary>
     public readonly SubstepStiffness Joints;
+    /// <summary>How stiff servos may be.</summary>
+    public readonly SubstepStiffness Servos;
     /// <summary>How stiff contacts may be.</summary>
     public readonly SubstepStiffness Contacts;
 
@@ -36,8 +38,11 @@ public readonly struct Substep
         int index, float dt, float warmStartScale = 1, int iterations = 1, int relaxations = 0, bool isRelaxation = false, float steadyDt = 0)
     {
         var steadiness = dt / MathF.Max(dt, steadyDt);
-        Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations), steadiness);
-        Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations), steadiness);
+        // Relaxations leave servos and what a game gave a frequency alone, and so do nothing for how stiff these may be.
+        var unrelaxed = SpringSettings.JointCyclesPerSubstep(iterations);
+        Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations) * steadiness, unrelaxed);
+        Servos = new(unrelaxed * steadiness, unrelaxed);
+        Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations) * steadiness, SpringSettings.ContactCyclesPerSubstep(iterations));
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;
@@ -47,12 +52,12 @@ public readonly struct Substep
 }
 
 /// <summary>How stiff one kind of constraint may be in a substep.</summary>
-/// <param name="cyclesPerSubstep">Greatest frequency at which the sweeps of the substep are stable, in periods per substep.</param>
-/// <param name="steadiness">Part of it that rigid constraints have; less than 1 after longer substeps.</param>
-public readonly struct SubstepStiffness(float cyclesPerSubstep, float steadiness)
+/// <param name="rigidCycles">Frequency of rigid constraints, in periods per substep.</param>
+/// <param name="greatestCycles">Upper limit of frequencies that a game gives, in periods per substep.</param>
+public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
 {
-    /// <summary>Angular frequency of rigid constraints times the length of the substep; at most <see cref="StiffestFrequencyDt"/>.</summary>
-    public readonly float RigidFrequencyDt = MathF.Tau * cyclesPerSubstep * steadiness;
-    /// <summary>Greatest angular frequency times the length of the substep at which its sweeps are stable.</summary>
-    public readonly float StiffestFrequencyDt = MathF.Tau * cyclesPerSubstep;
+    /// <summary>Angular frequency of rigid constraints times the length of the substep. Less after longer substeps, and more with relaxations.</summary>
+    public readonly float RigidFrequencyDt = MathF.Tau * rigidCycles;
+    /// <summary>Greatest angular frequency that a game may give, times the length of the substep: at it the sweeps are stable without relaxations.</summary>
+    public readonly float GreatestFrequencyDt = MathF.Tau * greatestCycles;
 }

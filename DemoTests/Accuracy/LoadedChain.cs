@@ -19,14 +19,15 @@ sealed class LoadedChain
     /// <param name="start">How it begins.</param>
     /// <param name="linkCount">Number of links without the load.</param>
     /// <param name="load">Mass at the end, kg.</param>
-    public LoadedChain(AccuracyWorld world, ChainStart start, int linkCount, float load)
+    /// <param name="spring">Of the joints; null for that of the world.</param>
+    public LoadedChain(AccuracyWorld world, ChainStart start, int linkCount, float load, SpringSettings? spring = null)
     {
         this.world = world;
         this.load = load;
         links = new BodyHandle[linkCount + 1];
         bool hanging = start is ChainStart.HangingStraight or ChainStart.HangingKicked;
         var straight = hanging ? -Vector3.UnitY : Vector3.UnitX;
-        var spring = world.Settings.Spring;
+        var stiffness = spring ?? world.Settings.Spring;
         var link = new Capsule(.05f, LinkLength - .1f);
         var joint = world.AddAnchor(Vector3.Zero);
         var jointOffset = Vector3.Zero;
@@ -40,7 +41,7 @@ sealed class LoadedChain
             float half = LinkLength / 2;
             var pose = new RigidPose(end + direction * half, orientation);
             links[i] = i < linkCount ? world.AddDynamic(link, 1, pose) : world.AddDynamic(new Sphere(half), load, pose);
-            var socket = new BallSocket { LocalOffsetA = jointOffset, LocalOffsetB = new Vector3(0, half, 0), SpringSettings = spring };
+            var socket = new BallSocket { LocalOffsetA = jointOffset, LocalOffsetB = new Vector3(0, half, 0), SpringSettings = stiffness };
             world.Simulation.Solver.Add(joint, links[i], socket);
             (joint, jointOffset) = (links[i], new Vector3(0, -half, 0));
             end += direction * LinkLength;

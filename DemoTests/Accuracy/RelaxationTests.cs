@@ -136,6 +136,64 @@ public class RelaxationTests(ITestOutputHelper output)
         }
     }
 
+    /// <summary>
+    /// A spring that is stiffer than a substep can hold is cut down to what its sweeps hold, and relaxations sweep no springs: turning them on
+    /// must not let a chain of such springs swing up.
+    /// </summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(1)]
+    [InlineData(4)]
+    public void Springs_that_are_cut_down_stay_stable(int relaxations)
+    {
+        var settings = new AccuracySettings { RelaxationCount = relaxations, Contacts = ContactScope.None };
+        using var world = new AccuracyWorld(settings);
+        var chain = new LoadedChain(world, ChainStart.HangingStraight, linkCount: 60, load: 1, new SpringSettings(1000, 1));
+        double start = chain.Energy, highest = start;
+        world.Run(10, () => highest = Tally.Most(highest, chain.Energy));
+        Assert.True(highest - start < 1e-6 * Math.Abs(start), $"energy rose from {start} to {highest}");
+    }
+
+    /// <summary>
+    /// A box that tips over its edge keeps pushing on the ground at the end of each step, as the edge does not leave it; and its edge does not
+    /// sink: relaxation has to know how far bodies have moved, in the first substep and in the last.
+    /// </summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(4)]
+    [InlineData(16)]
+    public void A_tipping_box_keeps_its_load(int substeps)
+    {
+        var settings = new AccuracySettings { SubstepCount = substeps, RelaxationCount = 1, Friction = 1 };
+        using var world = new AccuracyWorld(settings);
+        world.AddGround();
+        // Balanced over an edge, but for 0.1 rad.
+        var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitZ, float.Pi / 4 - .1f);
+        float height = MathF.Sqrt(.5f) * MathF.Cos(.1f);
+        var box = world.AddDynamic(new Box(1, 1, 1), 1, new RigidPose(new Vector3(0, height, 0), turn));
+        world.Run(.2);
+        int loaded = 0, steps = 0;
+        while (world.Time < .8)
+        {
+            world.Step(settings.Dt);
+            ++steps;
+            ref var set = ref world.Simulation.Solver.ActiveSet;
+            double load = 0;
+            for (int batch = 0; batch < set.Batches.Count; ++batch)
+            {
+                ref var typeBatch = ref set.Batches[batch].TypeBatches[0];
+                var processor = world.Simulation.Solver.TypeProcessors[typeBatch.TypeId]!;
+                // Before friction's three numbers and that of the twist.
+                for (int i = 0; i < processor.ImpulseFloats - 4; ++i)
+                    load += processor.Impulse(ref typeBatch, 0, i);
+            }
+            if (load > .2 * 9.81 * settings.SubstepDuration)
+                ++loaded;
+        }
+        output.WriteLine($"{loaded} of {steps} steps end with a load");
+        Assert.True(loaded >= .9 * steps, $"only {loaded} of {steps} steps end with a load");
+    }
+
     [Fact]
     public void A_heap_of_boxes_stays_where_it_is()
     {

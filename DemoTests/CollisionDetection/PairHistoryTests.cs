@@ -205,7 +205,12 @@ public class PairHistoryTests
     }
 
     [Fact]
-    public unsafe void A_history_is_made_of_whole_rows() => Assert.Equal(0, sizeof(PairHistory) % (Rows8.Count * sizeof(float)));
+    public unsafe void A_history_is_four_cache_lines_and_its_search_begins_the_second()
+    {
+        Assert.Equal(256, sizeof(PairHistory));
+        var history = default(PairHistory);
+        Assert.Equal(64, (byte*)&history.Search - (byte*)&history);
+    }
 
     static Vector3 Transform(Vector3 point, in RigidPose motion) => Exact.Rotate(point, motion.Orientation) + motion.Position;
 

@@ -35,6 +35,19 @@ public class BodyReferenceTests
         Assert.Equal(local.ZZ, turned.ZZ, 1e-5f * local.ZZ);
     }
 
+    [Fact]
+    public void A_body_that_moves_in_memory_takes_its_dynamics_along()
+    {
+        using var world = new AccuracyWorld(new AccuracySettings { Gravity = default });
+        var first = world.AddDynamic(new Sphere(1), 1, new RigidPose(new Vector3(9, 0, 0)));
+        var last = world.AddDynamic(new Box(1, 2, 3), 2, RigidPose.Identity);
+        world.Step(1 / 60f);
+        var before = world.Bodies[last].Dynamics.Inertia.World;
+        world.Bodies.Remove(first);
+        Assert.Equal(before, world.Bodies[last].Dynamics.Inertia.World);
+        Assert.Equal(.5f, before.InverseMass);
+    }
+
     /// <summary>Momentum and angular momentum, in double precision, rise by the impulse and its moment, whichever way it is applied.</summary>
     [Fact]
     public void Impulses_change_momenta_by_themselves()

@@ -150,7 +150,10 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         if (!shapeIndexA.Exists || !shapeIndexB.Exists)
             RefuseShapes(shapeIndexA, shapeIndexB);
-        var task = registry.GetTask(shapeIndexA.Type, shapeIndexB.Type, out var taskIndex, out var flipped);
+        // What is refused takes no memory, and of a shape that was never there the type says nothing. Later pairs are looked up by the task alone.
+        if (!registry.TryGetTask(shapeIndexA.Type, shapeIndexB.Type, out var task, out var taskIndex, out var flipped) || !HasBatch(taskIndex))
+            CheckShapes(shapeIndexA, shapeIndexB);
+        task ??= registry.GetTask(shapeIndexA.Type, shapeIndexB.Type, out taskIndex, out flipped);
         ref var batch = ref GetBatch(task, taskIndex);
         var pair = new PairInput(speculativeMargin, pairId, flipped, PairInput.NoHistory);
         // The task looks for the shapes in any case.
@@ -174,7 +177,7 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
     /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
     /// <param name="pairId">Id that the callbacks get with the result.</param>
-    /// <param name="history">Index of the pair's history, or <see cref="PairInput.NoHistory"/>.</param>
+    /// <param name="history">Reference to the pair's history (<see cref="PairHistory.GetReference"/>), or <see cref="PairInput.NoHistory"/>.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, int history)
@@ -233,9 +236,12 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly bool HasBatch(int taskIndex) => taskIndex < batches.Length && batches[taskIndex].Bundles.Allocated;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     ref PairBatch GetBatch(CollisionTask task, int taskIndex)
     {
-        if (taskIndex >= batches.Length || !batches[taskIndex].Bundles.Allocated)
+        if (!HasBatch(taskIndex))
             TakeBatch(task, taskIndex);
         CheckNotExecuting();
         return ref batches[taskIndex];
@@ -284,6 +290,13 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         squares += Vector128.Shuffle(squares, Vector128.Create(2, 3, 0, 1));
         squares += Vector128.Shuffle(squares, Vector128.Create(1, 0, 3, 2));
         return Vector128.LessThan(Vector128.Abs(squares - Vector128<float>.One), Vector128.Create(UnitTolerance));
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void CheckShapes(TypedIndex shapeIndexA, TypedIndex shapeIndexB)
+    {
+        if (!Shapes.Exists(shapeIndexA) || !Shapes.Exists(shapeIndexB))
+            RefuseShapes(shapeIndexA, shapeIndexB);
     }
 
     [DoesNotReturn]

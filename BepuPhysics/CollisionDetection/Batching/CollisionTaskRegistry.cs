@@ -60,6 +60,16 @@ public sealed class CollisionTaskRegistry
         return task is not null;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal bool TryGetTask(int shapeTypeA, int shapeTypeB, [NotNullWhen(true)] out CollisionTask? task, out int taskIndex, out bool flipped)
+    {
+        var reference = Find(shapeTypeA, shapeTypeB);
+        taskIndex = reference >> 1;
+        flipped = (reference & 1) != 0;
+        task = reference < 0 ? null : tasks[taskIndex];
+        return task is not null;
+    }
+
     /// <summary>Finds the task of a pair of shape types that is known to have one, and whether the types are in its order.</summary>
     /// <exception cref="InvalidOperationException">There is no such task.</exception>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

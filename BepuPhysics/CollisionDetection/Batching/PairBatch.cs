@@ -28,7 +28,7 @@ readonly struct PairInput(float speculativeMargin, int pairId, bool flipped, int
     /// <summary>Reference to the pair's history (<see cref="PairHistory.GetReference"/>); <see cref="NoHistory"/> where it has none.</summary>
     public readonly int History = history;
 
-    /// <summary>Index that no history has.</summary>
+    /// <summary>Reference that no history has.</summary>
     public const int NoHistory = -1;
 }
 

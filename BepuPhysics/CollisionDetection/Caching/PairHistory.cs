@@ -17,8 +17,8 @@ namespace BepuPhysics.CollisionDetection;
 // What carrying contacts along costs in accuracy: a vertex that rests on a face is followed exactly, as the face turns with its body;
 // other features slide by the square of the angle, which the tolerance bounds to 1e-6 of the size. The normal turns with the larger
 // shape; where it belongs to the smaller, it lags by up to Tolerance rad until the next test.
-// Everything is in the axes of the larger shape, as seen from the centre of the smaller: these are short distances, even on a floor of
-// a kilometre.
+// Everything is in the axes of the larger shape, as seen from the centre of the smaller: contacts are short distances then, even on a floor
+// of a kilometre.
 // Four cache lines. The first decides whether there will be a test, and all that a pair without contacts needs. What comes then is
 // gathered and scattered as bundles, so that the size is a multiple of a row of eight floats.
 [StructLayout(LayoutKind.Sequential, Size = 4 * CacheLine)]

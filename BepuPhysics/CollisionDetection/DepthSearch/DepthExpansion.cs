@@ -267,7 +267,7 @@ unsafe struct DepthExpansion
             probed = GetProbe();
         else if (probedDistance <= LeastDistance * span)
             // No thicker than this across some direction, which has just been looked along both ways.
-            Finish(rounding == 0 ? ExpansionEnd.Flat : best - rounding <= slack ? ExpansionEnd.Certified : ExpansionEnd.Limit);
+            Finish(rounding == 0 ? ExpansionEnd.Flat : best - (rounding - DistanceToFirstEdge()) <= slack ? ExpansionEnd.Certified : ExpansionEnd.Limit);
         else if (++cornerCount < 4)
             StartProbing();
         else
@@ -276,6 +276,18 @@ unsafe struct DepthExpansion
             phase = Phase.Expand;
             Choose();
         }
+    }
+
+    /// <summary>Distance of the origin from the first corner, or from the edge to the second if there is one.</summary>
+    readonly double DistanceToFirstEdge()
+    {
+        var start = polytope[0].Point;
+        if (cornerCount == 1)
+            return start.Length;
+        var edge = polytope[1].Point - start;
+        var place = -DoubleVector3.Dot(start, edge) / DoubleVector3.Dot(edge, edge);
+        place = place < 0 ? 0 : place > 1 ? 1 : place;
+        return (start - edge * -place).Length;
     }
 
     readonly double DistanceFromCorners(in DoubleVector3 point)
@@ -340,7 +352,9 @@ unsafe struct DepthExpansion
     void Choose()
     {
         face = polytope.FindLeast();
-        var bound = polytope.Priority(face) + rounding;
+        var height = polytope.Priority(face);
+        // Outside of smaller cores the origin is farther from them than from the plane: there they bound nothing.
+        var bound = rounding > 0 && height < 0 ? double.NegativeInfinity : height + rounding;
         if (best - bound <= slack || bound >= wanted)
         {
             if (!hasSeed && bound < double.PositiveInfinity)

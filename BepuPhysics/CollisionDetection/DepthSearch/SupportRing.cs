@@ -86,17 +86,21 @@ struct SupportRing
     public readonly Vector3Wide Tilt(in Vector3Wide tangent) => (normal + tangent) * tiltedScale;
 
     /// <summary>Lanes in which no direction can be less deep than the bound.</summary>
+    // Four points that are one are no ring: all its sides would pass for want of triangles.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly Vector<int> Certifies() => Mask & IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
+    public readonly Vector<int> Certifies() => Mask & ~(AreOne(Vertex0.Point, Vertex1.Point) & AreOne(Vertex0.Point, Vertex2.Point)) & IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
         IsBeyond(Vertex2.Point, Vertex3.Point) & IsBeyond(Vertex3.Point, Vertex0.Point);
 
     /// <summary>Whether the triangles above and below a side of the ring are far enough from the origin. Two points that are one have none.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly Vector<int> IsBeyond(in Vector3Wide from, in Vector3Wide to) =>
-        (Vector.Equals(from.X, to.X) & Vector.Equals(from.Y, to.Y) & Vector.Equals(from.Z, to.Z)) |
-        (IsBeyond(top, from, to) & IsBeyond(bottom, to, from));
+        AreOne(from, to) | (IsBeyond(top, from, to) & IsBeyond(to, from, bottom));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
 
     /// <summary>Whether the origin is far enough inside of a triangle that is counterclockwise seen from outside.</summary>
+    // The first corner is one that is near: a plane that is measured from a far one has that corner's rounding.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly Vector<int> IsBeyond(in Vector3Wide a, in Vector3Wide b, in Vector3Wide c)
     {

@@ -235,7 +235,7 @@ struct BoxTriangleAxes
             var offset = onBox - point;
             // From an inner point of the edge the way is across it. What is left along it is rounding, which a long edge multiplies.
             var isInner = Vector.GreaterThan(place, Vector<float>.Zero) & Vector.LessThan(place, Vector<float>.One);
-            offset -= edge * Wide.Mask(isInner, Vector3Wide.Dot(offset, edge) / edge.LengthSquared());
+            offset -= edge * Wide.Mask(isInner, Wide.DivideOrZero(Vector3Wide.Dot(offset, edge), edge.LengthSquared()));
             var squared = offset.LengthSquared();
             var nearer = Vector.LessThan(squared, SquaredDistance);
             SquaredDistance = Wide.Select(nearer, squared, SquaredDistance);

@@ -110,7 +110,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
         ref var triangle = ref scratch.Triangle;
         pose.GetLocal(out scratch.Axes, out scratch.AxesB, out scratch.OffsetB);
-        triangle.PlaceThin(b, scratch.AxesB, scratch.OffsetB);
+        triangle.PlaceThin(b, scratch.AxesB, scratch.OffsetB, out scratch.Height);
         PrepareSides(a, b, ref scratch);
         VisitEdge(triangle.A, triangle.AB, triangle.CA, a.HalfLength, b.TwoSidedMask, ref scratch);
         VisitEdge(triangle.B, triangle.BC, triangle.AB, a.HalfLength, b.TwoSidedMask, ref scratch);
@@ -135,7 +135,6 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         PrepareSide(triangle.C, triangle.CA, triangle.Front, ref scratch.CA);
         scratch.Size = a.HalfLength + a.Radius +
             Vector.SquareRoot(Wide.Max(Wide.Max(b.A.LengthSquared(), b.B.LengthSquared()), b.C.LengthSquared()));
-        scratch.Height = -Vector3Wide.Dot(triangle.Front, triangle.A);
         ref var search = ref scratch.Search;
         search.Distance = search.AxisScore = new Vector<float>(float.MaxValue);
         search.Nearest = search.AxisPlace = search.Shown = search.AxisX = search.AxisZ = search.AxisInverseSquared = Vector<float>.Zero;
@@ -190,7 +189,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var normal = Vector3Wide.Select(useEdge, new(search.AxisX * inverseAxis, zero, search.AxisZ * inverseAxis), faceNormal);
 
         var beyondAxis = offset - normal * Wide.Max(-coreDepth, zero);
-        var usePoint = Vector.GreaterThan(beyondAxis.Length(), tolerance);
+        var usePoint = Vector.AndNot(Vector.GreaterThan(beyondAxis.Length(), tolerance), crosses);
         normal = Vector3Wide.Select(usePoint, offset * (Vector<float>.One / distance), normal);
         scratch.Normal = normal;
         scratch.PairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
@@ -305,7 +304,8 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
 
     /// <summary>Keeps the shorter offset; of two that are equally long to rounding, that along which the shapes are farther apart.</summary>
     // Around the nearest points the distance hardly changes, so it tells them to the square root of its rounding only. How far the shapes are
-    // apart along the offset, scaled by its length here, is never more than the distance, and falls short of it as the direction goes wrong.
+    // apart along the offset is never more than the distance, and falls short of it as the direction goes wrong. It comes scaled by the
+    // offset's length.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Keep(in Vector3Wide offset, Vector<float> distance, Vector<float> place, Vector<float> shown, Vector<int> mask,
         ref Scratch scratch)
@@ -314,7 +314,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var tolerance = scratch.Size * new Vector<float>(SameDistance);
         var shorter = Vector.LessThan(distance, search.Distance - tolerance);
         var asShort = Vector.LessThan(distance, search.Distance + tolerance);
-        var better = (shorter | (asShort & Vector.GreaterThan(shown, search.Shown))) & mask;
+        var better = (shorter | (asShort & Vector.GreaterThan(shown * search.Distance, search.Shown * distance))) & mask;
         search.Offset = Vector3Wide.Select(better, offset, search.Offset);
         search.Distance = Wide.Select(better, distance, search.Distance);
         search.Nearest = Wide.Select(better, place, search.Nearest);

@@ -31,11 +31,15 @@ struct PlacedTriangleWide
     /// <param name="triangle">Triangles in their own frames.</param>
     /// <param name="axes">Axes of the triangles, in the rows.</param>
     /// <param name="offset">Positions of the triangles.</param>
+    /// <param name="height">Height of the frame's origin over the planes of the triangles.</param>
+    // Of the height, too, the part that the triangle has in its own frame is found there: corners that are far away bring their rounding along.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void PlaceThin(in TriangleWide triangle, in Matrix3x3Wide axes, in Vector3Wide offset)
+    public void PlaceThin(in TriangleWide triangle, in Matrix3x3Wide axes, in Vector3Wide offset, out Vector<float> height)
     {
         PlaceCorners(triangle, axes, offset);
-        Front = Matrix3x3Wide.TransposeTimes(axes, triangle.GetNormal());
+        var normal = triangle.GetNormal();
+        Front = Matrix3x3Wide.TransposeTimes(axes, normal);
+        height = -(Vector3Wide.Dot(normal, triangle.A) + Vector3Wide.Dot(Front, offset));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
