@@ -41,7 +41,8 @@ public sealed unsafe partial class Solver
 
     /// <summary>Called when a substep begins, before its bodies are integrated. Runs on a worker, while the others wait.</summary>
     public event SubstepEvent? SubstepStarted;
-    /// <summary>Called when the constraints of a substep have been solved. Runs on a worker, while the others wait.</summary>
+    /// <summary>Called when the constraints of a substep have been solved, and relaxed: with relaxations poses are those of its end, else of its beginning. Runs on a
+    /// worker, while the others wait.</summary>
     public event SubstepEvent? SubstepEnded;
 
     enum StageKind
