@@ -55,23 +55,12 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
                 Begin(origins, displacements, indices, pose.Position);
             else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
-            if (stage == IntegrationStage.Last)
+            if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
-                continue;
-            }
-            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
-            if (stage == IntegrationStage.Poses)
-            {
-                // A sweep with inertias from before the turn would give energy to bodies that spin.
-                if (stiffness.Allocated)
-                {
-                    var angular = velocity.Angular;
-                    GeometricStiffness.Apply(ReadStiffness(stiffness, indices), wideDt, ref worldInertia, ref angular);
-                }
-                WriteVelocity(motions, indices, velocity);
-                WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
+                if (stage == IntegrationStage.Poses)
+                    WriteMovedInertia(indices, pose.Orientation, velocity.Angular, wideDt, localInertia);
                 continue;
             }
             var before = velocity.Linear;
@@ -79,6 +68,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
                 KeepLostVelocity(origins, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
+            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
             if (stiffness.Allocated)
             {
                 GeometricStiffness.Apply(ReadStiffness(stiffness, indices), wideDt, ref worldInertia, ref velocity.Angular);
@@ -123,6 +113,18 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         localInertia.InverseMass = row.R6;
     }
 
+    // A relaxation with inertias from before the turn would give energy to bodies that spin. Of no concern to other stages, and out of their way.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void WriteMovedInertia(Vector<int> indices, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
+    {
+        ref var set = ref bodies.ActiveSet;
+        var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
+        // The momentum stays as the solve has left it.
+        if (set.Stiffness.Allocated)
+            GeometricStiffness.Apply(ReadStiffness(set.Stiffness, indices), dt, ref worldInertia, ref angular);
+        WriteWorldInertia((float*)set.WorldInertias.Memory, indices, worldInertia, localInertia.InverseMass);
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Symmetric3x3Wide ReadStiffness(in Buffer<BodyInertia> stiffness, Vector<int> indices)
     {
@@ -140,7 +142,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     }
 
     // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    [MethodImpl(MethodImplOptions.NoInlining)]
     static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
     {
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);
