@@ -88,21 +88,21 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     // Solved for the total impulse with effective mass M:  dl = -M MassScale (v + ErrorToVelocity x) - ImpulseScale lambda.
     //
     // Relaxation takes back the velocity that the correction of position has left behind, and is for what is meant to be rigid: C' = 0
-    // without any softness, which is what the formulas say for an infinite damping ratio. The velocity of a spring that a game asked for is no
-    // correction, and stays: without a frequency MassScale is zero, and so has to be ImpulseScale. All of that is in the limits, as a branch
-    // here costs a joint's sweep a tenth of its time.
+    // without any softness. The velocity of a spring that a game asked for is no correction, and stays.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits)
     {
         var given = AngularFrequency * substep.Dt;
         var rigid = Vector.Equals(given, Vector<float>.Zero);
+        if (substep.IsRelaxation)
+            return new() { MassScale = Wide.Mask(rigid, Vector<float>.One) };
         var stiffest = new Vector<float>(limits.GreatestFrequencyDt);
         var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(limits.RigidFrequencyDt), Wide.Min(given, stiffest));
-        var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(limits.RigidTwiceDampingRatio), TwiceDampingRatio);
+        var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(2), TwiceDampingRatio);
         var product = frequencyDt * sum;
         SoftnessWide softness;
         softness.MassScale = product / (product + Vector<float>.One);
-        softness.ImpulseScale = Vector.ConditionalSelect(rigid, Vector<float>.One, new Vector<float>(limits.GivenImpulsePart)) - softness.MassScale;
+        softness.ImpulseScale = Vector<float>.One - softness.MassScale;
         softness.ErrorToVelocity = frequencyDt * substep.InverseDt / sum;
         return softness;
     }

@@ -40,9 +40,9 @@ public readonly struct Substep
         var steadiness = dt / MathF.Max(dt, steadyDt);
         // Relaxations leave servos and what a game gave a frequency alone, and so do nothing for how stiff these may be.
         var unrelaxed = SpringSettings.JointCyclesPerSubstep(iterations);
-        Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations) * steadiness, unrelaxed, isRelaxation);
-        Servos = new(unrelaxed * steadiness, unrelaxed, isRelaxation);
-        Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations) * steadiness, SpringSettings.ContactCyclesPerSubstep(iterations), isRelaxation);
+        Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations) * steadiness, unrelaxed);
+        Servos = new(unrelaxed * steadiness, unrelaxed);
+        Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations) * steadiness, SpringSettings.ContactCyclesPerSubstep(iterations));
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;
@@ -54,19 +54,10 @@ public readonly struct Substep
 /// <summary>How stiff one kind of constraint may be in a substep.</summary>
 /// <param name="rigidCycles">Frequency of rigid constraints, in periods per substep.</param>
 /// <param name="greatestCycles">Upper limit of frequencies that a game gives, in periods per substep.</param>
-/// <param name="isRelaxation">Whether the sweep only brings rigid constraints to rest.</param>
-public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles, bool isRelaxation)
+public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
 {
-    // Together they leave of the coefficients what no number of a row is large enough for, and what no division makes infinite.
-    const float NoFrequency = 1e-15f;
-    const float GreatDamping = 1e20f;
-
     /// <summary>Angular frequency of rigid constraints times the length of the substep. Less after longer substeps, and more with relaxations.</summary>
     public readonly float RigidFrequencyDt = MathF.Tau * rigidCycles;
     /// <summary>Greatest angular frequency that a game may give, times the length of the substep: at it the sweeps are stable without relaxations.</summary>
-    public readonly float GreatestFrequencyDt = isRelaxation ? NoFrequency : MathF.Tau * greatestCycles;
-    /// <summary>Twice the damping ratio of rigid constraints; so great in a relaxation that it hides positions and impulses.</summary>
-    public readonly float RigidTwiceDampingRatio = isRelaxation ? GreatDamping : 2;
-    /// <summary>What of the impulse of a given frequency the sweep may change: all of it, or nothing in a relaxation.</summary>
-    public readonly float GivenImpulsePart = isRelaxation ? 0 : 1;
+    public readonly float GreatestFrequencyDt = MathF.Tau * greatestCycles;
 }
