@@ -101,7 +101,8 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
     /// <summary>Whether a bundle has no pair.</summary>
     static bool IsEmpty(int start, int firstEmpty, int firstSlow) => start >= firstEmpty && start + Vector<float>.Count <= firstSlow;
 
-    // The lanes between quick and slow pairs have no history, and no shape: one that was there before may have left its memory.
+    // The lanes between quick and slow pairs have no history, and no shape: one that was there before may have left its memory. No distance is
+    // small enough for them, so that nothing waits for them.
     void EmptyLanes(in PairBatch batch, int firstEmpty, int firstSlow)
     {
         for (int i = firstEmpty; i < firstSlow; ++i)
@@ -113,6 +114,7 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             ref var bundle = ref Bundles(batch)[bundleIndex];
             Lanes.Write(default(TShapeA), ref bundle.A, lane);
             Lanes.Write(default(TShapeB), ref bundle.B, lane);
+            Lane(ref bundle.SpeculativeMargin, lane) = float.NegativeInfinity;
         }
     }
 

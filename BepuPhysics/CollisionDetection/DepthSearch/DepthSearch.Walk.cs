@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -32,14 +33,29 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     {
         statistics.Evaluated(activeMask);
         Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out var vertex);
-        var bestDirection = walk.Direction;
-        var best = Wide.Select(activeMask, Vector3Wide.Dot(vertex.Point, bestDirection), walk.Depth);
-        knownMask = Vector.AndNot(knownMask, activeMask & walk.Simplex.IsBeyond(bestDirection, best + frame.Tolerance + frame.Rounding));
+        walk.Depth = Wide.Select(activeMask, Vector3Wide.Dot(vertex.Point, walk.Direction), walk.Depth);
+        knownMask = Vector.AndNot(knownMask, activeMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
         var keepMask = knownMask | Vector.OnesComplement(activeMask);
         walk.Simplex.A.Keep(keepMask, vertex);
         walk.Simplex.B.Keep(keepMask, vertex);
         walk.Simplex.C.Keep(keepMask, vertex);
+        // All stops are comparisons that NaN loses, so that lanes without a pair stop.
+        activeMask &= Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth);
+        if (activeMask == Vector<int>.Zero)
+            return;
         var wholeMask = knownMask & activeMask;
+        if (wholeMask != Vector<int>.Zero)
+        {
+            // The remembered triangle still is what is closest: most pairs that rest are done here.
+            var insideMask = wholeMask & walk.Simplex.FaceOffset(walk.Target(), out var faceOffset);
+            activeMask = Vector.AndNot(activeMask, Vector.AndNot(insideMask, IsFar(frame, faceOffset.Length(), walk.Depth)));
+            if (activeMask == Vector<int>.Zero)
+                return;
+            wholeMask &= activeMask;
+        }
+        var isNew = wholeMask == Vector<int>.Zero;
+        var best = walk.Depth;
+        var bestDirection = walk.Direction;
         var betterMask = activeMask;
         var rawMask = Vector<int>.Zero;
         var previousLength = new Vector<float>(float.MaxValue);
@@ -47,12 +63,14 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         {
             // The tootbird: the origin's projection on the best plane; the origin itself once there is a plane between it and the shape.
             var target = bestDirection * Wide.Max(best, Vector<float>.Zero);
-            walk.Simplex.Add(vertex, target, activeMask, wholeMask, out var offset);
+            Vector3Wide offset;
+            if (isNew && i == 1)
+                offset = target - vertex.Point;
+            else
+                walk.Simplex.Add(vertex, target, activeMask, wholeMask, isNew ? Math.Min(i - 1, 3) : 3, out offset);
             wholeMask = Vector<int>.Zero;
             var length = offset.Length();
-            // As comparisons that NaN loses, so that lanes without a pair stop.
-            activeMask &= Vector.GreaterThan(length + Wide.Min(best, Vector<float>.Zero), frame.ToleranceAt(best)) &
-                Vector.GreaterThanOrEqual(best, frame.LeastDepth);
+            activeMask &= IsFar(frame, length, best) & Vector.GreaterThanOrEqual(best, frame.LeastDepth);
             if (activeMask == Vector<int>.Zero)
                 break;
             if (i == MaximumSteps)
@@ -87,4 +105,9 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         walk.Direction = bestDirection;
         walk.Depth = best;
     }
+
+    /// <summary>Whether the simplex is farther from its target than a result may be.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsFar(in SearchFrame frame, Vector<float> length, Vector<float> depth) =>
+        Vector.GreaterThan(length + Wide.Min(depth, Vector<float>.Zero), frame.ToleranceAt(depth));
 }

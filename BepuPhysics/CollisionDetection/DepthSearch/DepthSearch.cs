@@ -53,12 +53,19 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         where TStatistics : struct, ISearchStatistics
     {
         Unsafe.SkipInit(out result);
-        var frame = SearchFrame.Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(
-            a, b, localOffsetB, localOrientationB, speculativeMargin);
+        SearchFrame.Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(
+            a, b, localOffsetB, localOrientationB, speculativeMargin, out var frame);
         Unsafe.SkipInit(out SearchWalk walk);
         var knownMask = walk.Start(state, frame);
         Walk(a, b, frame, Vector<int>.AllBitsSet, ref knownMask, ref walk, ref statistics);
 
+        result.Depth = walk.Depth * frame.InverseScale + frame.Margins;
+        result.Near = Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth) & Vector.GreaterThanOrEqual(result.Depth, -speculativeMargin);
+        if (result.Near == Vector<int>.Zero)
+        {
+            walk.Remember(frame, Vector<int>.Zero, Vector<int>.Zero, Vector<float>.Zero, ref state);
+            return;
+        }
         var certified = Wide.Mask(knownMask, state.CertifiedDepth * frame.Scale);
         var deep = Vector.GreaterThan(walk.Depth, frame.CertificateSlack);
         var grown = Vector.GreaterThan(walk.Depth, certified * new Vector<float>(DeeperFactor) + frame.CertificateSlack);
@@ -71,7 +78,6 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         result.Normal = -walk.Direction;
         result.Depth = walk.Depth * frame.InverseScale + frame.Margins;
         result.PointOnA = PointOnA(frame, walk, TSupportA.Margin(a), TSupportB.Margin(b));
-        result.Near = Vector.GreaterThanOrEqual(result.Depth, -speculativeMargin);
     }
 
     /// <summary>The witness on A's surface.</summary>

@@ -44,12 +44,11 @@ struct SearchFrame
     public Vector<float> Rounding;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static SearchFrame Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(in TShapeWideA a, in TShapeWideB b,
-        in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB, Vector<float> speculativeMargin)
+    public static void Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(in TShapeWideA a, in TShapeWideB b,
+        in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB, Vector<float> speculativeMargin, out SearchFrame frame)
         where TShapeWideA : unmanaged where TShapeWideB : unmanaged
         where TSupportA : struct, ISupport<TShapeWideA> where TSupportB : struct, ISupport<TShapeWideB>
     {
-        SearchFrame frame;
         frame.OffsetB = localOffsetB;
         frame.OrientationB = localOrientationB;
         TSupportA.GetExtents(a, out var centerA, out var innerA, out var outerA);
@@ -75,7 +74,6 @@ struct SearchFrame
         frame.Smaller = smaller * frame.Scale;
         frame.CertificateSlack = Wide.Max(frame.Smaller * new Vector<float>(CertificateTolerance), frame.Tolerance);
         frame.Rounding = frame.Span * new Vector<float>(SupportRounding);
-        return frame;
     }
 
     /// <summary>How far the search may stop from its target at a depth.</summary>

@@ -40,6 +40,15 @@ struct SearchSimplex
         Vector.GreaterThan(Vector3Wide.Dot(B.Point, direction), height) |
         Vector.GreaterThan(Vector3Wide.Dot(C.Point, direction), height);
 
+    /// <summary>From the closest point to the target, where that is inside of the triangle; where it is not, the mask is not set.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<int> FaceOffset(in Vector3Wide target, out Vector3Wide offset)
+    {
+        offset = default;
+        var distance = new Vector<float>(float.MaxValue);
+        return TryWhole(target, Vector<int>.AllBitsSet, ref offset, ref distance);
+    }
+
     /// <summary>
     /// Takes in a new vertex and keeps those that span, with it, what is closest to the target.
     /// </summary>
@@ -47,12 +56,17 @@ struct SearchSimplex
     /// <param name="target">What the search aims at.</param>
     /// <param name="activeMask">Lanes to change.</param>
     /// <param name="wholeMask">Lanes in which the old triangle competes, too.</param>
+    /// <param name="oldCount">
+    /// How many vertices there are at most in any active lane, 1 to 3: of one, all three are that; of two, the third is the second. What
+    /// is the same as something else then need not be tried, and would change nothing.
+    /// </param>
     /// <param name="offset">From the closest point to the target.</param>
     // Exact: all three segments and all three triangles at the new vertex are tried. Choosing between them by plane tests alone is wrong
     // where the target is beside all of them, and then the search may never end.
     // A vertex that is not kept is overwritten by the new one in its place, so that three masks say everything.
+    // With two vertices the triangle is c, a and not a, b: of triangles that are alike the last one wins.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, out Vector3Wide offset)
+    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, int oldCount, out Vector3Wide offset)
     {
         var q = target - vertex.Point;
         var a = A.Point - vertex.Point;
@@ -63,19 +77,28 @@ struct SearchSimplex
         var squaredA = a.LengthSquared();
         var squaredB = b.LengthSquared();
         var squaredC = c.LengthSquared();
-        var useA = TrySegment(q, a, squaredA, ref closest, ref distance);
-        var useB = TrySegment(q, b, squaredB, ref closest, ref distance);
-        var useC = TrySegment(q, c, squaredC, ref closest, ref distance);
-        useA = Vector.AndNot(useA, useB | useC);
-        useB = Vector.AndNot(useB, useC);
-        var useAB = TryTriangle(q, a, b, squaredA * squaredB, ref closest, ref distance);
-        var useBC = TryTriangle(q, b, c, squaredB * squaredC, ref closest, ref distance);
-        var useCA = TryTriangle(q, c, a, squaredC * squaredA, ref closest, ref distance);
-        useAB = Vector.AndNot(useAB, useBC | useCA);
-        useBC = Vector.AndNot(useBC, useCA);
-        var keepA = Vector.AndNot(useA, useBC) | useAB | useCA;
-        var keepB = Vector.AndNot(useB, useCA) | useAB | useBC;
-        var keepC = Vector.AndNot(useC, useAB) | useBC | useCA;
+        var keepA = TrySegment(q, a, squaredA, ref closest, ref distance);
+        var keepB = Vector<int>.Zero;
+        var keepC = Vector<int>.Zero;
+        if (oldCount > 1)
+        {
+            var useB = TrySegment(q, b, squaredB, ref closest, ref distance);
+            var useC = Vector<int>.Zero;
+            var useAB = Vector<int>.Zero;
+            var useBC = Vector<int>.Zero;
+            if (oldCount > 2)
+            {
+                useC = TrySegment(q, c, squaredC, ref closest, ref distance);
+                useAB = TryTriangle(q, a, b, squaredA * squaredB, ref closest, ref distance);
+                useBC = TryTriangle(q, b, c, squaredB * squaredC, ref closest, ref distance);
+            }
+            var useCA = TryTriangle(q, c, a, squaredC * squaredA, ref closest, ref distance);
+            useAB = Vector.AndNot(useAB, useBC | useCA);
+            useBC = Vector.AndNot(useBC, useCA);
+            keepA = Vector.AndNot(Vector.AndNot(keepA, useB | useC), useBC) | useAB | useCA;
+            keepB = Vector.AndNot(Vector.AndNot(useB, useC), useCA) | useAB | useBC;
+            keepC = Vector.AndNot(useC, useAB) | useBC | useCA;
+        }
         // An offset that is across a long edge to a part in 1e7 of the edge may be off by much of its own length: once more. An offset from
         // the far end of an edge is not across it, and stays.
         var edge = Vector3Wide.Select(keepA, a, Vector3Wide.Select(keepB, b, c));
@@ -85,8 +108,7 @@ struct SearchSimplex
         closest -= edge * Wide.Mask(hasEdge & Vector.LessThan(Vector.Abs(slip), new Vector<float>(GreatestSlip)), slip);
         if (wholeMask != Vector<int>.Zero)
         {
-            var whole = TryTriangle(target - A.Point, B.Point - A.Point, C.Point - A.Point,
-                (B.Point - A.Point).LengthSquared() * (C.Point - A.Point).LengthSquared(), wholeMask, ref closest, ref distance);
+            var whole = TryWhole(target, wholeMask, ref closest, ref distance);
             keepA |= whole;
             keepB |= whole;
             keepC |= whole;
@@ -124,6 +146,14 @@ struct SearchSimplex
         var shortWeight = Wide.Clamp(Wide.Mask(isTriangle, Vector3Wide.Dot(q, across) / squaredAcross), zero, one);
         var longWeight = Wide.Clamp(Vector3Wide.Dot(q - shortEdge * shortWeight, longEdge) * inverse, zero, one - shortWeight);
         return new(one - longWeight - shortWeight, Wide.Select(longIsB, longWeight, shortWeight), Wide.Select(longIsB, shortWeight, longWeight));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector<int> TryWhole(in Vector3Wide target, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    {
+        var e1 = B.Point - A.Point;
+        var e2 = C.Point - A.Point;
+        return TryTriangle(target - A.Point, e1, e2, e1.LengthSquared() * e2.LengthSquared(), wantedMask, ref closest, ref distance);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -26,8 +26,15 @@ struct SearchWalk
     [MethodImpl(MethodImplOptions.NoInlining)]
     public Vector<int> Start(in DepthSearchStateWide state, in SearchFrame frame)
     {
-        var knownMask = Vector.GreaterThan(state.Direction.LengthSquared(), new Vector<float>(0.5f));
+        var distance = frame.Center.Length();
+        var up = new Vector3Wide(Vector<float>.Zero, Vector<float>.One, Vector<float>.Zero);
+        Direction = Vector3Wide.Select(
+            Vector.GreaterThan(distance, Vector<float>.Zero), frame.Center * (-Vector<float>.One / distance), up);
         Depth = Vector<float>.Zero;
+        var knownMask = Vector.GreaterThan(state.Direction.LengthSquared(), new Vector<float>(0.5f));
+        // Without a simplex the walk starts with the first support point.
+        if (knownMask == Vector<int>.Zero)
+            return knownMask;
         Place(state.PointA0, state.PointB0, frame, out Simplex.A);
         Place(state.PointA1, state.PointB1, frame, out Simplex.B);
         Place(state.PointA2, state.PointB2, frame, out Simplex.C);
@@ -43,12 +50,7 @@ struct SearchWalk
             Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
             Vector.GreaterThan(Vector.Abs(along), length * new Vector<float>(GreatestTurnCosine));
         var known = Vector3Wide.Select(useNormal, normal * Wide.CopySign(Vector<float>.One / length, along), state.Direction);
-
-        var distance = frame.Center.Length();
-        var up = new Vector3Wide(Vector<float>.Zero, Vector<float>.One, Vector<float>.Zero);
-        var cold = Vector3Wide.Select(
-            Vector.GreaterThan(distance, Vector<float>.Zero), frame.Center * (-Vector<float>.One / distance), up);
-        Direction = Vector3Wide.Select(knownMask, known, cold);
+        Direction = Vector3Wide.Select(knownMask, known, Direction);
         return knownMask;
     }
 
