@@ -86,13 +86,16 @@ struct SearchSimplex
             var useC = Vector<int>.Zero;
             var useAB = Vector<int>.Zero;
             var useBC = Vector<int>.Zero;
+            var qa = Vector3Wide.Cross(q, a);
+            var qc = Vector3Wide.Cross(q, c);
             if (oldCount > 2)
             {
                 useC = TrySegment(q, c, squaredC, ref closest, ref distance);
-                useAB = TryTriangle(q, a, b, squaredA * squaredB, ref closest, ref distance);
-                useBC = TryTriangle(q, b, c, squaredB * squaredC, ref closest, ref distance);
+                var qb = Vector3Wide.Cross(q, b);
+                useAB = TryTriangle(q, a, b, qa, qb, squaredA * squaredB, ref closest, ref distance);
+                useBC = TryTriangle(q, b, c, qb, qc, squaredB * squaredC, ref closest, ref distance);
             }
-            var useCA = TryTriangle(q, c, a, squaredC * squaredA, ref closest, ref distance);
+            var useCA = TryTriangle(q, c, a, qc, qa, squaredC * squaredA, ref closest, ref distance);
             useAB = Vector.AndNot(useAB, useBC | useCA);
             useBC = Vector.AndNot(useBC, useCA);
             keepA = Vector.AndNot(Vector.AndNot(keepA, useB | useC), useBC) | useAB | useCA;
@@ -153,7 +156,9 @@ struct SearchSimplex
     {
         var e1 = B.Point - A.Point;
         var e2 = C.Point - A.Point;
-        return TryTriangle(target - A.Point, e1, e2, e1.LengthSquared() * e2.LengthSquared(), wantedMask, ref closest, ref distance);
+        var q = target - A.Point;
+        return TryTriangle(q, e1, e2, Vector3Wide.Cross(q, e1), Vector3Wide.Cross(q, e2), e1.LengthSquared() * e2.LengthSquared(),
+            wantedMask, ref closest, ref distance);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -172,18 +177,19 @@ struct SearchSimplex
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, Vector<float> squaredEdges,
-        ref Vector3Wide closest, ref Vector<float> distance) =>
-        TryTriangle(q, e1, e2, squaredEdges, Vector<int>.AllBitsSet, ref closest, ref distance);
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide qe1, in Vector3Wide qe2,
+        Vector<float> squaredEdges, ref Vector3Wide closest, ref Vector<float> distance) =>
+        TryTriangle(q, e1, e2, qe1, qe2, squaredEdges, Vector<int>.AllBitsSet, ref closest, ref distance);
 
+    // The cross products of q and the edges are the caller's, who has two triangles for each.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, Vector<float> squaredEdges,
-        Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide qe1, in Vector3Wide qe2,
+        Vector<float> squaredEdges, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
     {
         var normal = Vector3Wide.Cross(e1, e2);
         var determinant = normal.LengthSquared();
-        var u = Vector3Wide.Dot(Vector3Wide.Cross(q, e2), normal);
-        var v = Vector3Wide.Dot(Vector3Wide.Cross(e1, q), normal);
+        var u = Vector3Wide.Dot(qe2, normal);
+        var v = -Vector3Wide.Dot(qe1, normal);
         var height = Vector3Wide.Dot(q, normal);
         var scaled = height / determinant;
         var squared = height * scaled;
