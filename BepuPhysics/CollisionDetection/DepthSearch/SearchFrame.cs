@@ -43,14 +43,18 @@ struct SearchFrame
     public Vector<float> CertificateSlack;
     public Vector<float> Rounding;
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // Inlined it would fill a copy.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(in TShapeWideA a, in TShapeWideB b,
         in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB, Vector<float> speculativeMargin, out SearchFrame frame)
         where TShapeWideA : unmanaged where TShapeWideB : unmanaged
         where TSupportA : struct, ISupport<TShapeWideA> where TSupportB : struct, ISupport<TShapeWideB>
     {
         frame.OffsetB = localOffsetB;
-        frame.OrientationB = localOrientationB;
+        // Row by row: the matrix as a whole would be copied by a call.
+        frame.OrientationB.X = localOrientationB.X;
+        frame.OrientationB.Y = localOrientationB.Y;
+        frame.OrientationB.Z = localOrientationB.Z;
         TSupportA.GetExtents(a, out var centerA, out var innerA, out var outerA);
         TSupportB.GetExtents(b, out var centerB, out var innerB, out var outerB);
         var marginA = TSupportA.Margin(a);

@@ -161,7 +161,8 @@ struct SearchSimplex
             wantedMask, ref closest, ref distance);
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // Like a triangle's, a JIT root of its own: inlined, the trials would push each other out of the registers.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<int> TrySegment(
         in Vector3Wide q, in Vector3Wide edge, Vector<float> squaredEdge, ref Vector3Wide closest, ref Vector<float> distance)
     {
@@ -182,7 +183,7 @@ struct SearchSimplex
         TryTriangle(q, e1, e2, qe1, qe2, squaredEdges, Vector<int>.AllBitsSet, ref closest, ref distance);
 
     // The cross products of q and the edges are the caller's, who has two triangles for each.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide qe1, in Vector3Wide qe2,
         Vector<float> squaredEdges, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
     {
