@@ -117,4 +117,39 @@ public static partial class Wide
             greatest = v[i] > greatest ? v[i] : greatest;
         return new(greatest);
     }
+
+    /// <summary>One lane in all lanes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Broadcast(in Vector<float> vector, int lane) => new(GatherScatter.Get(ref Unsafe.AsRef(in vector), lane));
+
+    /// <summary>The lane with the greatest value; of equally great ones that with the least number, and of these the first. Lane 0 for NaN.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static int LaneOfGreatest(Vector<float> values, Vector<int> numbers)
+    {
+        var bits = Bits(Vector.Equals(values, SpreadGreatest(values)));
+        if (bits == 0)
+            return 0;
+        var lane = BitOperations.TrailingZeroCount(bits);
+        for (bits &= bits - 1; bits != 0; bits &= bits - 1)
+        {
+            var other = BitOperations.TrailingZeroCount(bits);
+            if (GatherScatter.Get(ref numbers, other) < GatherScatter.Get(ref numbers, lane))
+                lane = other;
+        }
+        return lane;
+    }
+
+    /// <summary>A bit for each lane that is set, lane 0 the lowest.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static uint Bits(Vector<int> mask)
+    {
+        if (Vector<int>.Count == 8)
+            return mask.AsVector256().ExtractMostSignificantBits();
+        if (Vector<int>.Count == 4)
+            return mask.AsVector128().ExtractMostSignificantBits();
+        uint bits = 0;
+        for (int i = 0; i < Vector<int>.Count; ++i)
+            bits |= mask[i] != 0 ? 1u << i : 0;
+        return bits;
+    }
 }

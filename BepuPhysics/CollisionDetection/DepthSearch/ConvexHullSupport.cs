@@ -1,6 +1,5 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 
@@ -42,16 +41,13 @@ public readonly unsafe struct ConvexHullSupport : ISupport<ConvexHullWide>
             var hull = shape.Hull(lane);
             if (hull == null)
                 continue;
-            var vertex = FindFarthest(hull, Broadcast(direction.X, lane), Broadcast(direction.Y, lane), Broadcast(direction.Z, lane));
+            var vertex = FindFarthest(hull, Wide.Broadcast(direction.X, lane), Wide.Broadcast(direction.Y, lane), Wide.Broadcast(direction.Z, lane));
             GatherScatter.Get(ref result.X, lane) = vertex[0];
             GatherScatter.Get(ref result.Y, lane) = vertex[Vector<float>.Count];
             GatherScatter.Get(ref result.Z, lane) = vertex[2 * Vector<float>.Count];
         }
         return result;
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Broadcast(in Vector<float> vector, int lane) => new(GatherScatter.Get(ref Unsafe.AsRef(in vector), lane));
 
     /// <summary>Address of the X of the farthest vertex.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -70,33 +66,7 @@ public readonly unsafe struct ConvexHullSupport : ISupport<ConvexHullWide>
             farthest = Wide.Select(farther, along, farthest);
             farthestBundle = Wide.Select(farther, bundle, farthestBundle);
         }
-        var bits = LanesOf(Vector.Equals(farthest, Wide.SpreadGreatest(farthest)));
-        // No lane at all where the direction is not a number.
-        var lane = bits == 0 ? 0 : BitOperations.TrailingZeroCount(bits);
-        var found = GatherScatter.Get(ref farthestBundle, lane);
-        for (bits &= bits - 1; bits != 0; bits &= bits - 1)
-        {
-            var other = BitOperations.TrailingZeroCount(bits);
-            var otherBundle = GatherScatter.Get(ref farthestBundle, other);
-            if (otherBundle < found)
-            {
-                found = otherBundle;
-                lane = other;
-            }
-        }
-        return (float*)(points + found) + lane;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static uint LanesOf(Vector<int> mask)
-    {
-        if (Vector<int>.Count == 8)
-            return mask.AsVector256().ExtractMostSignificantBits();
-        if (Vector<int>.Count == 4)
-            return mask.AsVector128().ExtractMostSignificantBits();
-        uint bits = 0;
-        for (int i = 0; i < Vector<int>.Count; ++i)
-            bits |= mask[i] != 0 ? 1u << i : 0;
-        return bits;
+        var lane = Wide.LaneOfGreatest(farthest, farthestBundle);
+        return (float*)(points + GatherScatter.Get(ref farthestBundle, lane)) + lane;
     }
 }

@@ -24,10 +24,9 @@ public readonly unsafe struct ConvexHullFeature : IContactFeature<ConvexHullWide
         for (int lane = 0; lane < Vector<float>.Count; ++lane)
         {
             var hull = shape.Hull(lane);
-            if (hull == null || done[lane] != 0)
+            if (hull == null || GatherScatter.Get(ref done, lane) != 0)
                 continue;
-            var face = FindFace(hull, new Vector<float>(direction.X[lane]), new Vector<float>(direction.Y[lane]),
-                new Vector<float>(direction.Z[lane]));
+            var face = FindFace(hull, Wide.Broadcast(direction.X, lane), Wide.Broadcast(direction.Y, lane), Wide.Broadcast(direction.Z, lane));
             faces[lane] = face;
             var count = hull->FaceStarts[face + 1] - hull->FaceStarts[face];
             count = count > MaximumVertexCount ? MaximumVertexCount : count;
@@ -41,7 +40,7 @@ public readonly unsafe struct ConvexHullFeature : IContactFeature<ConvexHullWide
         for (int lane = 0; lane < Vector<float>.Count; ++lane)
         {
             var hull = shape.Hull(lane);
-            if (hull != null && done[lane] == 0)
+            if (hull != null && GatherScatter.Get(ref done, lane) == 0)
                 WriteVertices(hull, faces[lane], greatestCount, ref vertices, lane);
         }
     }
@@ -61,13 +60,7 @@ public readonly unsafe struct ConvexHullFeature : IContactFeature<ConvexHullWide
             nearest = Wide.Select(nearer, number, nearest);
             number += new Vector<int>(Vector<float>.Count);
         }
-        var best = 0;
-        for (int i = 1; i < Vector<float>.Count; ++i)
-        {
-            if (greatest[i] > greatest[best] || (greatest[i] == greatest[best] && nearest[i] < nearest[best]))
-                best = i;
-        }
-        return nearest[best];
+        return GatherScatter.Get(ref nearest, Wide.LaneOfGreatest(greatest, nearest));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
