@@ -174,9 +174,8 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
     /// <inheritdoc/>
     public readonly void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max)
     {
-        AlonePerBundle().GetBounds(Lanes.Broadcast<Quaternion, QuaternionWide>(orientation), out _, out _, out var mins, out var maxes);
-        min = Lanes.Read<Vector3, Vector3Wide>(ref mins, 0);
-        max = Lanes.Read<Vector3, Vector3Wide>(ref maxes, 0);
+        var bundle = AlonePerBundle();
+        OneLane.ComputeFirstBounds<ConvexHull, ConvexHullWide>(ref bundle, orientation, out min, out max);
     }
 
     /// <inheritdoc/>
@@ -190,20 +189,8 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
     /// <inheritdoc/>
     public readonly bool RayTest(in RigidPose pose, Vector3 origin, Vector3 direction, out float t, out Vector3 normal)
     {
-        var poses = new RigidPoseWide
-        {
-            Position = Lanes.Broadcast<Vector3, Vector3Wide>(pose.Position),
-            Orientation = Lanes.Broadcast<Quaternion, QuaternionWide>(pose.Orientation),
-        };
-        var rays = new RayWide
-        {
-            Origin = Lanes.Broadcast<Vector3, Vector3Wide>(origin),
-            Direction = Lanes.Broadcast<Vector3, Vector3Wide>(direction),
-        };
-        AlonePerBundle().RayTest(poses, rays, out var hitMask, out var ts, out var normals);
-        t = ts[0];
-        normal = Lanes.Read<Vector3, Vector3Wide>(ref normals, 0);
-        return hitMask[0] != 0;
+        var bundle = AlonePerBundle();
+        return OneLane.RayTestFirst<ConvexHull, ConvexHullWide>(ref bundle, pose, origin, direction, out t, out normal);
     }
 
     // Unlike the other shapes, in one lane only: each lane is a loop over a hull of its own.

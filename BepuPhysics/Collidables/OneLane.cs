@@ -15,9 +15,7 @@ static class OneLane
         where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
     {
         var shapes = Lanes.Broadcast<TShape, TShapeWide>(shape);
-        shapes.GetBounds(Lanes.Broadcast<Quaternion, QuaternionWide>(orientation), out _, out _, out var mins, out var maxes);
-        min = First(mins);
-        max = First(maxes);
+        ComputeFirstBounds<TShape, TShapeWide>(ref shapes, orientation, out min, out max);
     }
 
     public static bool RayTest<TShape, TShapeWide>(
@@ -25,6 +23,25 @@ static class OneLane
         where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
     {
         var shapes = Lanes.Broadcast<TShape, TShapeWide>(shape);
+        return RayTestFirst<TShape, TShapeWide>(ref shapes, pose, origin, direction, out t, out normal);
+    }
+
+    /// <summary>Bounds of the first shape of a bundle.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void ComputeFirstBounds<TShape, TShapeWide>(ref TShapeWide shapes, in Quaternion orientation, out Vector3 min, out Vector3 max)
+        where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+    {
+        shapes.GetBounds(Lanes.Broadcast<Quaternion, QuaternionWide>(orientation), out _, out _, out var mins, out var maxes);
+        min = First(mins);
+        max = First(maxes);
+    }
+
+    /// <summary>A ray against the first shape of a bundle.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static bool RayTestFirst<TShape, TShapeWide>(
+        ref TShapeWide shapes, in RigidPose pose, in Vector3 origin, in Vector3 direction, out float t, out Vector3 normal)
+        where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+    {
         var poses = new RigidPoseWide
         {
             Position = Lanes.Broadcast<Vector3, Vector3Wide>(pose.Position),

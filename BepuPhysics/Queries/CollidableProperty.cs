@@ -70,24 +70,10 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
         ref collidable.Mobility == CollidableMobility.Static ? ref this[new StaticHandle(collidable.RawHandleValue)] : ref this[new BodyHandle(collidable.RawHandleValue)];
 
     /// <summary>Makes room for a body's value, sets it to its default and returns it; valid until room is made again.</summary>
-    public ref T Allocate(BodyHandle handle)
-    {
-        ArgumentOutOfRangeException.ThrowIfNegative(handle.Value, nameof(handle));
-        Grow(ref bodyData, handle.Value);
-        ref var value = ref bodyData[handle.Value];
-        value = default;
-        return ref value;
-    }
+    public ref T Allocate(BodyHandle handle) => ref Allocate(ref bodyData, handle.Value);
 
     /// <summary>Makes room for a static's value, sets it to its default and returns it; valid until room is made again.</summary>
-    public ref T Allocate(StaticHandle handle)
-    {
-        ArgumentOutOfRangeException.ThrowIfNegative(handle.Value, nameof(handle));
-        Grow(ref staticData, handle.Value);
-        ref var value = ref staticData[handle.Value];
-        value = default;
-        return ref value;
-    }
+    public ref T Allocate(StaticHandle handle) => ref Allocate(ref staticData, handle.Value);
 
     /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
     public ref T Allocate(CollidableReference collidable) =>
@@ -124,10 +110,14 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
 
     Simulation CheckedSimulation => simulation ?? throw new InvalidOperationException("Call Initialize first: the properties belong to no simulation yet.");
 
-    void Grow(ref Buffer<T> data, int index)
+    ref T Allocate(ref Buffer<T> data, int handle)
     {
-        if (index >= data.Length)
-            Resize(ref data, Math.Max(index + 1, (int)Math.Min(data.Length * 2L, int.MaxValue)));
+        ArgumentOutOfRangeException.ThrowIfNegative(handle);
+        if (handle >= data.Length)
+            Resize(ref data, Math.Max(handle + 1, (int)Math.Min(data.Length * 2L, int.MaxValue)));
+        ref var value = ref data[handle];
+        value = default;
+        return ref value;
     }
 
     void Resize(ref Buffer<T> data, int capacity)

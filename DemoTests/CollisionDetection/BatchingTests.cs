@@ -1,7 +1,6 @@
 using System;
 using System.Linq;
 using System.Numerics;
-using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
@@ -12,8 +11,6 @@ namespace DemoTests.CollisionDetection;
 /// <summary>What a batcher does with pairs, whatever their shapes are.</summary>
 public sealed class BatchingTests
 {
-    static readonly Quaternion Turn = Quaternion.Normalize(new(0.1f, -0.3f, 0.2f, 0.9f));
-
     static PairCase<TShapeA, TShapeB>[] CreateCases<TShapeA, TShapeB>(int count,
         Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
     {
@@ -26,8 +23,6 @@ public sealed class BatchingTests
     static PairCase<TShapeA, TShapeB>[] CreateShallowCases<TShapeA, TShapeB>(
         Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB) =>
         [.. CreateCases(400, createA, createB).Where((_, i) => (PairKind)(i % 8) is PairKind.Apart or PairKind.Touching or PairKind.Shallow)];
-
-    static float Deepest(ConvexContactManifold manifold) => Enumerable.Range(0, manifold.Count).Max(manifold.GetDepth);
 
     static Sphere CreateSphere(PairRandom random) => new(random.Next(0.2, 1));
 
@@ -48,23 +43,8 @@ public sealed class BatchingTests
     }
 
     static void CheckPurity<TShapeA, TShapeB>(Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
-        where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
-    {
-        var cases = CreateCases(333, createA, createB);
-        var expected = PairHarness.Run(cases, 0.1f);
-        var random = new PairRandom(3);
-        int[] order = [.. Enumerable.Range(0, cases.Length).OrderBy(_ => random.Next())];
-        foreach (var flushInterval in new[] { int.MaxValue, 1, 5, 11 })
-        {
-            var actual = PairHarness.Run(cases, 0.1f, order, flushInterval);
-            for (int i = 0; i < cases.Length; ++i)
-                Assert.Equal(Bits(expected[i]), Bits(actual[i]));
-        }
-    }
-
-    // Contacts beyond the count mean nothing.
-    static byte[] Bits(ConvexContactManifold manifold) =>
-        MemoryMarshal.AsBytes(new ReadOnlySpan<ConvexContactManifold>(in manifold))[..(28 + manifold.Count * 20)].ToArray();
+        where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape =>
+        PairProperties.CheckPurity(CreateCases(333, createA, createB), 0.1f);
 
     [Fact]
     public void OtherOrderOfShapesGivesTheOppositeNormal()
@@ -80,7 +60,7 @@ public sealed class BatchingTests
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
         var cases = CreateShallowCases(createA, createB);
-        var swapped = cases.Select(x => new PairCase<TShapeB, TShapeA>(x.B, x.A, -x.OffsetB, x.OrientationB, x.OrientationA)).ToArray();
+        var swapped = cases.Select(x => x.Swap()).ToArray();
         var first = PairHarness.Run(cases, 0.1f);
         var second = PairHarness.Run(swapped, 0.1f);
         for (int i = 0; i < cases.Length; ++i)
@@ -91,7 +71,7 @@ public sealed class BatchingTests
             if (first[i].Count == 0)
                 continue;
             Assert.True(Vector3.Distance(first[i].Normal, -second[i].Normal) < 1e-4f);
-            Assert.Equal(Deepest(first[i]), Deepest(second[i]), 1e-5f);
+            Assert.Equal(first[i].Deepest(), second[i].Deepest(), 1e-5f);
             // Two capsules share a stretch that is measured on the first. Places are relative to A, which is the other shape.
             if (typeof(TShapeA) == typeof(TShapeB) && first[i].Count > 1)
                 continue;
@@ -113,21 +93,10 @@ public sealed class BatchingTests
     static void CheckMotion<TShapeA, TShapeB>(Func<PairRandom, TShapeA> createA, Func<PairRandom, TShapeB> createB)
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
-        var cases = CreateShallowCases(createA, createB);
-        var moved = cases.Select(x => x with
+        foreach (var (before, after) in PairProperties.RunTurned(CreateShallowCases(createA, createB), 0.1f))
         {
-            OffsetB = Vector3.Transform(x.OffsetB, Turn),
-            OrientationA = Quaternion.Normalize(Turn * x.OrientationA),
-            OrientationB = Quaternion.Normalize(Turn * x.OrientationB),
-        }).ToArray();
-        var first = PairHarness.Run(cases, 0.1f);
-        var second = PairHarness.Run(moved, 0.1f);
-        for (int i = 0; i < cases.Length; ++i)
-        {
-            if (first[i].Count == 0 || second[i].Count == 0)
-                continue;
-            Assert.True(Vector3.Distance(Vector3.Transform(first[i].Normal, Turn), second[i].Normal) < 1e-4f);
-            Assert.Equal(Deepest(first[i]), Deepest(second[i]), 1e-5f);
+            Assert.True(Vector3.Distance(Vector3.Transform(before.Normal, PairProperties.Turn), after.Normal) < 1e-4f);
+            Assert.Equal(before.Deepest(), after.Deepest(), 1e-5f);
         }
     }
 
@@ -198,7 +167,7 @@ public sealed class BatchingTests
             for (int i = 0; i < 900; ++i)
             {
                 var (a, b) = (types[i % 3], types[i / 3 % 3]);
-                batcher.Add(a, b, new(0, 1, 0), Quaternion.Identity, Turn, 0, new(0));
+                batcher.Add(a, b, new(0, 1, 0), Quaternion.Identity, PairProperties.Turn, 0, new(0));
             }
             batcher.Flush();
             allocated = GC.GetAllocatedBytesForCurrentThread() - before;

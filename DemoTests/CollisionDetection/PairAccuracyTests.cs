@@ -87,7 +87,7 @@ public sealed class PairAccuracyTests(ITestOutputHelper output)
             needless += depth < -Margin - tolerance * size ? 1 : 0;
             var normal = new Double3(manifold.Normal);
             var along = PairReference.DepthAlong(a, b, normal * (1 / normal.Length));
-            var deepest = Enumerable.Range(0, manifold.Count).Max(manifold.GetDepth);
+            var deepest = manifold.Deepest();
             Assert.Equal(1, normal.Length, 5e-6);
             var depthError = (exact ? Math.Abs(deepest - depth) : Math.Max(0, deepest - along)) / size;
             (exact ? normalErrors : axisErrors).Add(Math.Abs(along - depth) / size);
@@ -99,11 +99,11 @@ public sealed class PairAccuracyTests(ITestOutputHelper output)
         }
         output.WriteLine(
             $"{typeof(TShapeA).Name}-{typeof(TShapeB).Name}, {depthErrors.Count} pairs with {placeErrors.Count} contacts, p50, p99.9, worst:");
-        Print("depth", depthErrors);
-        Print("depth along the normal", normalErrors);
+        output.WriteErrors("depth", depthErrors);
+        output.WriteErrors("depth along the normal", normalErrors);
         if (axisErrors.Count > 0)
-            Print("apart at a corner, best axis", axisErrors);
-        Print("place of contacts", placeErrors);
+            output.WriteErrors("apart at a corner, best axis", axisErrors);
+        output.WriteErrors("place of contacts", placeErrors);
         output.WriteLine("  worst depth: " + string.Join("  ", worst.Select(x => $"{x.Key} {x.Value:e1}")));
         Assert.Equal((0, 0), (missed, needless));
         Assert.True(depthErrors.Max() < tolerance, $"depth {depthErrors.Max()}");
@@ -119,12 +119,6 @@ public sealed class PairAccuracyTests(ITestOutputHelper output)
         var place = new Double3(manifold.GetOffset(index));
         var halfway = Math.Abs(manifold.GetDepth(index)) * 0.5;
         return Math.Max(0, Math.Max(a.SignedDistance(place), b.SignedDistance(place)) - halfway);
-    }
-
-    void Print(string name, List<double> errors)
-    {
-        errors.Sort();
-        output.WriteLine($"  {name,-30} {errors[errors.Count / 2],10:e1} {errors[(int)(errors.Count * 0.999)],10:e1} {errors[^1],10:e1}");
     }
 
     /// <summary>The enumeration itself against a search over directions.</summary>

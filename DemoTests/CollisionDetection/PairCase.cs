@@ -58,7 +58,11 @@ struct PairRandom(ulong seed)
 }
 
 /// <summary>Poses of a pair of two shapes.</summary>
-readonly record struct PairCase<TShapeA, TShapeB>(TShapeA A, TShapeB B, Vector3 OffsetB, Quaternion OrientationA, Quaternion OrientationB);
+readonly record struct PairCase<TShapeA, TShapeB>(TShapeA A, TShapeB B, Vector3 OffsetB, Quaternion OrientationA, Quaternion OrientationB)
+{
+    /// <summary>The same pair, the shapes in the other order.</summary>
+    public PairCase<TShapeB, TShapeA> Swap() => new(B, A, -OffsetB, OrientationB, OrientationA);
+}
 
 /// <summary>Ways in which a pair can lie.</summary>
 enum PairKind

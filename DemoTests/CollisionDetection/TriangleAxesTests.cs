@@ -20,8 +20,6 @@ public sealed class TriangleAxesTests
         where TShape : unmanaged, IConvexShape =>
         PairHarness.Run<TShape, Triangle>(new(shape, triangle, -position, orientation, Quaternion.Identity), margin);
 
-    static float Deepest(ConvexContactManifold manifold) => Enumerable.Range(0, manifold.Count).Max(manifold.GetDepth);
-
     static void AssertVector(Vector3 expected, Vector3 actual, float tolerance = 1e-5f) =>
         Assert.True(Vector3.Distance(expected, actual) < tolerance, $"{actual} for {expected}");
 
@@ -48,19 +46,19 @@ public sealed class TriangleAxesTests
         var manifold = Run(new Box(10, 1, 10), Floor(1), new(0, 0.45f, 0), Quaternion.Identity);
         AssertVector(Vector3.UnitY, manifold.Normal);
         Assert.Equal(3, manifold.Count);
-        Assert.Equal(0.05f, Deepest(manifold), 1e-6f);
+        Assert.Equal(0.05f, manifold.Deepest(), 1e-6f);
     }
 
     [Fact]
     public void BoxesThatArePastAreLetGo()
     {
         foreach (var height in (ReadOnlySpan<float>)[0.3f, 0.001f, 0])
-            Assert.Equal(0.5f - height, Deepest(Run(new Box(1, 1, 1), Floor(4), new(0, height, 0), Quaternion.Identity)), 1e-6f);
+            Assert.Equal(0.5f - height, Run(new Box(1, 1, 1), Floor(4), new(0, height, 0), Quaternion.Identity).Deepest(), 1e-6f);
         foreach (var height in (ReadOnlySpan<float>)[-0.001f, -0.3f, -0.51f])
             Assert.Equal(0, Run(new Box(1, 1, 1), Floor(4), new(0, height, 0), Quaternion.Identity, 0.1f).Count);
         var back = Run(new Box(1, 1, 1), Floor(4, true), new(0, -0.3f, 0), Quaternion.Identity);
         AssertVector(-Vector3.UnitY, back.Normal);
-        Assert.Equal(0.2f, Deepest(back), 1e-6f);
+        Assert.Equal(0.2f, back.Deepest(), 1e-6f);
     }
 
     [Fact]
@@ -101,7 +99,7 @@ public sealed class TriangleAxesTests
         Triangle triangle = new(default, new(1, 1, 0.2f), new(0.2f, 1, 1)) { TwoSided = true };
         var manifold = PairHarness.Run<Box, Triangle>(new(new(1, 1, 1), triangle, corner, Quaternion.Identity, Quaternion.Identity), Margin);
         AssertVector(-direction, manifold.Normal);
-        Assert.Equal(-0.1f, Deepest(manifold), 1e-6f);
+        Assert.Equal(-0.1f, manifold.Deepest(), 1e-6f);
         Assert.Equal(0, PairHarness.Run<Box, Triangle>(new(new(1, 1, 1), triangle, corner, Quaternion.Identity, Quaternion.Identity), 0.09f).Count);
     }
 
@@ -116,7 +114,7 @@ public sealed class TriangleAxesTests
             var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitX, angle);
             var manifold = PairHarness.Run<Triangle, Triangle>(new(a, b, new(0.1f, 0, 0), Quaternion.Identity, turn), Margin);
             AssertVector(-Vector3.UnitX, manifold.Normal);
-            Assert.Equal(-0.1f, Deepest(manifold), 1e-6f);
+            Assert.Equal(-0.1f, manifold.Deepest(), 1e-6f);
             Assert.Equal(0, PairHarness.Run<Triangle, Triangle>(new(a, b, new(0.25f, 0, 0), Quaternion.Identity, turn), Margin).Count);
         }
     }
@@ -170,37 +168,18 @@ public sealed class TriangleAxesTests
         CheckPurity(CreateCases(500, 2, NextTriangle));
     }
 
-    static void CheckPurity<TShape>(PairCase<TShape, Triangle>[] cases) where TShape : unmanaged, IConvexShape
-    {
-        var expected = PairHarness.Run(cases, Margin);
-        Assert.True(expected.Count(x => x.Count > 0) > cases.Length / 10);
-        var random = new PairRandom(3);
-        int[] order = [.. Enumerable.Range(0, cases.Length).OrderBy(_ => random.Next())];
-        foreach (var flushInterval in new[] { int.MaxValue, 1, 5, 11 })
-        {
-            var actual = PairHarness.Run(cases, Margin, order, flushInterval);
-            for (int i = 0; i < cases.Length; ++i)
-                Assert.Equal(Text(expected[i]), Text(actual[i]));
-        }
-    }
-
-    static string Text(ConvexContactManifold manifold)
-    {
-        var text = manifold.Count == 0 ? "" : $"{manifold.Normal}";
-        for (int i = 0; i < manifold.Count; ++i)
-            text += $" {manifold.GetOffset(i)} {manifold.GetDepth(i)} {manifold.GetFeatureId(i)}";
-        return text;
-    }
+    static void CheckPurity<TShape>(PairCase<TShape, Triangle>[] cases) where TShape : unmanaged, IConvexShape =>
+        Assert.True(PairProperties.CheckPurity(cases, Margin).Count(x => x.Count > 0) > cases.Length / 10);
 
     [Fact]
     public void OtherOrderOfShapesGivesTheOppositeNormal()
     {
         var boxes = CreateCases(500, 4, NextBox);
-        var swapped = boxes.Select(x => new PairCase<Triangle, Box>(x.B, x.A, -x.OffsetB, x.OrientationB, x.OrientationA)).ToArray();
+        var swapped = boxes.Select(x => x.Swap()).ToArray();
         CompareSwapped(PairHarness.Run(boxes, Margin), PairHarness.Run(swapped, Margin), exactly: true);
         // Two triangles are computed in the frame of the first, so the other order is rounded otherwise.
         var triangles = CreateCases(500, 5, NextTriangle);
-        var other = triangles.Select(x => new PairCase<Triangle, Triangle>(x.B, x.A, -x.OffsetB, x.OrientationB, x.OrientationA)).ToArray();
+        var other = triangles.Select(x => x.Swap()).ToArray();
         CompareSwapped(PairHarness.Run(triangles, Margin), PairHarness.Run(other, Margin), exactly: false);
     }
 
@@ -214,7 +193,7 @@ public sealed class TriangleAxesTests
             if (first[i].Count == 0 || second[i].Count == 0)
                 continue;
             ++compared;
-            Assert.Equal(Deepest(first[i]), Deepest(second[i]), exactly ? 0 : 1e-4f);
+            Assert.Equal(first[i].Deepest(), second[i].Deepest(), exactly ? 0 : 1e-4f);
             if (exactly)
                 Assert.Equal(first[i].Normal, -second[i].Normal);
         }
@@ -230,23 +209,8 @@ public sealed class TriangleAxesTests
 
     static void CheckMotion<TShape>(PairCase<TShape, Triangle>[] cases) where TShape : unmanaged, IConvexShape
     {
-        var turn = Quaternion.Normalize(new(0.1f, -0.3f, 0.2f, 0.9f));
-        var moved = cases.Select(x => x with
-        {
-            OffsetB = Vector3.Transform(x.OffsetB, turn),
-            OrientationA = Quaternion.Normalize(turn * x.OrientationA),
-            OrientationB = Quaternion.Normalize(turn * x.OrientationB),
-        }).ToArray();
-        var first = PairHarness.Run(cases, Margin);
-        var second = PairHarness.Run(moved, Margin);
-        var compared = 0;
-        for (int i = 0; i < cases.Length; ++i)
-        {
-            if (first[i].Count == 0 || second[i].Count == 0)
-                continue;
-            ++compared;
-            Assert.Equal(Deepest(first[i]), Deepest(second[i]), 1e-4f);
-        }
-        Assert.True(compared > 100);
+        var turned = PairProperties.RunTurned(cases, Margin);
+        Assert.All(turned, x => Assert.Equal(x.Before.Deepest(), x.After.Deepest(), 1e-4f));
+        Assert.True(turned.Count > 100);
     }
 }

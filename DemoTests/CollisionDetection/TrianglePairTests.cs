@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
 using DemoTests.CollisionDetection.References;
 using Xunit;
 using Xunit.Abstractions;
@@ -72,7 +71,7 @@ public sealed class TrianglePairTests(ITestOutputHelper output)
             needless += !mayExist || depths.Max() + radius < -Margin - tolerance * size ? 1 : 0;
             var normal = new Double3(manifold.Normal);
             Assert.Equal(1, normal.Length, 5e-6);
-            var deepest = Enumerable.Range(0, manifold.Count).Max(manifold.GetDepth);
+            var deepest = manifold.Deepest();
             var error = depths.Min(x => Math.Abs(deepest - radius - x));
             depthErrors.Add(error / size);
             relativeErrors.Add(error / smaller);
@@ -99,10 +98,10 @@ public sealed class TrianglePairTests(ITestOutputHelper output)
         }
         output.WriteLine($"{typeof(TShape).Name}-Triangle, {depthErrors.Count} pairs with {placeErrors.Count} contacts, {refused} refused by side, " +
             $"{undecided} undecided; p50, p99.9, worst:");
-        Print("depth by size of the pair", depthErrors);
-        Print("depth by size of the smaller", relativeErrors);
-        Print("depth along the normal", normalErrors);
-        Print("place of contacts", placeErrors);
+        output.WriteErrors("depth by size of the pair", depthErrors);
+        output.WriteErrors("depth by size of the smaller", relativeErrors);
+        output.WriteErrors("depth along the normal", normalErrors);
+        output.WriteErrors("place of contacts", placeErrors);
         output.WriteLine("  worst depth: " + worst.Text);
         output.WriteLine("  worst normal: " + worstNormal.Text);
         output.WriteLine("  worst place: " + worstPlace.Text);
@@ -112,38 +111,11 @@ public sealed class TrianglePairTests(ITestOutputHelper output)
         Assert.True(placeErrors[^1] < 5e-4, $"place {placeErrors[^1]}");
     }
 
-    void Print(string name, List<double> errors)
-    {
-        errors.Sort();
-        output.WriteLine($"  {name,-30} {errors[errors.Count / 2],10:e1} {errors[(int)(errors.Count * 0.999)],10:e1} {errors[^1],10:e1}");
-    }
-
     [Fact]
     public void ResultsDoNotDependOnTheOtherPairs()
     {
-        CheckPurity(TrianglePairCases.CreateSpheres(333, 6));
-        CheckPurity(TrianglePairCases.CreateCapsules(333, 7));
-    }
-
-    static void CheckPurity<TShape>(PairCase<TShape, Triangle>[] cases) where TShape : unmanaged, IConvexShape
-    {
-        var expected = PairHarness.Run(cases, Margin);
-        var random = new PairRandom(3);
-        int[] order = [.. Enumerable.Range(0, cases.Length).OrderBy(_ => random.Next())];
-        foreach (var flushInterval in new[] { int.MaxValue, 1, 5, 11 })
-        {
-            var actual = PairHarness.Run(cases, Margin, order, flushInterval);
-            for (int i = 0; i < cases.Length; ++i)
-                Assert.Equal(Text(expected[i]), Text(actual[i]));
-        }
-    }
-
-    static string Text(ConvexContactManifold manifold)
-    {
-        var text = $"{manifold.Normal}";
-        for (int i = 0; i < manifold.Count; ++i)
-            text += $" {manifold.GetOffset(i)} {manifold.GetDepth(i)} {manifold.GetFeatureId(i)}";
-        return text;
+        PairProperties.CheckPurity(TrianglePairCases.CreateSpheres(333, 6), Margin);
+        PairProperties.CheckPurity(TrianglePairCases.CreateCapsules(333, 7), Margin);
     }
 
     [Fact]
@@ -155,7 +127,7 @@ public sealed class TrianglePairTests(ITestOutputHelper output)
 
     static void CheckSwap<TShape>(PairCase<TShape, Triangle>[] cases) where TShape : unmanaged, IConvexShape
     {
-        var swapped = cases.Select(x => new PairCase<Triangle, TShape>(x.B, x.A, -x.OffsetB, x.OrientationB, x.OrientationA)).ToArray();
+        var swapped = cases.Select(x => x.Swap()).ToArray();
         var first = PairHarness.Run(cases, Margin);
         var second = PairHarness.Run(swapped, Margin);
         for (int i = 0; i < cases.Length; ++i)
@@ -182,25 +154,9 @@ public sealed class TrianglePairTests(ITestOutputHelper output)
     {
         // Deep ones may leave by another way when they are rounded otherwise.
         cases = [.. cases.Where((x, i) => (PairKind)(i % 5) is PairKind.Apart or PairKind.Touching or PairKind.Shallow && x.B.TwoSided)];
-        var turn = Quaternion.Normalize(new(0.1f, -0.3f, 0.2f, 0.9f));
-        var moved = cases.Select(x => x with
-        {
-            OffsetB = Vector3.Transform(x.OffsetB, turn),
-            OrientationA = Quaternion.Normalize(turn * x.OrientationA),
-            OrientationB = Quaternion.Normalize(turn * x.OrientationB),
-        }).ToArray();
-        var first = PairHarness.Run(cases, Margin);
-        var second = PairHarness.Run(moved, Margin);
-        var compared = 0;
-        for (int i = 0; i < cases.Length; ++i)
-        {
-            if (first[i].Count == 0 || second[i].Count == 0)
-                continue;
-            ++compared;
-            Assert.Equal(
-                Enumerable.Range(0, first[i].Count).Max(first[i].GetDepth), Enumerable.Range(0, second[i].Count).Max(second[i].GetDepth), 2e-5f);
-        }
-        Assert.True(compared > 300);
+        var turned = PairProperties.RunTurned(cases, Margin);
+        Assert.All(turned, x => Assert.Equal(x.Before.Deepest(), x.After.Deepest(), 2e-5f));
+        Assert.True(turned.Count > 300);
     }
 
     /// <summary>The reference itself against a search over directions.</summary>

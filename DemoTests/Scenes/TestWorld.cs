@@ -22,7 +22,7 @@ sealed class TestWorld : IDisposable
         Dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         Simulation = Simulation.Create(
             Pool, new WorldContacts(material ?? new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, default), settings.Contacts),
-            new WorldGravity(settings), new SolveDescription(settings.VelocityIterationCount, settings.SubstepCount), timestepper, sizes, shapes);
+            new WorldGravity(settings), EngineTraits.Solve(settings), timestepper, sizes, shapes);
     }
 
     public BufferPool Pool { get; } = new();

@@ -13,8 +13,6 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
     where TShapeWideA : unmanaged where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
     where TShapeWideB : unmanaged where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
-    const int CacheLine = 64;
-
     /// <summary>Finds the contacts of a bundle of pairs of which nothing is remembered.</summary>
     /// <inheritdoc cref="Build(in TShapeWideA, in TShapeWideB, in Vector3Wide, in Matrix3x3Wide, in Vector3Wide, Vector{float}, in Vector3Wide, Vector{int}, Vector{float}, in Matrix3x3Wide, ref Vector{int}, out ConvexManifoldWide{Few4{ContactWide}})"/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -67,10 +65,8 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
             return;
         }
 
-        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write, so that
-        // all that is worked on is put at a cache line by hand.
-        var memory = stackalloc byte[Scratch.ByteCount + CacheLine];
-        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        var memory = stackalloc byte[AlignedScratch.SizeFor<Scratch>() + Scratch.ArraysByteCount];
+        ref var scratch = ref AlignedScratch.Align<Scratch>(memory);
         ref var overlap = ref scratch.Overlap;
         var points = scratch.Points;
         overlap.Candidates = scratch.Candidates;
@@ -105,14 +101,14 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         public FaceFrame FrameA, FrameB;
         public FaceOverlap Overlap;
         // Fills up the two words at the end of the overlap.
-        public fixed byte Padding[CacheLine - 2 * sizeof(long)];
+        public fixed byte Padding[AlignedScratch.CacheLine - 2 * sizeof(long)];
 
         static int GreatestCount =>
             TFeatureA.MaximumVertexCount > TFeatureB.MaximumVertexCount ? TFeatureA.MaximumVertexCount : TFeatureB.MaximumVertexCount;
 
         static int CandidateCount => FaceOverlap.GreatestCount(TFeatureA.MaximumVertexCount, TFeatureB.MaximumVertexCount);
 
-        public static int ByteCount => sizeof(Scratch) + GreatestCount * sizeof(Vector3Wide) + CandidateCount * sizeof(FaceCandidate) +
+        public static int ArraysByteCount => GreatestCount * sizeof(Vector3Wide) + CandidateCount * sizeof(FaceCandidate) +
             (TFeatureA.MaximumVertexCount + TFeatureB.MaximumVertexCount) * sizeof(FaceVertex);
 
         public readonly FaceVertex* VerticesA

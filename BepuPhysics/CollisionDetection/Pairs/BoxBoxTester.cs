@@ -20,13 +20,12 @@ namespace BepuPhysics.CollisionDetection;
 // normal. So face contacts and edge contacts are one case, and what turns from the one into the other does so without a jump.
 public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<ContactWide>>
 {
-    const int CacheLine = 64;
-
     struct Scratch
     {
         public BoxFaces Faces;
         public ContactCandidates Candidates;
-        public fixed byte Padding[CacheLine];
+        // So that there is room where the first cache line begins.
+        public fixed byte Padding[AlignedScratch.CacheLine];
     }
 
     /// <inheritdoc/>
@@ -35,11 +34,8 @@ public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<
         out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow to read back after a write, and which
-        // do would change with the depth of the stack, so the scratch of the test is put at a cache line by hand.
         Unsafe.SkipInit(out Scratch unaligned);
-        var address = (nint)(&unaligned);
-        ref var scratch = ref *(Scratch*)((address + CacheLine - 1) & -CacheLine);
+        ref var scratch = ref AlignedScratch.Align<Scratch>(&unaligned);
         ref var faces = ref scratch.Faces;
         pose.GetLocal(out faces.AxesA, out faces.AxesB, out faces.OffsetB);
         BoxAxes.FindLeastDepth(a, b, faces.AxesB, faces.OffsetB, out faces.PairDepth, out faces.Normal);

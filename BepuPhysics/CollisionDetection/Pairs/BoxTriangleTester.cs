@@ -17,8 +17,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 public readonly unsafe struct BoxTriangleTester : IPairTester<BoxWide, TriangleWide, Few4<ContactWide>>
 {
-    const int CacheLine = 64;
-
     struct Scratch
     {
         public Matrix3x3Wide AxesA, AxesB;
@@ -32,12 +30,10 @@ public readonly unsafe struct BoxTriangleTester : IPairTester<BoxWide, TriangleW
         out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow, and which do would change with the depth
-        // of the stack: so the scratch of the test is put at a cache line, and what is taken from the stack for it brings the frames of the
-        // steps to the same place in a line each time, the quickest of the four.
         int anchor;
-        var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + 16 + sizeof(Scratch) + CacheLine];
-        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        // Frames of the steps are at the quickest of the four places in a line.
+        var memory = stackalloc byte[AlignedScratch.SizeFor<Scratch>(&anchor, 1)];
+        ref var scratch = ref AlignedScratch.Align<Scratch>(memory);
         ref var axes = ref scratch.Axes;
         pose.GetLocal(out scratch.AxesA, out scratch.AxesB, out scratch.OffsetB);
         axes.Triangle.Place(b, scratch.AxesB, scratch.OffsetB);

@@ -22,7 +22,6 @@ namespace BepuPhysics.CollisionDetection;
 // of the two; elsewhere the distance is greater than what any axis shows.
 public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, TriangleWide, Few2<ContactWide>>
 {
-    const int CacheLine = 64;
     // Part of the size of the pair by which an edge must beat the face, and by which the nearest points must lie beside an axis that shows
     // their distance: rounding is below it.
     const float AxisTolerance = 1e-6f;
@@ -102,12 +101,10 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         out ConvexManifoldWide<Few2<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        // The runtime aligns the stack to 16 bytes. Vectors that lie across two cache lines are slow, and which do would change with the depth
-        // of the stack: so the scratch of the test is put at a cache line, and what is taken from the stack for it brings the frames of the
-        // steps to the same place in a line each time, the quickest of the four.
         int anchor;
-        var memory = stackalloc byte[(int)((nint)(&anchor) & 48) + 16 + sizeof(Scratch) + CacheLine];
-        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        // Frames of the steps are at the quickest of the four places in a line.
+        var memory = stackalloc byte[AlignedScratch.SizeFor<Scratch>(&anchor, 1)];
+        ref var scratch = ref AlignedScratch.Align<Scratch>(memory);
         ref var triangle = ref scratch.Triangle;
         pose.GetLocal(out scratch.Axes, out scratch.AxesB, out scratch.OffsetB);
         triangle.PlaceThin(b, scratch.AxesB, scratch.OffsetB, out scratch.Height);

@@ -13,8 +13,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 public readonly unsafe struct SphereTriangleTester : IPairTester<SphereWide, TriangleWide, Few1<ContactWide>>
 {
-    const int CacheLine = 64;
-
     /// <summary>What the steps of the test hand on, in the triangle's axes, from the sphere's centre.</summary>
     struct Scratch
     {
@@ -39,9 +37,8 @@ public readonly unsafe struct SphereTriangleTester : IPairTester<SphereWide, Tri
         out ConvexManifoldWide<Few1<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
-        // At a cache line, as the scratch of CapsuleTriangleTester.
-        var memory = stackalloc byte[sizeof(Scratch) + CacheLine];
-        ref var scratch = ref *(Scratch*)(((nint)memory + CacheLine - 1) & -CacheLine);
+        var memory = stackalloc byte[AlignedScratch.SizeFor<Scratch>()];
+        ref var scratch = ref AlignedScratch.Align<Scratch>(memory);
         Place(b, pose, ref scratch);
         VisitEdge(scratch.A, scratch.AB, ref scratch);
         VisitEdge(scratch.B, scratch.BC, ref scratch);
