@@ -6,16 +6,18 @@ namespace DemoTests.Support;
 /// <summary>Depth of two cylinders in A's frame.</summary>
 /// <remarks>
 /// f(m) = rA |m across a| + hA |m.a| + rB |m across b| + hB |m.b| - m.o with the axes a and b. It has creases across a and across b: those
-/// circles are searched alone, with their corners a, b and a x b. They cut the sphere into four lunes, in which f is smooth except at a
-/// and b: a grid over each lune finds where to start, and Newton steps go on from there.
+/// circles are searched alone, with their corners a, b and a x b. Elsewhere it is smooth, and Newton steps find its minima. Where they are to
+/// start is told by branches and bounds, which also show in the end that nothing is less.
 /// </remarks>
 sealed class ConvexCylinders : IConvexSearch
 {
-    const int RowCount = 33;
-    const int ColumnCount = 13;
-    const int MaximumStartCount = 6;
-    // Radians.
-    const double BesideCrease = 1e-3;
+    // Radians: smooth minima that are as good as the least, but for the tolerance of the candidates, are looked for from all triangles of this
+    // size where they may be.
+    const double StartAngle = 0.1;
+    // Part of the smaller size: nothing is less by more than this.
+    const double Gap = 2e-7;
+    // Around one axis, and along parallel ones, a whole circle of directions is as good, to rounding.
+    const int GreatestTriangleCount = 5000;
 
     readonly double radiusA;
     readonly double halfLengthA;
@@ -25,17 +27,14 @@ sealed class ConvexCylinders : IConvexSearch
     readonly Double3 axisB;
     readonly Double3 pole;
     readonly List<Double3> specials = [];
-    // By lune, row and column.
-    readonly Double3[] grid = new Double3[4 * RowCount * ColumnCount];
-    readonly double[] extents = new double[4 * RowCount * ColumnCount];
-    readonly double[] values = new double[RowCount * ColumnCount];
     readonly List<Double3> minima = [];
-    readonly List<(double Value, int Index)> starts = [];
+    readonly double gap;
 
     public ConvexCylinders(ConvexShape a, ConvexShape b, ConvexRotation rotation)
     {
         (radiusA, halfLengthA, radiusB, halfLengthB) = (a.Radius, a.HalfLength, b.Radius, b.HalfLength);
         axisB = rotation.Y;
+        gap = Gap * Math.Min(a.OuterRadius, b.OuterRadius);
         var cross = Double3.Cross(axisA, axisB);
         pole = cross.Length > 1e-12 ? cross * (1 / cross.Length) : new(1, 0, 0);
         foreach (var direction in new[] { axisA, axisB, pole })
@@ -43,7 +42,6 @@ sealed class ConvexCylinders : IConvexSearch
             specials.Add(direction);
             specials.Add(-direction);
         }
-        FillGrid();
     }
 
     public (double Depth, double AxisDepth) Find(Double3 offset, ConvexCandidates found)
@@ -52,13 +50,10 @@ sealed class ConvexCylinders : IConvexSearch
             found.Add(Value(direction, offset), direction);
         SearchCircle(axisA, offset, found);
         SearchCircle(axisB, offset, found);
-        foreach (var direction in stackalloc[] { offset, Across(offset, axisA), Across(offset, axisB) })
-        {
-            if (direction.Length > 0)
-                Descend(direction * (1 / direction.Length), offset, found);
-        }
-        for (int lune = 0; lune < 4; ++lune)
-            SearchLune(lune, offset, found);
+        void Visit(Double3 m) => Descend(m, offset, found);
+        Double3 Support(Double3 m) => FarthestPoint(m, out _, out _, out _, out _) - offset;
+        ConvexBranching.Search(Support, () => found.Least + found.Tolerance, Visit, StartAngle, GreatestTriangleCount);
+        ConvexBranching.Search(Support, () => found.Least - gap, Visit, 0, GreatestTriangleCount);
         return (found.Least, found.Least);
     }
 
@@ -84,78 +79,25 @@ sealed class ConvexCylinders : IConvexSearch
         {
             var unit = m * (1 / m.Length);
             found.Add(Value(unit, offset), unit);
-            // A bowl beside the crease may be narrower than the grid; steps that start on its side of the crease end in it.
-            foreach (var side in stackalloc[] { axis, -axis })
-            {
-                var beside = unit + side * BesideCrease;
-                Descend(beside * (1 / beside.Length), offset, found);
-            }
         }
     }
 
-    void FillGrid()
+    /// <summary>Farthest point of the difference, but for the offset.</summary>
+    Double3 FarthestPoint(Double3 m, out Double3 sideA, out Double3 sideB, out double lengthA, out double lengthB)
     {
-        // Longitudes around the pole, from axis A: the two creases, each twice.
-        var right = Double3.Cross(pole, axisA);
-        var turn = Math.Atan2(Double3.Dot(axisB, right), Double3.Dot(axisB, axisA));
-        double[] borders = [Wrap(Math.PI / 2), Wrap(-Math.PI / 2), Wrap(turn + Math.PI / 2), Wrap(turn - Math.PI / 2)];
-        Array.Sort(borders);
-        var index = 0;
-        for (int lune = 0; lune < 4; ++lune)
-        {
-            var from = borders[lune];
-            var to = lune < 3 ? borders[lune + 1] : borders[0] + 2 * Math.PI;
-            for (int row = 0; row < RowCount; ++row)
-            {
-                var latitude = Math.PI * (row + 0.5) / RowCount;
-                for (int column = 0; column < ColumnCount; ++column, ++index)
-                {
-                    var longitude = from + (to - from) * (column + 0.5) / ColumnCount;
-                    var across = axisA * Math.Cos(longitude) + right * Math.Sin(longitude);
-                    grid[index] = pole * Math.Cos(latitude) + across * Math.Sin(latitude);
-                    extents[index] = Extent(grid[index]);
-                }
-            }
-        }
+        sideA = Across(m, axisA);
+        sideB = Across(m, axisB);
+        (lengthA, lengthB) = (sideA.Length, sideB.Length);
+        sideA *= lengthA > 0 ? 1 / lengthA : 0;
+        sideB *= lengthB > 0 ? 1 / lengthB : 0;
+        return sideA * radiusA + axisA * (halfLengthA * Math.Sign(Double3.Dot(m, axisA)))
+            + sideB * radiusB + axisB * (halfLengthB * Math.Sign(Double3.Dot(m, axisB)));
     }
 
-    static double Wrap(double angle) => angle < 0 ? angle + 2 * Math.PI : angle >= 2 * Math.PI ? angle - 2 * Math.PI : angle;
-
-    void SearchLune(int lune, Double3 offset, ConvexCandidates found)
-    {
-        var start = lune * RowCount * ColumnCount;
-        for (int i = 0; i < values.Length; ++i)
-            values[i] = extents[start + i] - Double3.Dot(grid[start + i], offset);
-        starts.Clear();
-        for (int row = 0; row < RowCount; ++row)
-        {
-            for (int column = 0; column < ColumnCount; ++column)
-            {
-                if (IsLowest(row, column))
-                    starts.Add((values[row * ColumnCount + column], start + row * ColumnCount + column));
-            }
-        }
-        // A smooth lune has no more than a few bowls; there are many lowest points only where f is level.
-        starts.Sort();
-        for (int i = 0; i < Math.Min(starts.Count, MaximumStartCount); ++i)
-            Descend(grid[starts[i].Index], offset, found);
-    }
-
-    bool IsLowest(int row, int column)
-    {
-        var value = values[row * ColumnCount + column];
-        for (int i = Math.Max(0, row - 1); i <= Math.Min(RowCount - 1, row + 1); ++i)
-        {
-            for (int j = Math.Max(0, column - 1); j <= Math.Min(ColumnCount - 1, column + 1); ++j)
-            {
-                if (values[i * ColumnCount + j] < value)
-                    return false;
-            }
-        }
-        return true;
-    }
-
-    /// <summary>Newton steps in the plane across the direction, shortened until they descend; a step along the slope where f is no bowl.</summary>
+    /// <summary>
+    /// Newton steps in the plane across the direction, shortened until they descend; a step along the slope where f is no bowl. Steps that have
+    /// to be short end at a crease, and would only creep along it.
+    /// </summary>
     void Descend(Double3 m, Double3 offset, ConvexCandidates found)
     {
         var value = Value(m, offset);
@@ -163,15 +105,9 @@ sealed class ConvexCylinders : IConvexSearch
         var least = 1e-15 * (radiusA + halfLengthA + radiusB + halfLengthB);
         for (int i = 0; i < 60; ++i)
         {
-            var sideA = Across(m, axisA);
-            var sideB = Across(m, axisB);
-            double lengthA = sideA.Length, lengthB = sideB.Length;
+            var support = FarthestPoint(m, out var sideA, out var sideB, out var lengthA, out var lengthB) - offset;
             if (lengthA < 1e-12 || lengthB < 1e-12)
                 break;
-            sideA *= 1 / lengthA;
-            sideB *= 1 / lengthB;
-            var support = sideA * radiusA + axisA * (halfLengthA * Math.Sign(Double3.Dot(m, axisA)))
-                + sideB * radiusB + axisB * (halfLengthB * Math.Sign(Double3.Dot(m, axisB))) - offset;
             var t = Double3.Cross(m, Math.Abs(m.X) < 0.6 ? new(1, 0, 0) : new(0, 1, 0));
             t *= 1 / t.Length;
             var b = Double3.Cross(m, t);
@@ -195,7 +131,7 @@ sealed class ConvexCylinders : IConvexSearch
             var length = Math.Sqrt(stepT * stepT + stepB * stepB);
             var fraction = length > 0.3 ? 0.3 / length : 1;
             var improved = false;
-            for (int j = 0; j < 30 && !improved; ++j, fraction *= 0.5)
+            for (int j = 0; j < 12 && !improved; ++j, fraction *= 0.5)
             {
                 var next = m + t * (stepT * fraction) + b * (stepB * fraction);
                 next *= 1 / next.Length;

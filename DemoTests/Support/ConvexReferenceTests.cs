@@ -69,6 +69,43 @@ public class ConvexReferenceTests(ITestOutputHelper output)
     }
 
     [Fact]
+    public void Bounds_from_points_of_the_difference_show_that_nothing_is_less()
+    {
+        var count = 0;
+        var shown = 0;
+        foreach (var (a, b) in Pairs)
+        {
+            foreach (var pair in CreateCases(a, b, isFull ? 100 : 5))
+            {
+                var reference = pair.Reference;
+                var rounding = reference.A.Rounding + reference.B.Rounding;
+                // Directions that are written down in doubles are off by 1e-16, and sizes differ by up to 100.
+                var limit = pair.Depth.Depth - rounding - 1e-9 * reference.LargerSize;
+                var gap = 1e-6 * reference.Size;
+                var isShown = ConvexBranching.Search(Support, () => limit - gap, m => Assert.Fail($"{a}-{b}: {pair.Pose}, less along {m}"), 0, 3000);
+                ++count;
+                shown += isShown ? 1 : 0;
+
+                Double3 Support(Double3 m) => Farthest(reference.A, m)
+                    - reference.Rotation.Rotate(Farthest(reference.B, -reference.Rotation.RotateBack(m))) - pair.LocalOffsetB;
+            }
+        }
+        output.WriteLine($"{shown} of {count}");
+        // Spheres and capsules in one point, and round shapes around one axis, are as deep along whole circles, and there is no end of bounds.
+        Assert.True(shown > .95 * count, $"{shown} of {count}");
+
+        // Of the core, as the radius around it is the same in all directions.
+        static Double3 Farthest(ConvexShape shape, Double3 m)
+        {
+            if (!shape.IsCylinder)
+                return shape.Vertices.MaxBy(v => Double3.Dot(v, m));
+            var across = Math.Sqrt(m.X * m.X + m.Z * m.Z);
+            var scale = across > 0 ? shape.Radius / across : 0;
+            return new(m.X * scale, Math.CopySign(shape.HalfLength, m.Y), m.Z * scale);
+        }
+    }
+
+    [Fact]
     public void Pairs_of_edges_that_cannot_meet_are_left_out_without_loss()
     {
         var worst = 0.0;

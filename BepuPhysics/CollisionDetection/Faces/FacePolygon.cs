@@ -68,6 +68,8 @@ unsafe struct FacePolygon
     public Vector<float> SlopeX, SlopeY, SlopeHeight;
     /// <summary>Greatest distance of a vertex from the first, its two parts added, m.</summary>
     public Vector<float> Extent;
+    /// <summary>Height of the highest vertex, m.</summary>
+    public Vector<float> Highest;
     /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
     public Vector<int> IsPolygon, IsSegment;
 
@@ -100,6 +102,7 @@ unsafe struct FacePolygon
         var margin = Feature.Margin;
         var turn = new Vector<float>(winding);
         var extent = Vector<float>.Zero;
+        var highest = new Vector<float>(-float.MaxValue);
         var point = points[0];
         var count = Count;
         for (int i = 0; i < count; ++i)
@@ -110,6 +113,7 @@ unsafe struct FacePolygon
             vertex.X = Vector3Wide.Dot(offset, frame.X);
             vertex.Y = Vector3Wide.Dot(offset, frame.Y);
             vertex.Height = Vector3Wide.Dot(offset, frame.Outwards) + margin;
+            highest = Wide.Max(vertex.Height, highest);
             // Not the difference of the projections: short edges of large faces keep their directions.
             var edge = next - point;
             var edgeX = Vector3Wide.Dot(edge, frame.X);
@@ -127,6 +131,7 @@ unsafe struct FacePolygon
             point = next;
         }
         Extent = extent;
+        Highest = highest;
         FindSlope(points[0] - frame.Origin, frame);
     }
 

@@ -189,7 +189,7 @@ static unsafe class FaceReduction
     {
         public readonly Vector3Wide Normal;
         readonly Vector3Wide axisX, axisY, origin;
-        readonly Vector<float> slopeX, slopeY, slopeHeight;
+        readonly Vector<float> slopeX, slopeY, slopeHeight, highestA, highestB;
         readonly Vector<int> features;
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -202,6 +202,8 @@ static unsafe class FaceReduction
             slopeX = overlap.A.SlopeX;
             slopeY = overlap.A.SlopeY;
             slopeHeight = overlap.A.SlopeHeight;
+            highestA = overlap.A.Highest;
+            highestB = overlap.B.Highest;
             var mask = new Vector<int>((1 << FeatureBits) - 1);
             features = (overlap.A.Feature.Id & mask) << NameBits | (overlap.B.Feature.Id & mask) << (NameBits + FeatureBits);
         }
@@ -211,7 +213,9 @@ static unsafe class FaceReduction
         {
             // A's surface is as high as its feature, and at the witness where that is.
             var isWitness = Vector.Equals(choice.Name, new Vector<int>(WitnessName));
-            var height = Wide.Select(isWitness, Vector<float>.Zero, slopeX * choice.X + slopeY * choice.Y + slopeHeight);
+            // A steep plane that is followed to the border beside its feature goes beyond the highest vertex of that, which neither surface does.
+            var height = Wide.Clamp(slopeX * choice.X + slopeY * choice.Y + slopeHeight, choice.Depth - highestB, highestA);
+            height = Wide.Select(isWitness, Vector<float>.Zero, height);
             var halfway = choice.Depth * new Vector<float>(0.5f) - height;
             contact.OffsetA = origin + axisX * choice.X + axisY * choice.Y + Normal * halfway;
             contact.Depth = choice.Depth;

@@ -32,9 +32,12 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
     // Cosine between the normals of contact and face below which the triangle is met edge on.
     const float EdgeOnCosine = 0.1f;
     // Part of the size of the pair that a segment may be beside the face and still be over it: along the face's border, contacts must not
-    // depend on rounding. At the sharpest corner of a triangle that is a hundred times as long as thick, a contact may be a hundred times that
-    // beyond it.
+    // depend on rounding.
     const float BorderTolerance = 3e-6f;
+    // Sides that are each moved out by a border meet farther beyond their corner: at the tip of a needle, a hundred borders away from a
+    // triangle that has a hundredth of its length as its width. A side gets this many times the sine of its sharper corner of the border, at
+    // most all of it. So two sides meet no more than twice as many borders beyond their corner.
+    const float SharpSine = 1.5f;
     // Contacts nearer to each other than this part of the capsule's size are one.
     const float MinimumContactDistance = 0.02f;
 
@@ -212,9 +215,12 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var border = scratch.Size * new Vector<float>(BorderTolerance);
         var start = -a.HalfLength;
         var end = a.HalfLength;
-        ClipToSide(scratch.AB, normal, height, slope, border, ref start, ref end);
-        ClipToSide(scratch.BC, normal, height, slope, border, ref start, ref end);
-        ClipToSide(scratch.CA, normal, height, slope, border, ref start, ref end);
+        // The sine at a corner is twice the area over the lengths of its sides: at the sharper end of a side, that with the longer of the others.
+        Vector<float> ab = scratch.AB.Length, bc = scratch.BC.Length, ca = scratch.CA.Length;
+        var sharp = Vector.Abs(Vector3Wide.Dot(scratch.AB.Outward, scratch.Triangle.CA)) * new Vector<float>(SharpSine);
+        ClipToSide(scratch.AB, normal, height, slope, border * Wide.Min(ab, sharp / Wide.Max(bc, ca)), ref start, ref end);
+        ClipToSide(scratch.BC, normal, height, slope, border * Wide.Min(bc, sharp / Wide.Max(ca, ab)), ref start, ref end);
+        ClipToSide(scratch.CA, normal, height, slope, border * Wide.Min(ca, sharp / Wide.Max(ab, bc)), ref start, ref end);
         var isOver = Vector.LessThanOrEqual(start, end) & Vector.GreaterThan(Vector.Abs(facing), new Vector<float>(EdgeOnCosine));
 
         // The place of the pair's own depth: the lower end of the segment on a face. Where it is beside the face, the nearest place over it is
@@ -318,6 +324,14 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         search.Shown = Wide.Select(better, shown, search.Shown);
     }
 
+    /// <summary>Cuts the part of the segment that is over the face to what is on the inner side of an edge.</summary>
+    /// <param name="side">The edge.</param>
+    /// <param name="normal">Normal of the pair.</param>
+    /// <param name="height">Height of the segment's middle over the face, along the normal.</param>
+    /// <param name="slope">What is added to that along the segment.</param>
+    /// <param name="border">How far beyond the edge still counts as inside, times the edge's length.</param>
+    /// <param name="start">Start of the part.</param>
+    /// <param name="end">End of the part.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void ClipToSide(in Side side, in Vector3Wide normal, Vector<float> height, Vector<float> slope, Vector<float> border,
         ref Vector<float> start, ref Vector<float> end)
@@ -327,7 +341,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var speed = side.Outward.Y - along * slope;
         var least = side.Length * new Vector<float>(BorderTolerance);
         var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), least), speed);
-        var crossing = (border * side.Length - (side.Beyond - along * height)) * inverse;
+        var crossing = (border - (side.Beyond - along * height)) * inverse;
         var leaves = Vector.GreaterThan(inverse, Vector<float>.Zero);
         end = Wide.Select(leaves, Wide.Min(end, crossing), end);
         start = Wide.Select(leaves, start, Wide.Max(start, crossing));
