@@ -28,6 +28,8 @@ struct SearchSimplex
     // Squared length, in units of the search, below which two vertices are one; squared sine below which three are on a line.
     const float LeastSquaredEdge = 1e-14f;
     const float LeastSquaredSine = 1e-12f;
+    // Squared ratio of lengths below which a triangle at a vertex is a needle: its far side is that short.
+    const float SquaredNeedle = 1e-2f;
     // Part of an edge that rounding may move a point along it; less than what the walk tolerates.
     const float GreatestSlip = 1e-5f;
 
@@ -92,10 +94,10 @@ struct SearchSimplex
             {
                 useC = TrySegment(q, c, squaredC, ref closest, ref distance);
                 var qb = Vector3Wide.Cross(q, b);
-                useAB = TryTriangle(q, a, b, qa, qb, squaredA * squaredB, ref closest, ref distance);
-                useBC = TryTriangle(q, b, c, qb, qc, squaredB * squaredC, ref closest, ref distance);
+                useAB = TryTriangle(q, a, b, A.Point, B.Point, qa, qb, squaredA, squaredB, ref closest, ref distance);
+                useBC = TryTriangle(q, b, c, B.Point, C.Point, qb, qc, squaredB, squaredC, ref closest, ref distance);
             }
-            var useCA = TryTriangle(q, c, a, qc, qa, squaredC * squaredA, ref closest, ref distance);
+            var useCA = TryTriangle(q, c, a, C.Point, A.Point, qc, qa, squaredC, squaredA, ref closest, ref distance);
             useAB = Vector.AndNot(useAB, useBC | useCA);
             useBC = Vector.AndNot(useBC, useCA);
             keepA = Vector.AndNot(Vector.AndNot(keepA, useB | useC), useBC) | useAB | useCA;
@@ -157,7 +159,7 @@ struct SearchSimplex
         var e1 = B.Point - A.Point;
         var e2 = C.Point - A.Point;
         var q = target - A.Point;
-        return TryTriangle(q, e1, e2, Vector3Wide.Cross(q, e1), Vector3Wide.Cross(q, e2), e1.LengthSquared() * e2.LengthSquared(),
+        return TryTriangle(q, e1, e2, B.Point, C.Point, Vector3Wide.Cross(q, e1), Vector3Wide.Cross(q, e2), e1.LengthSquared(), e2.LengthSquared(),
             wantedMask, ref closest, ref distance);
     }
 
@@ -178,26 +180,40 @@ struct SearchSimplex
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide qe1, in Vector3Wide qe2,
-        Vector<float> squaredEdges, ref Vector3Wide closest, ref Vector<float> distance) =>
-        TryTriangle(q, e1, e2, qe1, qe2, squaredEdges, Vector<int>.AllBitsSet, ref closest, ref distance);
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2, in Vector3Wide qe1, in Vector3Wide qe2,
+        in Vector<float> squared1, in Vector<float> squared2, ref Vector3Wide closest, ref Vector<float> distance) =>
+        TryTriangle(q, e1, e2, end1, end2, qe1, qe2, squared1, squared2, Vector<int>.AllBitsSet, ref closest, ref distance);
 
     // The cross products of q and the edges are the caller's, who has two triangles for each.
+    // A needle's two long edges are all but parallel: their product is a small difference of what is ten to a million times as large. The short
+    // edge, taken between the ends as they are, and the median are better, n = e1 x e2 = (e1 + e2) / 2 x e3; and how far along the needle
+    // q is shows better across the short edge, u + v = (q x e3).n. Turned about, the triangle gives the same bits.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide qe1, in Vector3Wide qe2,
-        Vector<float> squaredEdges, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2, in Vector3Wide qe1, in Vector3Wide qe2,
+        in Vector<float> squared1, in Vector<float> squared2, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
     {
         var normal = Vector3Wide.Cross(e1, e2);
-        var determinant = normal.LengthSquared();
         var u = Vector3Wide.Dot(qe2, normal);
         var v = -Vector3Wide.Dot(qe1, normal);
+        var sum = u + v;
+        var along = Vector3Wide.Dot(e1, e2);
+        var needle = Vector.LessThan(squared1 + squared2 - (along + along), Wide.Min(squared1, squared2) * new Vector<float>(SquaredNeedle));
+        if (needle != Vector<int>.Zero)
+        {
+            var e3 = end2 - end1;
+            normal = Vector3Wide.Select(needle, Vector3Wide.Cross((e1 + e2) * new Vector<float>(0.5f), e3), normal);
+            u = Vector3Wide.Dot(qe2, normal);
+            v = -Vector3Wide.Dot(qe1, normal);
+            sum = Wide.Select(needle, Vector3Wide.Dot(Vector3Wide.Cross(q, e3), normal), u + v);
+        }
+        var determinant = normal.LengthSquared();
         var height = Vector3Wide.Dot(q, normal);
         var scaled = height / determinant;
         var squared = height * scaled;
         var better = wantedMask &
-            Vector.GreaterThan(determinant, squaredEdges * new Vector<float>(LeastSquaredSine)) &
+            Vector.GreaterThan(determinant, squared1 * squared2 * new Vector<float>(LeastSquaredSine)) &
             Vector.GreaterThanOrEqual(u, Vector<float>.Zero) & Vector.GreaterThanOrEqual(v, Vector<float>.Zero) &
-            Vector.LessThanOrEqual(u + v, determinant) & Vector.LessThanOrEqual(squared, distance);
+            Vector.LessThanOrEqual(sum, determinant) & Vector.LessThanOrEqual(squared, distance);
         closest = Vector3Wide.Select(better, normal * scaled, closest);
         distance = Wide.Select(better, squared, distance);
         return better;

@@ -1,0 +1,70 @@
+using System;
+using System.Numerics;
+using BepuPhysics.CollisionDetection;
+using BepuUtilities;
+using DemoTests.Support;
+using Xunit;
+
+namespace DemoTests.CollisionDetection;
+
+/// <summary>The closest point of a simplex, where rounding is hardest on it: in triangles that are thousands of times as long as wide.</summary>
+public class SearchSimplexTests
+{
+    // Of the largest shapes the search works with, in its own units, a few times; what it tolerates there is a millionth at the least.
+    const float Length = 2.5f;
+    const double Tolerance = 1e-6;
+
+    [Theory]
+    [InlineData(3e-1f), InlineData(1e-2f), InlineData(1e-3f), InlineData(3e-4f)]
+    public void A_needle_is_as_far_from_the_target_as_it_is(float width)
+    {
+        var random = new Random(1);
+        for (int i = 0; i < 2000; ++i)
+        {
+            var target = default(Vector3Wide);
+            var vertices = new SearchVertex[3];
+            var expected = new double[Vector<float>.Count];
+            var tipIsNew = (i & 1) == 0;
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                // The tip is at one end, and the two other corners are a width apart at the other.
+                var tip = Direction(random) * Length;
+                var other = -tip + Direction(random) * width;
+                var third = other + Vector3.Normalize(Vector3.Cross(tip, Direction(random))) * width;
+                var inside = tip + (other - tip) * (.2f + .3f * random.NextSingle()) + (third - tip) * (.2f + .3f * random.NextSingle());
+                var normal = Vector3.Normalize(Vector3.Cross(other - tip, third - other));
+                var above = inside + normal * (1e-3f + .1f * random.NextSingle());
+                Vector3Wide.WriteSlot(above, lane, ref target);
+                Vector3Wide.WriteSlot(tipIsNew ? tip : third, lane, ref vertices[0].Point);
+                Vector3Wide.WriteSlot(other, lane, ref vertices[1].Point);
+                Vector3Wide.WriteSlot(tipIsNew ? third : tip, lane, ref vertices[2].Point);
+                expected[lane] = Height(above, tip, other, third);
+            }
+            var simplex = new SearchSimplex { A = vertices[1], B = vertices[2], C = vertices[2] };
+            simplex.Add(vertices[0], target, Vector<int>.AllBitsSet, Vector<int>.Zero, 2, out var offset);
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                Vector3Wide.ReadSlot(ref offset, lane, out var found);
+                // The direction is free to lean over to a side of the needle, which is next to nothing farther away.
+                Assert.InRange(((Double3)found).Length, expected[lane] - Tolerance, expected[lane] + Tolerance);
+            }
+        }
+    }
+
+    // Over the plane of the triangle as its corners were rounded.
+    static double Height(Vector3 point, Vector3 a, Vector3 b, Vector3 c)
+    {
+        var normal = Double3.Cross((Double3)b - a, (Double3)c - a);
+        return Math.Abs(Double3.Dot((Double3)point - a, normal)) / normal.Length;
+    }
+
+    static Vector3 Direction(Random random)
+    {
+        while (true)
+        {
+            var v = new Vector3(random.NextSingle() - .5f, random.NextSingle() - .5f, random.NextSingle() - .5f);
+            if (v.LengthSquared() is > .01f and < .25f)
+                return Vector3.Normalize(v);
+        }
+    }
+}
