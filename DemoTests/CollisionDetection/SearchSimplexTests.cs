@@ -51,6 +51,30 @@ public class SearchSimplexTests
         }
     }
 
+    // Simplices that a triangle and a cylinder ended with, slivers all but on a line, of which rounding put the point a hundredth away.
+    [Theory]
+    [InlineData(new[] { -1.0672928f, -.9277656f, .5508149f }, new[] { -1.0671666f, -.9276491f, .55074465f }, new[] { .55258733f, .4803447f, -.28517947f },
+        new[] { -4.1740027e-8f, -2.2139699e-7f, -4.5378928e-7f }, 0)]
+    [InlineData(new[] { -.44146004f, .1598867f, .2876452f }, new[] { 1.0429051f, -.3791618f, -.6795317f }, new[] { 1.0430456f, -.3792187f, -.67965853f },
+        new[] { 0f, 0f, 0f }, 4.10825e-4)]
+    public void Weights_of_slivers_are_those_of_the_closest_point(float[] a, float[] b, float[] c, float[] target, double distance)
+    {
+        var simplex = default(SearchSimplex);
+        simplex.A.Point = Vector3Wide.Broadcast(new(a));
+        simplex.B.Point = Vector3Wide.Broadcast(new(b));
+        simplex.C.Point = Vector3Wide.Broadcast(new(c));
+        var weights = simplex.GetWeights(Vector3Wide.Broadcast(new(target)));
+        Double3 found = default;
+        for (int i = 0; i < 3; ++i)
+        {
+            double weight = (i == 0 ? weights.X : i == 1 ? weights.Y : weights.Z)[0];
+            Assert.InRange(weight, 0, 1);
+            found += (Double3)new Vector3(i == 0 ? a : i == 1 ? b : c) * weight;
+        }
+        Assert.Equal(1, weights.X[0] + weights.Y[0] + weights.Z[0], 1e-6);
+        Assert.InRange((found - new Vector3(target)).Length, 0, distance + 2 * Tolerance);
+    }
+
     // Over the plane of the triangle as its corners were rounded.
     static double Height(Vector3 point, Vector3 a, Vector3 b, Vector3 c)
     {

@@ -149,7 +149,19 @@ struct SearchSimplex
         var squaredAcross = across.LengthSquared();
         var isTriangle = Vector.GreaterThan(squaredAcross, squaredShort * new Vector<float>(LeastSquaredSine));
         var shortWeight = Wide.Clamp(Wide.Mask(isTriangle, Vector3Wide.Dot(q, across) / squaredAcross), zero, one);
-        var longWeight = Wide.Clamp(Vector3Wide.Dot(q - shortEdge * shortWeight, longEdge) * inverse, zero, one - shortWeight);
+        var longWeight = Vector3Wide.Dot(q - shortEdge * shortWeight, longEdge) * inverse;
+        // Where edges are all but parallel, the first weight may be off by any part of one, and then no second weight makes that good. The point
+        // seems to be beside the triangle, and is on the side that it seems to be beside of.
+        var beforeMask = Vector.LessThan(longWeight, zero);
+        var beyondMask = Vector.GreaterThan(longWeight, one - shortWeight);
+        if ((beforeMask | beyondMask) != Vector<int>.Zero)
+        {
+            var side = longEdge - shortEdge;
+            var alongSide = Wide.Clamp(Wide.DivideOrZero(Vector3Wide.Dot(q - shortEdge, side), side.LengthSquared()), zero, one);
+            var alongShort = Wide.Clamp(Wide.DivideOrZero(Vector3Wide.Dot(q, shortEdge), squaredShort), zero, one);
+            longWeight = Wide.Select(beyondMask, alongSide, Wide.Max(longWeight, zero));
+            shortWeight = Wide.Select(beyondMask, one - alongSide, Wide.Select(beforeMask, alongShort, shortWeight));
+        }
         return new(one - longWeight - shortWeight, Wide.Select(longIsB, longWeight, shortWeight), Wide.Select(longIsB, shortWeight, longWeight));
     }
 
