@@ -13,7 +13,7 @@ namespace BepuPhysics;
 // late by the delay of that wave, feeds it: arms that together are as heavy as the hub that they hang on, or heavier, throw it about until all bursts.
 //
 // In an order that is drawn anew nothing travels. Turning an order around transposes (D + L)^-1, so that its mean over all orders is
-// symmetric, and K's is positive: the eigenvalues of the mean are real again. A few fixed orders in turn are no remedy, least of all one order
+// symmetric, and K's is positive: the eigenvalues of the mean are real again. Two fixed orders in turn are no remedy, least of all one order
 // and its reverse, where the last joint of a substep is the first of the next. One order for all sweeps of a substep: an exactly straight
 // chain, with three sweeps and the stiffness that they allow, gains energy where each of them has its own.
 public sealed unsafe partial class Solver
