@@ -18,6 +18,8 @@ public delegate void SubstepEvent(int substepIndex);
 // With relaxation, poses are integrated after the iterations of each substep, and for each relaxation, for each batch: solve, without
 // correction of positions.
 //
+// Batches are solved in the order of their indices, or in one that is drawn for the substep (Solver.Order.cs).
+//
 // The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
 public sealed unsafe partial class Solver
 {
@@ -124,6 +126,8 @@ public sealed unsafe partial class Solver
             work.BlocksOfBatch.Dispose(pool);
         if (work.Stages.Span.Allocated)
             work.Stages.Dispose(pool);
+        if (work.Order.Span.Allocated)
+            work.Order.Dispose(pool);
         work.Split.Dispose(pool);
     }
 
@@ -148,6 +152,7 @@ public sealed unsafe partial class Solver
 
     void BuildStages(ref SolveWork work)
     {
+        BuildOrder(ref work);
         work.Stages = new QuickList<Stage>(64, pool);
         work.Iterations = IterationsOf(0);
         AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
@@ -159,6 +164,7 @@ public sealed unsafe partial class Solver
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
             AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
             AddOptional(ref work, SolverPoint.AfterIntegration, substep);
+            DrawOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
             for (int i = work.Iterations; i > 0; --i)
@@ -200,8 +206,9 @@ public sealed unsafe partial class Solver
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
-        for (int batch = 0; batch < work.BlocksOfBatch.Count; ++batch)
+        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
         {
+            var batch = work.Order[i];
             if (work.BlocksOfBatch[batch].Count == 0)
                 continue;
             work.Stages.Add(new() { Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
@@ -225,6 +232,9 @@ public sealed unsafe partial class Solver
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
         public QuickList<BlockRange> BlocksOfBatch;
+        // Batches in the order in which the present substep sweeps over them.
+        public QuickList<int> Order;
+        public bool DrawsOrder;
 
         public readonly int StageCount => Stages.Count;
 

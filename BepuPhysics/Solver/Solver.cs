@@ -170,6 +170,7 @@ public sealed unsafe partial class Solver
         HandlePool.Clear();
         previousSubstepDt = 0;
         steadySubstepDt = 0;
+        drawnOrder = 0;
     }
 
     void DisposeBatch(ref ConstraintBatch batch)
