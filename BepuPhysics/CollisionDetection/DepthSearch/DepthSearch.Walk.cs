@@ -8,7 +8,7 @@ namespace BepuPhysics.CollisionDetection;
 public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSupportB>
 {
     // Steps of a walk. One pair in a hundred of deep cylinders gets there; all others stop long before.
-    const int MaximumSteps = 40;
+    const int MaximumSteps = 50;
     // A direction that is farther than 60 degrees from the best one is not taken as it is: the best direction is tilted towards it by a half.
     const float TiltCosine = 0.5f;
     const float Tilt = 0.5f;

@@ -192,8 +192,8 @@ struct SearchSimplex
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2, in Vector3Wide qe1, in Vector3Wide qe2,
-        in Vector<float> squared1, in Vector<float> squared2, ref Vector3Wide closest, ref Vector<float> distance) =>
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2,
+        in Vector3Wide qe1, in Vector3Wide qe2, in Vector<float> squared1, in Vector<float> squared2, ref Vector3Wide closest, ref Vector<float> distance) =>
         TryTriangle(q, e1, e2, end1, end2, qe1, qe2, squared1, squared2, Vector<int>.AllBitsSet, ref closest, ref distance);
 
     // The cross products of q and the edges are the caller's, who has two triangles for each.
@@ -201,8 +201,8 @@ struct SearchSimplex
     // edge, taken between the ends as they are, and the median are better, n = e1 x e2 = (e1 + e2) / 2 x e3; and how far along the needle
     // q is shows better across the short edge, u + v = (q x e3).n. Turned about, the triangle gives the same bits.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2, in Vector3Wide qe1, in Vector3Wide qe2,
-        in Vector<float> squared1, in Vector<float> squared2, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2,
+        in Vector3Wide qe1, in Vector3Wide qe2, in Vector<float> squared1, in Vector<float> squared2, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
     {
         var normal = Vector3Wide.Cross(e1, e2);
         var u = Vector3Wide.Dot(qe2, normal);
