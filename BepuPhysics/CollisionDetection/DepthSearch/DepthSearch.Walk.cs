@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -67,7 +66,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             if (isNew && i == 1)
                 offset = target - vertex.Point;
             else
-                walk.Simplex.Add(vertex, target, activeMask, wholeMask, isNew ? Math.Min(i - 1, 3) : 3, out offset);
+                walk.Simplex.Add(vertex, target, activeMask, wholeMask, isNew ? i - 1 : 3, out offset);
             wholeMask = Vector<int>.Zero;
             var length = offset.Length();
             activeMask &= IsFar(frame, length, best) & Vector.GreaterThanOrEqual(best, frame.LeastDepth);

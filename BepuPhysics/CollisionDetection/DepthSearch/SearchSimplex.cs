@@ -59,7 +59,7 @@ struct SearchSimplex
     /// <param name="activeMask">Lanes to change.</param>
     /// <param name="wholeMask">Lanes in which the old triangle competes, too.</param>
     /// <param name="oldCount">
-    /// How many vertices there are at most in any active lane, 1 to 3: of one, all three are that; of two, the third is the second. What
+    /// How many vertices there may be in an active lane, at least 1: of one, all three are that; of two, the third is the second. What
     /// is the same as something else then need not be tried, and would change nothing.
     /// </param>
     /// <param name="offset">From the closest point to the target.</param>

@@ -88,7 +88,9 @@ struct SupportRing
     /// <summary>Lanes in which no direction can be less deep than the bound.</summary>
     // Four points that are one are no ring: all its sides would pass for want of triangles.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly Vector<int> Certifies() => Mask & ~(AreOne(Vertex0.Point, Vertex1.Point) & AreOne(Vertex0.Point, Vertex2.Point)) & IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
+    public readonly Vector<int> Certifies() =>
+        Mask & ~(AreOne(Vertex0.Point, Vertex1.Point) & AreOne(Vertex0.Point, Vertex2.Point)) &
+        IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
         IsBeyond(Vertex2.Point, Vertex3.Point) & IsBeyond(Vertex3.Point, Vertex0.Point);
 
     /// <summary>Whether the triangles above and below a side of the ring are far enough from the origin. Two points that are one have none.</summary>
