@@ -45,7 +45,7 @@ public static unsafe partial class Transpose
             return Gather8(rows, strideInFloats, indices);
         if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)
             return Gather4(rows, strideInFloats, indices);
-        if (Vector<float>.Count == 16 && Avx512F.IsSupported)
+        if (Vector<float>.Count == 16 && Avx.IsSupported)
             return Gather16(rows, strideInFloats, indices);
         return GatherByLanes(rows, strideInFloats, rowIndices);
     }
@@ -62,7 +62,7 @@ public static unsafe partial class Transpose
             Scatter8(values, rows, strideInFloats, rowIndices);
         else if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)
             Scatter4(values, rows, strideInFloats, rowIndices);
-        else if (Vector<float>.Count == 16 && Avx512F.IsSupported)
+        else if (Vector<float>.Count == 16 && Avx.IsSupported)
             Scatter16(values, rows, strideInFloats, rowIndices);
         else
             ScatterByLanes(values, rows, strideInFloats, rowIndices);
