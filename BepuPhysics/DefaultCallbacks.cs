@@ -26,7 +26,8 @@ public struct NarrowPhaseCallbacks : INarrowPhaseCallbacks
     public readonly bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) => true;
 
     /// <inheritdoc/>
-    public readonly bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
+    public readonly bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold,
+        out PairMaterialProperties pairMaterial)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         pairMaterial = Material;
@@ -37,7 +38,8 @@ public struct NarrowPhaseCallbacks : INarrowPhaseCallbacks
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 
     /// <inheritdoc/>
-    public readonly bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
+    public readonly bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB,
+        ref ConvexContactManifold manifold) => true;
 
     /// <inheritdoc/>
     public readonly void Dispose() { }

@@ -39,7 +39,8 @@ public sealed partial class Simulation : IDisposable
     /// <summary>Kept for callers: results never depend on threads, whatever this says.</summary>
     public bool Deterministic { get; set; } = true;
 
-    Simulation(BufferPool bufferPool, IPoseIntegrator poseIntegrator, in SolveDescription solveDescription, ITimestepper timestepper, in SimulationAllocationSizes sizes, Shapes? shapes)
+    Simulation(BufferPool bufferPool, IPoseIntegrator poseIntegrator, in SolveDescription solveDescription, ITimestepper timestepper,
+        in SimulationAllocationSizes sizes, Shapes? shapes)
     {
         BufferPool = bufferPool;
         PoseIntegrator = poseIntegrator;
@@ -49,7 +50,8 @@ public sealed partial class Simulation : IDisposable
         BroadPhase = new BroadPhase(bufferPool, Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics));
         Bodies = new Bodies(bufferPool, sizes.Bodies);
         Statics = new Statics(bufferPool, BroadPhase, Shapes, sizes.Statics);
-        Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints) { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
+        Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints)
+            { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
         Bodies.Connect(Solver, BroadPhase, Shapes);
         DefaultTypes.RegisterDefaults(Solver);
@@ -74,7 +76,8 @@ public sealed partial class Simulation : IDisposable
         var sizes = initialAllocationSizes ?? SimulationAllocationSizes.Default;
         sizes.Validate();
         var simulation = new Simulation(
-            bufferPool, new PoseIntegrator<TPoseIntegratorCallbacks>(poseIntegratorCallbacks), solveDescription, timestepper ?? new DefaultTimestepper(), sizes, shapes);
+            bufferPool, new PoseIntegrator<TPoseIntegratorCallbacks>(poseIntegratorCallbacks), solveDescription,
+            timestepper ?? new DefaultTimestepper(), sizes, shapes);
         simulation.NarrowPhase = new NarrowPhase<TNarrowPhaseCallbacks>(
             simulation, narrowPhaseCallbacks, DefaultTypes.CreateDefaultCollisionTaskRegistry(), sizes.Constraints / 4);
         simulation.Solver.OnContactRemoved(simulation.NarrowPhase.Forget);

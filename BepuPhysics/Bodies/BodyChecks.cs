@@ -60,7 +60,8 @@ static class BodyChecks
         const float Rounding = 1e-5f;
         if (i.XX < 0 || i.YY < 0 || i.ZZ < 0 ||
             i.YX * i.YX > i.XX * i.YY * (1 + Rounding) || i.ZX * i.ZX > i.XX * i.ZZ * (1 + Rounding) || i.ZY * i.ZY > i.YY * i.ZZ * (1 + Rounding))
-            throw new ArgumentException($"The inverse inertia must have no negative principal moment, not the diagonal ({i.XX}, {i.YY}, {i.ZZ}).", nameof(inertia));
+            throw new ArgumentException($"The inverse inertia must have no negative principal moment, not the diagonal ({i.XX}, {i.YY}, {i.ZZ}).",
+                nameof(inertia));
     }
 
     internal static void Activity(in BodyActivityDescription activity)

@@ -42,7 +42,8 @@ public struct CollidableDescription(TypedIndex shape, float minimumSpeculativeMa
         if (!(MinimumSpeculativeMargin >= 0) || !(MaximumSpeculativeMargin >= MinimumSpeculativeMargin) || float.IsInfinity(MinimumSpeculativeMargin))
         {
             throw new ArgumentException(
-                $"{nameof(MinimumSpeculativeMargin)} ({MinimumSpeculativeMargin}) and {nameof(MaximumSpeculativeMargin)} ({MaximumSpeculativeMargin}) must be in order and not negative.",
+                $"{nameof(MinimumSpeculativeMargin)} ({MinimumSpeculativeMargin}) and " +
+                $"{nameof(MaximumSpeculativeMargin)} ({MaximumSpeculativeMargin}) must be in order and not negative.",
                 nameof(MinimumSpeculativeMargin));
         }
     }

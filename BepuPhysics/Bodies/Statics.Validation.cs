@@ -16,7 +16,8 @@ public sealed partial class Statics
             Invariant.Finite(target.Pose.Orientation, "orientation of static", handle.Value);
             Invariant.Require(shapes.Exists(target.Shape), "shape of static", handle.Value);
             Invariant.Require((uint)target.BroadPhaseIndex < (uint)broadPhase.StaticTree.LeafCount, "leaf of static", handle.Value);
-            Invariant.Require(broadPhase.StaticLeaves[target.BroadPhaseIndex] == new Collidables.CollidableReference(handle), "collidable of the leaf of static", handle.Value);
+            Invariant.Require(broadPhase.StaticLeaves[target.BroadPhaseIndex] == new Collidables.CollidableReference(handle),
+                "collidable of the leaf of static", handle.Value);
         }
         Invariant.Require(Count == broadPhase.StaticTree.LeafCount, "number of static leaves, statics have", Count);
         Invariant.Ids(HandlePool, HandleToIndex.Length, "statics", id => HandleToIndex[id] >= 0);

@@ -39,6 +39,7 @@ public struct ContinuousDetection
     internal readonly void Validate(string name)
     {
         if ((uint)Mode > (uint)ContinuousDetectionMode.Continuous || !float.IsFinite(MinimumSweepTimestep) || !float.IsFinite(SweepConvergenceThreshold))
-            throw new ArgumentException($"{name} must have a known mode and finite times, not {Mode}, {MinimumSweepTimestep}, {SweepConvergenceThreshold}.", name);
+            throw new ArgumentException(
+                $"{name} must have a known mode and finite times, not {Mode}, {MinimumSweepTimestep}, {SweepConvergenceThreshold}.", name);
     }
 }

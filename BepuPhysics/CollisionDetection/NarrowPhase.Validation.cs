@@ -25,11 +25,13 @@ public abstract partial class NarrowPhase
             ++contactPairCount;
             Invariant.Require(solver.ConstraintExists(cached.Constraint), "constraint of pair", i, cached.Constraint.Value);
             var location = solver.HandleToConstraint[cached.Constraint.Value];
-            Invariant.Require(location.TypeId == cached.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount, "type of the constraint of pair", i, location.TypeId);
+            Invariant.Require(location.TypeId == cached.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount,
+                "type of the constraint of pair", i, location.TypeId);
             var known = pairOfConstraint[cached.Constraint.Value];
             Invariant.Require(known.A == pair.A && known.B == pair.B, "pair of constraint", cached.Constraint.Value);
             var processor = solver.Processor(location.TypeId);
-            Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2), "number of bodies of the constraint of pair", i);
+            Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2),
+                "number of bodies of the constraint of pair", i);
             Invariant.Require(IsBody(location, 0, pair.A), "first body of the constraint of pair", i);
             Invariant.Require(processor.BodiesPerConstraint == 1 || IsBody(location, 1, pair.B), "second body of the constraint of pair", i);
         }

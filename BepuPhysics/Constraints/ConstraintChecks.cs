@@ -45,14 +45,16 @@ static class ConstraintChecks
     {
         if (!SpringSettings.Validate(value))
             throw new ArgumentException(
-                $"{name} must be finite and not negative, not an angular frequency of {value.AngularFrequency} and twice a damping ratio of {value.TwiceDampingRatio}.", name);
+                $"{name} must be finite and not negative, not an angular frequency of {value.AngularFrequency} " +
+                $"and twice a damping ratio of {value.TwiceDampingRatio}.", name);
     }
 
     internal static void Servo(in ServoSettings value, string name)
     {
         if (!ServoSettings.Validate(value))
             throw new ArgumentException(
-                $"{name} must not be negative or NaN, not maximum speed {value.MaximumSpeed}, base speed {value.BaseSpeed}, maximum force {value.MaximumForce}.", name);
+                $"{name} must not be negative or NaN, not maximum speed {value.MaximumSpeed}, base speed {value.BaseSpeed}, " +
+                $"maximum force {value.MaximumForce}.", name);
     }
 
     internal static void Order(float minimum, float maximum, string minimumName, string maximumName)

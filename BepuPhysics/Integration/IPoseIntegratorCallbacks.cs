@@ -31,7 +31,9 @@ public interface IPoseIntegratorCallbacks
         Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia,
         Vector<int> integrationMask, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity);
 
-    /// <summary>Called before bodies are integrated over a time, on the thread that steps the simulation: the place to work out what all bodies share.</summary>
+    /// <summary>
+    /// Called before bodies are integrated over a time, on the thread that steps the simulation: the place to work out what all bodies share.
+    /// </summary>
     /// <param name="dt">Time that the following calls integrate over, s.</param>
     void PrepareForIntegration(float dt);
 

@@ -67,7 +67,9 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
     /// <summary>Value of a body or static.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
     public ref T this[CollidableReference collidable] =>
-        ref collidable.Mobility == CollidableMobility.Static ? ref this[new StaticHandle(collidable.RawHandleValue)] : ref this[new BodyHandle(collidable.RawHandleValue)];
+        ref collidable.Mobility == CollidableMobility.Static
+            ? ref this[new StaticHandle(collidable.RawHandleValue)]
+            : ref this[new BodyHandle(collidable.RawHandleValue)];
 
     /// <summary>Makes room for a body's value, sets it to its default and returns it; valid until room is made again.</summary>
     public ref T Allocate(BodyHandle handle) => ref Allocate(ref bodyData, handle.Value);
@@ -77,7 +79,9 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
 
     /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
     public ref T Allocate(CollidableReference collidable) =>
-        ref collidable.Mobility == CollidableMobility.Static ? ref Allocate(new StaticHandle(collidable.RawHandleValue)) : ref Allocate(new BodyHandle(collidable.RawHandleValue));
+        ref collidable.Mobility == CollidableMobility.Static
+            ? ref Allocate(new StaticHandle(collidable.RawHandleValue))
+            : ref Allocate(new BodyHandle(collidable.RawHandleValue));
 
     /// <summary>Makes room for the bodies whose handle values are below a number.</summary>
     public void EnsureBodyCapacity(int capacity)

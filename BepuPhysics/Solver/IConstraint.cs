@@ -8,7 +8,8 @@ namespace BepuPhysics.Constraints;
 /// <typeparam name="TImpulses">Accumulated impulses, kept from step to step.</typeparam>
 /// <remarks>
 /// Lanes are independent constraints and stay so: what happens in a lane depends on its inputs alone. Joints do not implement this
-/// but <see cref="IJoint{TBodies, TPrestep, TGeometry, TRows, TMass}"/>, from which <see cref="JointConstraint{TBodies, TPrestep, TGeometry, TRows, TMass, TJoint}"/>
+/// but <see cref="IJoint{TBodies, TPrestep, TGeometry, TRows, TMass}"/>, from which
+/// <see cref="JointConstraint{TBodies, TPrestep, TGeometry, TRows, TMass, TJoint}"/>
 /// makes the two functions.
 /// </remarks>
 public interface IConstraint<TBodies, TPrestep, TImpulses>

@@ -33,12 +33,14 @@ public sealed unsafe partial class Solver
         where TDescription : unmanaged, IFourBodyConstraintDescription<TDescription> => Add([a, b, c, d], description);
 
     /// <summary>Adds a constraint between as many bodies as its type connects.</summary>
-    /// <exception cref="ArgumentException">A body does not exist, occurs twice, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">A body does not exist, occurs twice, all are kinematic, or a value cannot be simulated; nothing
+    /// was changed.</exception>
     public ConstraintHandle Add<TDescription>(Span<BodyHandle> bodyHandles, in TDescription description)
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         if (bodyHandles.Length != TDescription.BodyCount)
-            throw new ArgumentException($"{typeof(TDescription).Name} connects {TDescription.BodyCount} bodies, not {bodyHandles.Length}.", nameof(bodyHandles));
+            throw new ArgumentException($"{typeof(TDescription).Name} connects {TDescription.BodyCount} bodies, not {bodyHandles.Length}.",
+                nameof(bodyHandles));
         CheckBodies(bodyHandles);
         description.Validate();
         Register<TDescription>();
@@ -279,7 +281,8 @@ public sealed unsafe partial class Solver
         {
             ref var constraint = ref constraints[i];
             ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
-            ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint);
+            ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
+                constraint.BodyIndexInConstraint);
             reference = reference & ~EncodedBody.IndexMask | newIndex;
         }
     }

@@ -43,8 +43,10 @@ public sealed unsafe partial class Solver
 
     /// <summary>Called when a substep begins, before its bodies are integrated. Runs on a worker, while the others wait.</summary>
     public event SubstepEvent? SubstepStarted;
-    /// <summary>Called when the constraints of a substep have been solved, and relaxed: with relaxations poses are those of its end, else of its beginning. Runs on a
-    /// worker, while the others wait.</summary>
+    /// <summary>
+    /// Called when the constraints of a substep have been solved, and relaxed: with relaxations poses are those of its end, else of its
+    /// beginning. Runs on a worker, while the others wait.
+    /// </summary>
     public event SubstepEvent? SubstepEnded;
 
     enum StageKind
@@ -200,7 +202,10 @@ public sealed unsafe partial class Solver
         {
             var blocks = OptionalStages[i].GetBlockCount(point);
             if (blocks > 0)
-                work.Stages.Add(new() { Kind = StageKind.Optional, Substep = substep, Iterations = work.Iterations, Point = point, Optional = i, BlockCount = blocks }, pool);
+                work.Stages.Add(new()
+                {
+                    Kind = StageKind.Optional, Substep = substep, Iterations = work.Iterations, Point = point, Optional = i, BlockCount = blocks,
+                }, pool);
         }
     }
 
@@ -211,7 +216,10 @@ public sealed unsafe partial class Solver
             var batch = work.Order[i];
             if (work.BlocksOfBatch[batch].Count == 0)
                 continue;
-            work.Stages.Add(new() { Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count }, pool);
+            work.Stages.Add(new()
+            {
+                Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count,
+            }, pool);
             if (batch == FallbackBatchThreshold)
                 work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
         }

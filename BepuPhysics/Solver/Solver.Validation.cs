@@ -11,7 +11,8 @@ public sealed partial class Solver
         ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
         var processor = Processor(location.TypeId);
         return (uint)constraint.BodyIndexInConstraint < (uint)processor.BodiesPerConstraint &&
-            (processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint) & EncodedBody.IndexMask) == bodyIndex;
+            (processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint) &
+            EncodedBody.IndexMask) == bodyIndex;
     }
 
     /// <summary>Handles and places, bodies of constraints both ways, batches without common bodies, flags, lanes, impulses.</summary>
@@ -40,7 +41,8 @@ public sealed partial class Solver
         for (int typeBatchIndex = 0; typeBatchIndex < batch.TypeBatches.Count; ++typeBatchIndex)
         {
             ref var typeBatch = ref batch.TypeBatches[typeBatchIndex];
-            Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && TypeProcessors[typeBatch.TypeId] is not null, "type of type batch", batchIndex, typeBatchIndex);
+            Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && TypeProcessors[typeBatch.TypeId] is not null, "type of type batch",
+                batchIndex, typeBatchIndex);
             for (int other = 0; other < typeBatchIndex; ++other)
                 Invariant.Require(batch.TypeBatches[other].TypeId != typeBatch.TypeId, "second type batch of a type", batchIndex, typeBatch.TypeId);
             ValidateCapacity(ref typeBatch, batchIndex);
@@ -98,7 +100,8 @@ public sealed partial class Solver
                 continue;
             anyDynamic = true;
             ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Value];
-            Invariant.Require(!isFound || location.BatchIndex == FallbackBatchThreshold, "second constraint in its batch of the body of constraint", handle.Value, slot);
+            Invariant.Require(!isFound || location.BatchIndex == FallbackBatchThreshold,
+                "second constraint in its batch of the body of constraint", handle.Value, slot);
             isFound = true;
         }
         Invariant.Require(anyDynamic, "constraint without dynamic bodies", handle.Value);
@@ -124,7 +127,8 @@ public sealed partial class Solver
         for (int index = typeBatch.ConstraintCount; index < typeBatch.BundleCount * Vector<float>.Count; ++index)
         {
             for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-                Invariant.Require(processor.BodyReference(ref typeBatch, index, slot) == EncodedBody.Empty, "unused lane of a type batch", batchIndex, typeBatch.TypeId);
+                Invariant.Require(processor.BodyReference(ref typeBatch, index, slot) == EncodedBody.Empty, "unused lane of a type batch",
+                    batchIndex, typeBatch.TypeId);
         }
     }
 }

@@ -63,7 +63,9 @@ public sealed unsafe partial class Solver
         }
     }
 
-    /// <summary>Sweeps per substep after its bodies have moved, which take back the velocity that the correction of positions left behind; not negative.</summary>
+    /// <summary>
+    /// Sweeps per substep after its bodies have moved, which take back the velocity that the correction of positions left behind; not negative.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">The value is negative.</exception>
     public int RelaxationIterationCount
     {

@@ -35,7 +35,8 @@ public abstract class TypeProcessor
     /// <summary>Solves some bundles once.</summary>
     internal abstract void Solve(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
     /// <summary>As <see cref="WarmStart"/>, for a batch in which bodies occur more than once: on split bodies.</summary>
-    internal abstract void WarmStartSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle);
+    internal abstract void WarmStartSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle,
+        int endBundle);
     /// <summary>As <see cref="Solve"/>, for a batch in which bodies occur more than once: on split bodies.</summary>
     internal abstract void SolveSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle);
 

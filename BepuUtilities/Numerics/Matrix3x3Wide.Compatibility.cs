@@ -40,7 +40,8 @@ public partial struct Matrix3x3Wide
 
     /// <summary>a * transpose(b).</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void MultiplyByTransposeWithoutOverlap(in Matrix3x3Wide a, in Matrix3x3Wide b, out Matrix3x3Wide result) => result = MultiplyByTranspose(a, b);
+    public static void MultiplyByTransposeWithoutOverlap(in Matrix3x3Wide a, in Matrix3x3Wide b, out Matrix3x3Wide result) =>
+        result = MultiplyByTranspose(a, b);
 
     /// <summary>Sum.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -76,7 +77,8 @@ public partial struct Matrix3x3Wide
 
     /// <summary>Reads one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadSlot(ref Matrix3x3Wide wide, int slotIndex, out Matrix3x3 narrow) => narrow = Lanes.Read<Matrix3x3, Matrix3x3Wide>(ref wide, slotIndex);
+    public static void ReadSlot(ref Matrix3x3Wide wide, int slotIndex, out Matrix3x3 narrow) =>
+        narrow = Lanes.Read<Matrix3x3, Matrix3x3Wide>(ref wide, slotIndex);
 
     /// <summary>Writes one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -84,7 +86,8 @@ public partial struct Matrix3x3Wide
 
     /// <summary>Reads the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadFirst(in Matrix3x3Wide source, out Matrix3x3 target) => target = Lanes.Read<Matrix3x3, Matrix3x3Wide>(ref Unsafe.AsRef(in source), 0);
+    public static void ReadFirst(in Matrix3x3Wide source, out Matrix3x3 target) =>
+        target = Lanes.Read<Matrix3x3, Matrix3x3Wide>(ref Unsafe.AsRef(in source), 0);
 
     /// <summary>Writes the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

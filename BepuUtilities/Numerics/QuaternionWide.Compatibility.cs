@@ -100,7 +100,8 @@ public partial struct QuaternionWide
 
     /// <summary>Picks the left operand where the mask is set, the right one elsewhere.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ConditionalSelect(in Vector<int> condition, in QuaternionWide left, in QuaternionWide right, out QuaternionWide result) => result = Select(condition, left, right);
+    public static void ConditionalSelect(in Vector<int> condition, in QuaternionWide left, in QuaternionWide right, out QuaternionWide result) =>
+        result = Select(condition, left, right);
 
     /// <summary>Fills every lane with one value.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -120,7 +121,8 @@ public partial struct QuaternionWide
 
     /// <summary>Reads one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadSlot(ref QuaternionWide wide, int slotIndex, out Quaternion narrow) => narrow = Lanes.Read<Quaternion, QuaternionWide>(ref wide, slotIndex);
+    public static void ReadSlot(ref QuaternionWide wide, int slotIndex, out Quaternion narrow) =>
+        narrow = Lanes.Read<Quaternion, QuaternionWide>(ref wide, slotIndex);
 
     /// <summary>Writes one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -128,7 +130,8 @@ public partial struct QuaternionWide
 
     /// <summary>Reads the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadFirst(in QuaternionWide source, out Quaternion target) => target = Lanes.Read<Quaternion, QuaternionWide>(ref Unsafe.AsRef(in source), 0);
+    public static void ReadFirst(in QuaternionWide source, out Quaternion target) =>
+        target = Lanes.Read<Quaternion, QuaternionWide>(ref Unsafe.AsRef(in source), 0);
 
     /// <summary>Writes the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

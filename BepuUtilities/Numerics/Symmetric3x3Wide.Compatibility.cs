@@ -64,7 +64,8 @@ public partial struct Symmetric3x3Wide
 
     /// <summary>Reads one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadSlot(ref Symmetric3x3Wide wide, int slotIndex, out Symmetric3x3 narrow) => narrow = Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref wide, slotIndex);
+    public static void ReadSlot(ref Symmetric3x3Wide wide, int slotIndex, out Symmetric3x3 narrow) =>
+        narrow = Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref wide, slotIndex);
 
     /// <summary>Writes one lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -72,7 +73,8 @@ public partial struct Symmetric3x3Wide
 
     /// <summary>Reads the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ReadFirst(in Symmetric3x3Wide source, out Symmetric3x3 target) => target = Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref Unsafe.AsRef(in source), 0);
+    public static void ReadFirst(in Symmetric3x3Wide source, out Symmetric3x3 target) =>
+        target = Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref Unsafe.AsRef(in source), 0);
 
     /// <summary>Writes the first lane.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

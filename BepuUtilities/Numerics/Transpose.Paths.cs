@@ -75,8 +75,10 @@ public static unsafe partial class Transpose
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Rows8 Gather16(float* rows, int stride, Vector<int> indices)
     {
-        GatherEight(rows, stride, indices.AsVector512().GetLower(), out var a0, out var a1, out var a2, out var a3, out var a4, out var a5, out var a6, out var a7);
-        GatherEight(rows, stride, indices.AsVector512().GetUpper(), out var b0, out var b1, out var b2, out var b3, out var b4, out var b5, out var b6, out var b7);
+        GatherEight(rows, stride, indices.AsVector512().GetLower(),
+            out var a0, out var a1, out var a2, out var a3, out var a4, out var a5, out var a6, out var a7);
+        GatherEight(rows, stride, indices.AsVector512().GetUpper(),
+            out var b0, out var b1, out var b2, out var b3, out var b4, out var b5, out var b6, out var b7);
         Rows8 result;
         result.R0 = Vector512.Create(a0, b0).AsVector();
         result.R1 = Vector512.Create(a1, b1).AsVector();

@@ -36,7 +36,8 @@ public partial struct Vector2Wide
 
     /// <summary>Picks the left operand where the mask is set, the right one elsewhere.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ConditionalSelect(in Vector<int> condition, in Vector2Wide left, in Vector2Wide right, out Vector2Wide result) => result = Select(condition, left, right);
+    public static void ConditionalSelect(in Vector<int> condition, in Vector2Wide left, in Vector2Wide right, out Vector2Wide result) =>
+        result = Select(condition, left, right);
 
     /// <summary>Fills every lane with one value.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

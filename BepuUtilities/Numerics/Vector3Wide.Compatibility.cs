@@ -96,7 +96,8 @@ public partial struct Vector3Wide
 
     /// <summary>Picks the left operand where the mask is set, the right one elsewhere.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ConditionalSelect(in Vector<int> condition, in Vector3Wide left, in Vector3Wide right, out Vector3Wide result) => result = Select(condition, left, right);
+    public static void ConditionalSelect(in Vector<int> condition, in Vector3Wide left, in Vector3Wide right, out Vector3Wide result) =>
+        result = Select(condition, left, right);
 
     /// <summary>Picks the left operand where the mask is set, the right one elsewhere.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -39,8 +39,13 @@ sealed record AccuracySettings
     /// <summary>Settings of an effort; cases change what they are about.</summary>
     public static AccuracySettings For(Effort effort) => effort == Effort.Default
         ? new()
-        : new() { SubstepCount = 16, RelaxationCount = EngineTraits.AccurateRelaxationCount, AngularMode = EngineTraits.AccurateAngularMode, SubstepsForFreeBodies = true, Stiff = true };
+        : new()
+        {
+            SubstepCount = 16, RelaxationCount = EngineTraits.AccurateRelaxationCount, AngularMode = EngineTraits.AccurateAngularMode,
+            SubstepsForFreeBodies = true, Stiff = true,
+        };
 
     public override string ToString() =>
-        string.Create(CultureInfo.InvariantCulture, $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(Stiff ? " stiff" : "")}");
+        string.Create(CultureInfo.InvariantCulture,
+            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(Stiff ? " stiff" : "")}");
 }

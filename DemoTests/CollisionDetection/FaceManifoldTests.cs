@@ -199,7 +199,8 @@ public class FaceManifoldTests
     public void CapsuleOnBox()
     {
         var upInA = Vector3.UnitX;
-        var pair = new FacePair<Capsule, Box>(new Capsule(0.2f, 1), new Box(4, 1, 4), -upInA * (0.2f + 0.5f - 0.01f), Quaternion.CreateFromAxisAngle(Vector3.UnitZ, -MathF.PI / 2),
+        var pair = new FacePair<Capsule, Box>(new Capsule(0.2f, 1), new Box(4, 1, 4), -upInA * (0.2f + 0.5f - 0.01f),
+            Quaternion.CreateFromAxisAngle(Vector3.UnitZ, -MathF.PI / 2),
             somewhere, upInA, 0.01f, -upInA * 0.2f, 0.1f);
         AssertSegment(CapsuleBox.Run(pair), -0.5, 0.5, -0.195);
         // It sticks out on one side: B ends at y = 0.3 in A's frame.

@@ -71,6 +71,7 @@ readonly record struct DoublePose(DoubleVector Position, DoubleRotation Orientat
     {
         Span<double> motion = stackalloc double[6];
         motion[coordinate] = by;
-        return new(Position + new DoubleVector(motion[0], motion[1], motion[2]), DoubleRotation.From(new DoubleVector(motion[3], motion[4], motion[5])) * Orientation);
+        return new(Position + new DoubleVector(motion[0], motion[1], motion[2]),
+            DoubleRotation.From(new DoubleVector(motion[3], motion[4], motion[5])) * Orientation);
     }
 }

@@ -220,10 +220,13 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
             var description = Describe(samples, default);
             yield return ("Nothing can move", description, Bodies((b, _) => b with { InverseMass = 0, InverseInertia = default }));
             yield return ("Only the first can move", description, Bodies((b, k) => k == 0 ? b : b with { InverseMass = 0, InverseInertia = default }));
-            yield return ("Only the last can move", description, Bodies((b, k) => k == TBodies.Count - 1 ? b : b with { InverseMass = 0, InverseInertia = default }));
+            yield return ("Only the last can move", description,
+                Bodies((b, k) => k == TBodies.Count - 1 ? b : b with { InverseMass = 0, InverseInertia = default }));
             yield return ("Nothing can turn", description, Bodies((b, _) => b with { InverseInertia = default }));
-            yield return ("Turns about one axis only", description, Bodies((b, _) => b with { InverseInertia = JointSamples.InWorld(new(0, 3, 0), b.Orientation) }));
-            yield return ("Cannot turn about one axis", description, Bodies((b, _) => b with { InverseInertia = JointSamples.InWorld(new(2, 0, 3), b.Orientation) }));
+            yield return ("Turns about one axis only", description,
+                Bodies((b, _) => b with { InverseInertia = JointSamples.InWorld(new(0, 3, 0), b.Orientation) }));
+            yield return ("Cannot turn about one axis", description,
+                Bodies((b, _) => b with { InverseInertia = JointSamples.InWorld(new(2, 0, 3), b.Orientation) }));
             yield return ("Same pose", description, Bodies((b, _) => b with { Position = default, Orientation = Quaternion.Identity }));
             yield return ("Far apart", description, Bodies((b, k) => b with { Position = new(k * 1e5f, 0, 0) }));
             yield return ("Far from the origin", description, Bodies((b, _) => b with { Position = b.Position + new Vector3(1e6f, -1e6f, 1e6f) }));
@@ -244,7 +247,8 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
     }
 
     private protected delegate void Check(
-        JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> probe, int lane, TDescription description, SampleBody[] bodies, JointSamples samples);
+        JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> probe, int lane, TDescription description, SampleBody[] bodies,
+        JointSamples samples);
 
     private protected void ForEachSample(bool settled, Check check, SpringSettings? spring = null)
     {

@@ -81,7 +81,8 @@ public unsafe class KernelPurityTests
         }
 
         var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
-        foreach (var substep in new[] { new Substep(0, 1 / 240f, 0.8f), new Substep(1, 1 / 240f), new Substep(1, 1 / 240f, relaxations: 1, isRelaxation: true) })
+        Substep[] substeps = [new(0, 1 / 240f, 0.8f), new(1, 1 / 240f), new(1, 1 / 240f, relaxations: 1, isRelaxation: true)];
+        foreach (var substep in substeps)
         {
             processor.WarmStart(ref batch, bodies, substep, 0, batch.BundleCount);
             processor.Solve(ref batch, bodies, substep, 0, batch.BundleCount);

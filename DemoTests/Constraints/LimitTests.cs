@@ -187,7 +187,8 @@ public class TwistLimitTests : JointTests<TwistLimit, TwistLimitWide, TwoBodies,
             var opposite = new Quaternion(MathF.Cos(half), MathF.Sin(half), 0, 0);
             if (i % 2 == 1)
                 opposite = Exact.Concatenate(opposite, samples.Rotation(0.2f));
-            yield return ("Axes against each other", new() { LocalBasisA = Quaternion.Identity, LocalBasisB = opposite, MinimumAngle = -0.1f, MaximumAngle = 0.1f }, bodies);
+            yield return ("Axes against each other",
+                new() { LocalBasisA = Quaternion.Identity, LocalBasisB = opposite, MinimumAngle = -0.1f, MaximumAngle = 0.1f }, bodies);
         }
         var both = new Quaternion(0, 0, 1, 0);
         var same = NewBodies(samples);

@@ -172,7 +172,8 @@ public class OneBodyLinearServoTests :
         yield return ("At its target, with a base speed", new() { Target = bodies[0].Position, ServoSettings = new(10, 1, 100) }, bodies);
         yield return ("No force", new() { Target = samples.Vector(1), ServoSettings = new(10, 1, 0) }, bodies);
         yield return ("No speed", new() { Target = samples.Vector(1), ServoSettings = new(0, 0, 100) }, bodies);
-        yield return ("Infinite force and speed", new() { Target = samples.Vector(1), ServoSettings = new(float.PositiveInfinity, 0, float.PositiveInfinity) }, bodies);
+        yield return ("Infinite force and speed",
+            new() { Target = samples.Vector(1), ServoSettings = new(float.PositiveInfinity, 0, float.PositiveInfinity) }, bodies);
     }
 
     [Fact]
@@ -185,7 +186,8 @@ public class OneBodyLinearServoTests :
             var bodies = NewBodies(samples);
             var servo = Describe(samples, samples.Spring());
             servo.ServoSettings = new(samples.Uniform(0.1f, 3), samples.Uniform(0, 0.1f), samples.Uniform(0.1f, 50));
-            var probe = new JointProbe<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>();
+            var probe = new JointProbe<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3,
+                OneBodyLinearServoJoint>();
             probe.Set(0, servo, bodies);
             for (int i = 0; i < 300; ++i)
             {

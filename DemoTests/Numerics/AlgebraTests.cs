@@ -177,7 +177,8 @@ public class AlgebraTests
             var p = new Vector2Wide(samples.Numbers(), samples.Numbers());
             Verify(j * v, l => (JacobianRows(Lane(j, l)) * Column(Lane(v, l))).ToArray(), 1e-4);
             Verify(Matrix2x3Wide.TransposeTimes(j, p), l => (JacobianRows(Lane(j, l)).Transpose() * Column(Lane(p, l))).ToArray(), 1e-5);
-            Verify(Matrix2x3Wide.Sandwich(j, m), l => LowerTriangle(JacobianRows(Lane(j, l)) * Symmetric3(Lane(m, l)) * JacobianRows(Lane(j, l)).Transpose()), 2e-6);
+            Verify(Matrix2x3Wide.Sandwich(j, m),
+                l => LowerTriangle(JacobianRows(Lane(j, l)) * Symmetric3(Lane(m, l)) * JacobianRows(Lane(j, l)).Transpose()), 2e-6);
             Verify(Matrix2x3Wide.TransposeTimesSymmetric(j, j), l => LowerTriangle(JacobianRows(Lane(j, l)).Transpose() * JacobianRows(Lane(j, l))));
             var two = new Symmetric2x2Wide(m.XX, m.YX, m.YY);
             Verify(two * p, l => (Symmetric2(Lane(two, l)) * Column(Lane(p, l))).ToArray(), 1e-5);

@@ -255,7 +255,9 @@ public sealed class RayCastTests : IDisposable
         foreach (var collidable in collidables)
         {
             var pose = PoseOf(collidable);
-            var shape = collidable.Mobility == CollidableMobility.Static ? world.Statics[collidable.StaticHandle].Shape : world.Bodies[collidable.BodyHandle].Collidable.Shape;
+            var shape = collidable.Mobility == CollidableMobility.Static
+                ? world.Statics[collidable.StaticHandle].Shape
+                : world.Bodies[collidable.BodyHandle].Collidable.Shape;
             float t;
             Vector3 normal;
             bool isHit = shape.Type switch

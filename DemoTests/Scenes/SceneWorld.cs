@@ -26,7 +26,9 @@ sealed unsafe class SceneWorld : IDisposable
         readWorkerBytes = worker => workerBytes[worker] = GC.GetAllocatedBytesForCurrentThread();
         var recorder = new ContactRecorder(threads);
         Simulation = Simulation.Create(
-            pool, new SceneNarrowPhaseCallbacks(recorder, new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring)),
+            pool,
+            new SceneNarrowPhaseCallbacks(recorder,
+                new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring)),
             new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping),
             new SolveDescription(1, 4) { RelaxationIterationCount = relaxations });
         SceneBuilder.Build(scene, Simulation, EngineDefaults.JointSpring, recorder);

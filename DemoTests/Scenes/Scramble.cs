@@ -212,7 +212,10 @@ sealed class Scramble : IDisposable
         {
             0 => solver.Add(a, b, new BallSocket { LocalOffsetA = new Vector3(0, 1, 0), LocalOffsetB = new Vector3(0, -1, 0), SpringSettings = spring }),
             1 => solver.Add(a, b, new Weld { LocalOffset = new Vector3(1, 0, 0), LocalOrientation = Quaternion.Identity, SpringSettings = spring }),
-            2 => solver.Add(a, b, new Hinge { LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY, LocalOffsetB = Vector3.UnitX, SpringSettings = spring }),
+            2 => solver.Add(a, b, new Hinge
+            {
+                LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY, LocalOffsetB = Vector3.UnitX, SpringSettings = spring,
+            }),
             3 => solver.Add(a, b, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f, SpringSettings = spring }),
             4 => solver.Add(a, b, new TwistLimit
             {

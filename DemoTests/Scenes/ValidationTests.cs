@@ -26,8 +26,10 @@ public class ValidationTests
             ref world.Bodies[new(1)].LocalInertia.InverseMass, float.NaN, value => world.Bodies[new(1)].LocalInertia.InverseMass = value),
         ["collidable of the leaf of body"] = world => Set(
             ref world.Bodies[new(1)].LocalInertia, default, value => world.Bodies[new(1)].LocalInertia = value),
-        ["shape of body"] = world => Set(ref world.Bodies[new(1)].Collidable.Shape, new TypedIndex(2, 99), value => world.Bodies[new(1)].Collidable.Shape = value),
-        ["leaf of body"] = world => Set(ref world.Bodies[new(1)].Collidable.BroadPhaseIndex, 99, value => world.Bodies[new(1)].Collidable.BroadPhaseIndex = value),
+        ["shape of body"] = world => Set(ref world.Bodies[new(1)].Collidable.Shape, new TypedIndex(2, 99),
+            value => world.Bodies[new(1)].Collidable.Shape = value),
+        ["leaf of body"] = world => Set(ref world.Bodies[new(1)].Collidable.BroadPhaseIndex, 99,
+            value => world.Bodies[new(1)].Collidable.BroadPhaseIndex = value),
         ["rows behind the last body"] = world => Set(
             ref world.Bodies.ActiveSet.MotionStates[world.Bodies.ActiveSet.Count].Velocity.Linear.X, 1,
             value => world.Bodies.ActiveSet.MotionStates[world.Bodies.ActiveSet.Count].Velocity.Linear.X = value),
@@ -36,7 +38,8 @@ public class ValidationTests
         ["index of static"] = world => Set(ref world.Statics.HandleToIndex[0], 1, value => world.Statics.HandleToIndex[0] = value),
         ["orientation of static"] = world => Set(ref world.Statics[0].Pose.Orientation.W, float.NaN, value => world.Statics[0].Pose.Orientation.W = value),
         ["collidable of the leaf of static"] = world => Set(ref world.Statics[0].BroadPhaseIndex, 1, value => world.Statics[0].BroadPhaseIndex = value),
-        ["box at slot"] = world => Set(ref world.Simulation.BroadPhase.ActiveTree.Nodes[0].A.Min.X, float.NaN, value => world.Simulation.BroadPhase.ActiveTree.Nodes[0].A.Min.X = value),
+        ["box at slot"] = world => Set(ref world.Simulation.BroadPhase.ActiveTree.Nodes[0].A.Min.X, float.NaN,
+            value => world.Simulation.BroadPhase.ActiveTree.Nodes[0].A.Min.X = value),
         ["location of constraint"] = world => Set(
             ref world.Solver.HandleToConstraint[Joint(world)].TypeId, 31, value => world.Solver.HandleToConstraint[Joint(world)].TypeId = value),
         ["bodies of batch"] = world =>

@@ -202,7 +202,8 @@ struct SearchSimplex
     // q is shows better across the short edge, u + v = (q x e3).n. Turned about, the triangle gives the same bits.
     [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<int> TryTriangle(in Vector3Wide q, in Vector3Wide e1, in Vector3Wide e2, in Vector3Wide end1, in Vector3Wide end2,
-        in Vector3Wide qe1, in Vector3Wide qe2, in Vector<float> squared1, in Vector<float> squared2, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+        in Vector3Wide qe1, in Vector3Wide qe2, in Vector<float> squared1, in Vector<float> squared2, Vector<int> wantedMask,
+        ref Vector3Wide closest, ref Vector<float> distance)
     {
         var normal = Vector3Wide.Cross(e1, e2);
         var u = Vector3Wide.Dot(qe2, normal);

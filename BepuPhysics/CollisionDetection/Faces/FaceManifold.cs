@@ -14,7 +14,8 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
     where TShapeWideB : unmanaged where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
     /// <summary>Finds the contacts of a bundle of pairs of which nothing is remembered.</summary>
-    /// <inheritdoc cref="Build(in TShapeWideA, in TShapeWideB, in Vector3Wide, in Matrix3x3Wide, in Vector3Wide, Vector{float}, in Vector3Wide, Vector{int}, Vector{float}, in Matrix3x3Wide, ref Vector{int}, out ConvexManifoldWide{Few4{ContactWide}})"/>
+    /// <inheritdoc cref="Build(in TShapeWideA, in TShapeWideB, in Vector3Wide, in Matrix3x3Wide, in Vector3Wide, Vector{float},
+    /// in Vector3Wide, Vector{int}, Vector{float}, in Matrix3x3Wide, ref Vector{int}, out ConvexManifoldWide{Few4{ContactWide}})"/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Build(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB,
         in Vector3Wide normal, Vector<float> depth, in Vector3Wide pointOnA, Vector<int> near, Vector<float> speculativeMargin,

@@ -13,8 +13,8 @@ namespace BepuPhysics.CollisionDetection;
 // cut by is wider by a border. A vertex that is inside by at most half the border is found as a point of an edge, too, or only so.
 unsafe struct FaceOverlap
 {
-    // Part of the sum of the smaller feature's two extents, and of the size of the larger shape, by which a point outside of a feature still counts as inside. The
-    // second is a few roundings of a coordinate.
+    // Part of the sum of the smaller feature's two extents, and of the size of the larger shape, by which a point outside of a feature still
+    // counts as inside. The second is a few roundings of a coordinate.
     const float BorderTolerance = 5e-6f;
     const float BorderRounding = 2e-7f;
     // A contact may be where the other of two round segments is this part of the smaller radius to the side: the surface is farther there

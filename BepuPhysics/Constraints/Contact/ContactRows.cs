@@ -125,5 +125,6 @@ unsafe readonly ref struct ContactRows
     Vector3 Arm(int contact) => Read(contact * ContactPrestepLayout.FloatsPerContact);
 
     Vector3 Read(int field) => new(
-        processor.PrestepFloat(ref batch, index, field), processor.PrestepFloat(ref batch, index, field + 1), processor.PrestepFloat(ref batch, index, field + 2));
+        processor.PrestepFloat(ref batch, index, field), processor.PrestepFloat(ref batch, index, field + 1),
+        processor.PrestepFloat(ref batch, index, field + 2));
 }

@@ -15,7 +15,8 @@ namespace BepuPhysics.Constraints.Contact;
 // After the last substep each contact that was hit gets the velocity -e times its speed of impact, by sequential impulses over the hit
 // contacts alone. The corners of a box do not hit at the same instant: the first to stop turns the box about itself, and the next hits the
 // faster for it. To give each its own speed of impact back would give that energy twice; so a body that bounces off the world ends
-// with no more kinetic energy than it had before the first of its impacts. Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
+// with no more kinetic energy than it had before the first of its impacts. Contacts no faster than what the acceleration of two steps gives
+// do not bounce: they rest.
 sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     const int PairsPerBlock = 64;

@@ -18,7 +18,8 @@ public struct BallSocket : ITwoBodyConstraintDescription<BallSocket>
     public static int ConstraintTypeId => ConstraintTypeIds.BallSocket;
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() =>
-        new TypeProcessor<TwoBodies, BallSocketWide, Rows3, JointConstraint<TwoBodies, BallSocketWide, BallSocketGeometry, Rows3, RowMatrix3, BallSocketJoint>>();
+        new TypeProcessor<TwoBodies, BallSocketWide, Rows3,
+            JointConstraint<TwoBodies, BallSocketWide, BallSocketGeometry, Rows3, RowMatrix3, BallSocketJoint>>();
     /// <inheritdoc/>
     public readonly void Validate()
     {

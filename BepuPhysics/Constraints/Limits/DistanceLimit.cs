@@ -134,7 +134,8 @@ public readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide,
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in DistanceLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
         inverseMass.X = bodies.A.InverseMass + bodies.B.InverseMass +
-            (Symmetric3x3Wide.VectorSandwich(geometry.AngularA, bodies.A.InverseInertia) + Symmetric3x3Wide.VectorSandwich(geometry.AngularB, bodies.B.InverseInertia));
+            (Symmetric3x3Wide.VectorSandwich(geometry.AngularA, bodies.A.InverseInertia) +
+            Symmetric3x3Wide.VectorSandwich(geometry.AngularB, bodies.B.InverseInertia));
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

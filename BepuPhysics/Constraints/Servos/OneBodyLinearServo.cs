@@ -20,7 +20,8 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
     public static int ConstraintTypeId => ConstraintTypeIds.OneBodyLinearServo;
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
-        OneBody, OneBodyLinearServoWide, Rows3, JointConstraint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>>();
+        OneBody, OneBodyLinearServoWide, Rows3,
+        JointConstraint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>>();
     /// <inheritdoc/>
     public readonly void Validate()
     {
