@@ -27,8 +27,10 @@ unsafe struct FaceOverlap
     const int VertexName = 128;
     const int SegmentName = 192;
 
-    /// <summary>Greatest number of corners of two features with these numbers of vertices.</summary>
-    public static int GreatestCount(int countA, int countB) => 2 * countA + countB + 4;
+    /// <summary>Greatest number of corners of a bundle whose features have at most these numbers of vertices.</summary>
+    // A corner takes its place where any lane has it, and polygons that stand on edge are segments: one bundle may have all kinds, the starts and
+    // ends of A's edges, B's vertices, and two ends each of segments of A's, of B's and of both.
+    public static int GreatestCount(int countA, int countB) => 2 * countA + countB + 6;
 
     /// <summary>Features of A and B.</summary>
     public FacePolygon A, B;
