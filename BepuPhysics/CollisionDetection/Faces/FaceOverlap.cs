@@ -73,7 +73,8 @@ unsafe struct FaceOverlap
         var border = Border;
         // An edge that moves less than half the border across another counts as parallel to it.
         var half = border * new Vector<float>(0.5f);
-        B.Widen(border, mask);
+        var sharp = B.Widen(border, mask);
+        var anySharp = !Vector.EqualsAll(sharp, Vector<int>.Zero);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
         for (var vertex = verticesB; vertex != endB; ++vertex)
@@ -83,15 +84,18 @@ unsafe struct FaceOverlap
         for (int i = 0; i < countA; ++i)
         {
             ref var edge = ref A.Vertices[i];
-            var x = edge.X;
-            var y = edge.Y;
+            var line = new EdgeLine(edge);
+            if (anySharp)
+                line.MoveToFoot(edge, sharp);
+            var x = line.X;
+            var y = line.Y;
             var edgeX = edge.EdgeX;
             var edgeY = edge.EdgeY;
             var lineX = edge.LineX;
             var lineY = edge.LineY;
             var lineOffset = edge.LineOffset;
-            var start = Vector<float>.Zero;
-            var end = Vector<float>.One;
+            var start = line.Start;
+            var end = line.End;
             for (var vertex = verticesB; vertex != endB; ++vertex)
             {
                 Clip(x * vertex->LineX + y * vertex->LineY + vertex->WideLineOffset, edgeX * vertex->LineX + edgeY * vertex->LineY,
@@ -99,8 +103,8 @@ unsafe struct FaceOverlap
                 vertex->Inside = Wide.Min(lineX * vertex->X + lineY * vertex->Y + lineOffset, vertex->Inside);
             }
             var isInside = mask & Vector.LessThanOrEqual(start, end) & Vector.LessThan(new Vector<int>(i), A.Feature.VertexCount);
-            AddOnEdge(edge, B, start, isInside, 2 * i);
-            AddOnEdge(edge, B, end, isInside & Vector.LessThan(end, Vector<float>.One), 2 * i + 1);
+            AddOnEdge(edge, line, B, start, isInside, 2 * i);
+            AddOnEdge(edge, line, B, end, isInside & Vector.LessThan(end, line.End), 2 * i + 1);
         }
         for (int i = 0; i < countB; ++i)
         {
@@ -113,20 +117,23 @@ unsafe struct FaceOverlap
     [MethodImpl(MethodImplOptions.NoInlining)]
     void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
     {
-        polygon.Widen(Border, mask);
+        var sharp = polygon.Widen(Border, mask);
         ref var edge = ref segment.Vertices[0];
+        var line = new EdgeLine(edge);
+        if (!Vector.EqualsAll(sharp, Vector<int>.Zero))
+            line.MoveToFoot(edge, sharp);
         var half = Border * new Vector<float>(0.5f);
-        var start = Vector<float>.Zero;
-        var end = Vector<float>.One;
+        var start = line.Start;
+        var end = line.End;
         for (int i = 0; i < polygon.Count; ++i)
         {
             ref var other = ref polygon.Vertices[i];
-            Clip(edge.X * other.LineX + edge.Y * other.LineY + other.WideLineOffset,
+            Clip(line.X * other.LineX + line.Y * other.LineY + other.WideLineOffset,
                 edge.EdgeX * other.LineX + edge.EdgeY * other.LineY, half, ref start, ref end);
         }
         var isInside = mask & Vector.LessThanOrEqual(start, end);
-        AddOnEdge(edge, polygon, start, isInside, name);
-        AddOnEdge(edge, polygon, end, isInside, name + 1);
+        AddOnEdge(edge, line, polygon, start, isInside, name);
+        AddOnEdge(edge, line, polygon, end, isInside, name + 1);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -156,8 +163,40 @@ unsafe struct FaceOverlap
         Clip(Border + length - place, -placeSpeed, half, ref start, ref end);
         var together = (end - start) * Vector.SquareRoot(a.EdgeX * a.EdgeX + a.EdgeY * a.EdgeY);
         var isInside = mask & Vector.GreaterThan(together, deviation * new Vector<float>(MinimumSegmentLength));
-        AddOnEdge(a, B, start, isInside, 0);
-        AddOnEdge(a, B, end, isInside, 1);
+        var line = new EdgeLine(a);
+        AddOnEdge(a, line, B, start, isInside, 0);
+        AddOnEdge(a, line, B, end, isInside, 1);
+    }
+
+    /// <summary>A point of the line of an edge, and where from there the edge starts and ends, in its lengths.</summary>
+    // The start of the edge, for it is exact. But a place on the edge of a large face has the rounding of an end that is far away, and between
+    // the lines of a sharp corner, which meet at a small angle, the corner of the overlap would be as much farther out. The foot of the witness
+    // on the line is near the overlap. What it is rounded to moves the edge a little, but all that is cut off of it is cut off there.
+    struct EdgeLine
+    {
+        public Vector<float> X, Y, Height, Start, End;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public EdgeLine(in FaceVertex edge)
+        {
+            X = edge.X;
+            Y = edge.Y;
+            Height = edge.Height;
+            Start = Vector<float>.Zero;
+            End = Vector<float>.One;
+        }
+
+        /// <summary>Takes the foot of the witness. An edge without a length keeps its start.</summary>
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        public void MoveToFoot(in FaceVertex edge, Vector<int> mask)
+        {
+            var along = edge.EdgeX * edge.X + edge.EdgeY * edge.Y;
+            Start = Wide.Mask(mask, Wide.DivideOrZero(along, edge.EdgeX * edge.EdgeX + edge.EdgeY * edge.EdgeY));
+            End = Vector<float>.One + Start;
+            X = edge.X - edge.EdgeX * Start;
+            Y = edge.Y - edge.EdgeY * Start;
+            Height = edge.Height - edge.EdgeHeight * Start;
+        }
     }
 
     /// <summary>Cuts an interval of a line to what is inside of a half plane.</summary>
@@ -178,11 +217,11 @@ unsafe struct FaceOverlap
 
     /// <summary>Adds a point of an edge of one feature that is inside of the other.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void AddOnEdge(in FaceVertex edge, in FacePolygon other, Vector<float> t, Vector<int> exists, int name)
+    void AddOnEdge(in FaceVertex edge, in EdgeLine line, in FacePolygon other, Vector<float> t, Vector<int> exists, int name)
     {
-        var x = edge.X + edge.EdgeX * t;
-        var y = edge.Y + edge.EdgeY * t;
-        Add(x, y, edge.Height + edge.EdgeHeight * t + other.HeightAt(x, y), exists, name);
+        var x = line.X + edge.EdgeX * t;
+        var y = line.Y + edge.EdgeY * t;
+        Add(x, y, line.Height + edge.EdgeHeight * t + other.HeightAt(x, y), exists, name);
     }
 
     // What no lane has takes no place, and is overwritten by the next.

@@ -138,10 +138,11 @@ unsafe struct FacePolygon
     /// <summary>Makes the polygon wider by a border.</summary>
     /// <param name="border">Length to add on all sides.</param>
     /// <param name="mask">Lanes that matter.</param>
+    /// <returns>All bits set where one of these has a sharp corner.</returns>
     // Edges that are each moved out by a border meet farther beyond their corner; a thousand borders at the tip of a needle. The edges of a
     // corner below 41 degrees get so much less that they meet no more than 2.8 borders beyond it. Edges without a length make no corner.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly void Widen(Vector<float> border, Vector<int> mask)
+    public readonly Vector<int> Widen(Vector<float> border, Vector<int> mask)
     {
         var vertices = Vertices;
         var lastX = Vector<float>.Zero;
@@ -158,12 +159,16 @@ unsafe struct FacePolygon
             least = Wide.Min(least, Bluntness(vertex, x, y));
             Follow(vertex, ref x, ref y);
         }
-        if (Vector.EqualsAny(mask & Vector.LessThan(least, new Vector<float>(SharpBluntness)), Vector<int>.AllBitsSet))
-            WidenSharp(border, lastX, lastY);
+        var sharp = mask & Vector.LessThan(least, new Vector<float>(SharpBluntness));
+        if (!Vector.EqualsAll(sharp, Vector<int>.Zero))
+            WidenSharp(border, sharp, lastX, lastY);
+        return sharp;
     }
 
+    // What an end of an edge that is far away is rounded to counts as much at a sharp corner as the border would, so the line is taken from
+    // the end that is nearer to the witness.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    readonly void WidenSharp(Vector<float> border, Vector<float> lastX, Vector<float> lastY)
+    readonly void WidenSharp(Vector<float> border, Vector<int> sharp, Vector<float> lastX, Vector<float> lastY)
     {
         var vertices = Vertices;
         for (int i = 0; i < Count; ++i)
@@ -179,9 +184,13 @@ unsafe struct FacePolygon
         for (int i = Count - 1; i >= 0; --i)
         {
             ref var vertex = ref vertices[i];
+            ref var end = ref vertices[i + 1 < Count ? i + 1 : 0];
             var bluntness = Wide.Min(vertex.WideLineOffset, Bluntness(vertex, nextX, nextY));
             var share = Vector.SquareRoot(Wide.Clamp(bluntness * new Vector<float>(1 / SharpBluntness), Vector<float>.Zero, Vector<float>.One));
-            vertex.WideLineOffset = vertex.LineOffset + border * share;
+            var useEnd = sharp & Vector.LessThan(end.X * end.X + end.Y * end.Y, vertex.X * vertex.X + vertex.Y * vertex.Y) &
+                Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
+            var offset = Wide.Select(useEnd, -(vertex.LineX * end.X + vertex.LineY * end.Y), vertex.LineOffset);
+            vertex.WideLineOffset = offset + border * share;
             Follow(vertex, ref nextX, ref nextY);
         }
     }
