@@ -21,6 +21,8 @@ struct TriangleTriangleAxes
     const float NearestTolerance = 1e-6f;
     // Part of the smaller triangle by which nearest points may be farther apart than the axis shows and still be what it belongs to.
     const float TouchTolerance = 1e-5f;
+    // Part of the smaller triangle by which the edges of an axis may miss each other where they should cross.
+    const float GapTolerance = 1e-4f;
     // Depth up to which the nearest points are looked for, by the smaller triangle: in one plane, rounding may show a depth.
     const float FlatTolerance = 1e-4f;
 
@@ -35,6 +37,8 @@ struct TriangleTriangleAxes
 
     /// <summary>Length of the smaller triangle.</summary>
     Vector<float> size;
+    /// <summary>Lanes whose axis is the normal of A's face, and of B's.</summary>
+    Vector<int> isFaceOfA, isFaceOfB;
     EdgeSearch edges;
     NearestSearch nearest;
 
@@ -76,12 +80,60 @@ struct TriangleTriangleAxes
             Vector.LessThan(edges.Score, new Vector<float>(float.MaxValue));
         depth = Wide.Select(useEdge, edgeDepth, depth);
         normal = Vector3Wide.Select(useEdge, Vector3Wide.Normalize(edges.Axis), normal);
+        isFaceOfA = ~(useEdge | useB);
+        isFaceOfB = Vector.AndNot(useB, useEdge);
         Depth = depth;
         Normal = normal;
 
         var way = normal * depth;
         var onFace = Vector3Wide.Select(useB, A.GetSupport(-normal), B.GetSupport(normal) - way);
-        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way), onFace);
+        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way, out var gapSquared), onFace);
+        var gap = size * new Vector<float>(GapTolerance);
+        var misses = useEdge & Vector.GreaterThan(gapSquared, gap * gap);
+        if (!Vector.EqualsAll(misses, Vector<int>.Zero))
+            FindTouchingPlace(misses, gapSquared);
+    }
+
+    /// <summary>Finds where the triangles touch when they are moved apart: over a face, where edges cross, or at a corner and an edge.</summary>
+    /// <param name="mask">All bits set where the axis does not tell.</param>
+    /// <param name="gapSquared">Squared distance of the triangles there at the place that is known; another one must be nearer.</param>
+    // Triangles that barely touch are as deep along many axes, and those of faces and edges elsewhere are among them, within rounding. Edges
+    // that are nearly parallel cross at a place that rounding moves far along them, beyond their ends.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void FindTouchingPlace(Vector<int> mask, Vector<float> gapSquared)
+    {
+        var way = Normal * Depth;
+        var movedB = B;
+        movedB.A -= way;
+        movedB.B -= way;
+        movedB.C -= way;
+        FindNearestCorner(movedB, out var isCornerOfB);
+        var point = Vector3Wide.Select(isCornerOfB, nearest.Corner - nearest.Offset, nearest.Corner);
+        var leastSquared = nearest.SquaredDistance;
+        TryOverFace(movedB, A, ref leastSquared, ref point);
+        TryOverFace(A, movedB, ref leastSquared, ref point);
+        var crossing = edges.GetPlace(A, B, way, out var crossingSquared);
+        point = Vector3Wide.Select(Vector.LessThan(crossingSquared, leastSquared), crossing, point);
+        leastSquared = Wide.Min(crossingSquared, leastSquared);
+        PointOnA = Vector3Wide.Select(mask & Vector.LessThan(leastSquared, gapSquared), point, PointOnA);
+    }
+
+    /// <summary>Takes a corner that is nearer to the face of the other triangle.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void TryOverFace(in PlacedTriangleWide face, in PlacedTriangleWide corners, ref Vector<float> leastSquared, ref Vector3Wide point)
+    {
+        TryOverFace(face, corners.A, ref leastSquared, ref point);
+        TryOverFace(face, corners.B, ref leastSquared, ref point);
+        TryOverFace(face, corners.C, ref leastSquared, ref point);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void TryOverFace(in PlacedTriangleWide face, in Vector3Wide corner, ref Vector<float> leastSquared, ref Vector3Wide point)
+    {
+        var distance = Wide.Max(GetDistanceBeyond(face, corner), Vector.Abs(Vector3Wide.Dot(face.Front, corner - face.A)));
+        var nearer = Vector.LessThan(distance * distance, leastSquared) & Vector.GreaterThan(face.Front.LengthSquared(), new Vector<float>(0.5f));
+        leastSquared = Wide.Select(nearer, distance * distance, leastSquared);
+        point = Vector3Wide.Select(nearer, corner, point);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -160,8 +212,9 @@ struct TriangleTriangleAxes
         /// <param name="a">First triangles.</param>
         /// <param name="b">Second triangles.</param>
         /// <param name="way">The normal times the depth.</param>
+        /// <param name="gapSquared">Squared distance from there to B's edge when B is moved back by the way: nothing but rounding where the edges cross.</param>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly Vector3Wide GetPlace(in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way)
+        public readonly Vector3Wide GetPlace(in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<float> gapSquared)
         {
             var useSecondA = Vector.Equals(IndexA, Vector<int>.One);
             var useThirdA = Vector.GreaterThan(IndexA, Vector<int>.One);
@@ -172,9 +225,14 @@ struct TriangleTriangleAxes
             var startB = Vector3Wide.Select(useThirdB, b.C, Vector3Wide.Select(useSecondB, b.B, b.A));
             var edgeB = Vector3Wide.Select(useThirdB, b.CA, Vector3Wide.Select(useSecondB, b.BC, b.AB));
             var cross = Vector3Wide.Cross(edge, edgeB);
-            var place = Vector3Wide.Dot(Vector3Wide.Cross(startB - way - start, edgeB), cross);
+            var fromA = startB - way - start;
+            var place = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edgeB), cross);
             place = Wide.DivideOrZero(place, cross.LengthSquared());
-            return start + edge * Wide.Clamp(place, Vector<float>.Zero, Vector<float>.One);
+            var along = edge * Wide.Clamp(place, Vector<float>.Zero, Vector<float>.One);
+            var fromB = along - fromA;
+            var placeB = Wide.DivideOrZero(Vector3Wide.Dot(fromB, edgeB), edgeB.LengthSquared());
+            gapSquared = (fromB - edgeB * Wide.Clamp(placeB, Vector<float>.Zero, Vector<float>.One)).LengthSquared();
+            return start + along;
         }
     }
 
@@ -183,17 +241,7 @@ struct TriangleTriangleAxes
     [MethodImpl(MethodImplOptions.NoInlining)]
     public void FindNearest(Vector<int> mask)
     {
-        nearest.SquaredDistance = new Vector<float>(float.MaxValue);
-        nearest.Offset = nearest.Corner = Vector3Wide.Zero;
-        nearest.Visit(A, B.A, B.AB);
-        nearest.Visit(A, B.B, B.BC);
-        nearest.Visit(A, B.C, B.CA);
-        var squaredOnA = nearest.SquaredDistance;
-        // From here on from the corners of B to the edges of A.
-        nearest.Visit(B, A.A, A.AB);
-        nearest.Visit(B, A.B, A.BC);
-        nearest.Visit(B, A.C, A.CA);
-        var isCornerOfB = Vector.LessThan(nearest.SquaredDistance, squaredOnA);
+        FindNearestCorner(B, out var isCornerOfB);
         var offset = Vector3Wide.Select(isCornerOfB, -nearest.Offset, nearest.Offset);
         var pointOnA = Vector3Wide.Select(isCornerOfB, nearest.Corner - nearest.Offset, nearest.Corner);
         // No axis shows more than the distance, and this one shows less unless the points are the nearest.
@@ -209,6 +257,57 @@ struct TriangleTriangleAxes
         var isTouching = mask & Vector.LessThan(Vector.SquareRoot(nearest.SquaredDistance),
             Vector.Abs(Depth) + size * new Vector<float>(TouchTolerance));
         PointOnA = Vector3Wide.Select(better | isTouching, pointOnA, PointOnA);
+        var isOnFace = Vector.AndNot(mask & (isFaceOfA | isFaceOfB), better | isTouching);
+        if (!Vector.EqualsAll(isOnFace, Vector<int>.Zero))
+            CheckFace(isOnFace);
+    }
+
+    /// <summary>Finds another place where the corner that is farthest along a face's normal is not over the face.</summary>
+    /// <param name="mask">All bits set where the axis is the normal of a face.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void CheckFace(Vector<int> mask)
+    {
+        var corner = Vector3Wide.Select(isFaceOfB, PointOnA + Normal * Depth, PointOnA);
+        var beyond = Wide.Select(isFaceOfB, GetDistanceBeyond(B, corner), GetDistanceBeyond(A, corner));
+        var misses = mask & Vector.GreaterThan(beyond, size * new Vector<float>(GapTolerance));
+        if (!Vector.EqualsAll(misses, Vector<int>.Zero))
+            FindTouchingPlace(misses, beyond * beyond);
+    }
+
+    /// <summary>How far a point is outside of the edge of a triangle that it is farthest outside of.</summary>
+    // Seen from the front the corners run clockwise, and the edges have their outside to the left.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> GetDistanceBeyond(in PlacedTriangleWide triangle, in Vector3Wide point)
+    {
+        var beyond = GetDistanceBeyond(triangle.Front, triangle.AB, point - triangle.A);
+        beyond = Wide.Max(beyond, GetDistanceBeyond(triangle.Front, triangle.BC, point - triangle.B));
+        return Wide.Max(beyond, GetDistanceBeyond(triangle.Front, triangle.CA, point - triangle.C));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> GetDistanceBeyond(in Vector3Wide front, in Vector3Wide edge, in Vector3Wide fromStart)
+    {
+        var across = Vector3Wide.Cross(front, edge);
+        return Wide.DivideOrZero(Vector3Wide.Dot(across, fromStart), Vector.SquareRoot(across.LengthSquared()));
+    }
+
+    /// <summary>Finds the corner of one of the triangles that is nearest to an edge of the other.</summary>
+    /// <param name="b">Second triangles.</param>
+    /// <param name="isCornerOfB">All bits set where it is a corner of theirs.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void FindNearestCorner(in PlacedTriangleWide b, out Vector<int> isCornerOfB)
+    {
+        nearest.SquaredDistance = new Vector<float>(float.MaxValue);
+        nearest.Offset = nearest.Corner = Vector3Wide.Zero;
+        nearest.Visit(A, b.A, b.AB);
+        nearest.Visit(A, b.B, b.BC);
+        nearest.Visit(A, b.C, b.CA);
+        var squaredOnA = nearest.SquaredDistance;
+        // From here on from the corners of B to the edges of A.
+        nearest.Visit(b, A.A, A.AB);
+        nearest.Visit(b, A.B, A.BC);
+        nearest.Visit(b, A.C, A.CA);
+        isCornerOfB = Vector.LessThan(nearest.SquaredDistance, squaredOnA);
     }
 
     /// <summary>The nearest of the corners to the edges so far.</summary>
