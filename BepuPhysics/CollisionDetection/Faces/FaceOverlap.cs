@@ -73,8 +73,8 @@ unsafe struct FaceOverlap
         var border = Border;
         // An edge that moves less than half the border across another counts as parallel to it.
         var half = border * new Vector<float>(0.5f);
-        var sharp = B.Widen(border, mask);
-        var anySharp = !Vector.EqualsAll(sharp, Vector<int>.Zero);
+        var needles = B.Widen(border, mask);
+        var anyNeedle = !Vector.EqualsAll(needles, Vector<int>.Zero);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
         for (var vertex = verticesB; vertex != endB; ++vertex)
@@ -85,8 +85,8 @@ unsafe struct FaceOverlap
         {
             ref var edge = ref A.Vertices[i];
             var line = new EdgeLine(edge);
-            if (anySharp)
-                line.MoveToFoot(edge, sharp);
+            if (anyNeedle)
+                line.MoveToFoot(edge, needles);
             var x = line.X;
             var y = line.Y;
             var edgeX = edge.EdgeX;
@@ -117,11 +117,11 @@ unsafe struct FaceOverlap
     [MethodImpl(MethodImplOptions.NoInlining)]
     void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
     {
-        var sharp = polygon.Widen(Border, mask);
+        var needles = polygon.Widen(Border, mask);
         ref var edge = ref segment.Vertices[0];
         var line = new EdgeLine(edge);
-        if (!Vector.EqualsAll(sharp, Vector<int>.Zero))
-            line.MoveToFoot(edge, sharp);
+        if (!Vector.EqualsAll(needles, Vector<int>.Zero))
+            line.MoveToFoot(edge, needles);
         var half = Border * new Vector<float>(0.5f);
         var start = line.Start;
         var end = line.End;
@@ -170,7 +170,7 @@ unsafe struct FaceOverlap
 
     /// <summary>A point of the line of an edge, and where from there the edge starts and ends, in its lengths.</summary>
     // The start of the edge, for it is exact. But a place on the edge of a large face has the rounding of an end that is far away, and between
-    // the lines of a sharp corner, which meet at a small angle, the corner of the overlap would be as much farther out. The foot of the witness
+    // the lines of a needle's corner, which meet at a small angle, the corner of the overlap would be as much farther out. The foot of the witness
     // on the line is near the overlap. What it is rounded to moves the edge a little, but all that is cut off of it is cut off there.
     struct EdgeLine
     {

@@ -57,6 +57,8 @@ unsafe struct FacePolygon
     const float SteepCosine = 0.05f;
     // Twice the squared sine of half the angle of a corner that is sharp.
     const float SharpBluntness = 0.25f;
+    // The same of a corner of some 8 degrees, where rounding across its edges is 14 times as much along them.
+    const float NeedleBluntness = 0.01f;
     // Distance inside of an edge that is none.
     const float Everything = 1e30f;
 
@@ -138,7 +140,7 @@ unsafe struct FacePolygon
     /// <summary>Makes the polygon wider by a border.</summary>
     /// <param name="border">Length to add on all sides.</param>
     /// <param name="mask">Lanes that matter.</param>
-    /// <returns>All bits set where one of these has a sharp corner.</returns>
+    /// <returns>All bits set where one of these has the corner of a needle.</returns>
     // Edges that are each moved out by a border meet farther beyond their corner; a thousand borders at the tip of a needle. The edges of a
     // corner below 41 degrees get so much less that they meet no more than 2.8 borders beyond it. Edges without a length make no corner.
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -161,14 +163,31 @@ unsafe struct FacePolygon
         }
         var sharp = mask & Vector.LessThan(least, new Vector<float>(SharpBluntness));
         if (!Vector.EqualsAll(sharp, Vector<int>.Zero))
-            WidenSharp(border, sharp, lastX, lastY);
-        return sharp;
+            WidenSharp(border, lastX, lastY);
+        var needle = mask & Vector.LessThan(least, new Vector<float>(NeedleBluntness));
+        if (!Vector.EqualsAll(needle, Vector<int>.Zero))
+            TakeNearerEnds(needle);
+        return needle;
     }
 
-    // What an end of an edge that is far away is rounded to counts as much at a sharp corner as the border would, so the line is taken from
-    // the end that is nearer to the witness.
+    // What an end of an edge that is far away is rounded to counts as much at the corner of a needle as the border would, so the line is taken
+    // from the end that is nearer to the witness.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    readonly void WidenSharp(Vector<float> border, Vector<int> sharp, Vector<float> lastX, Vector<float> lastY)
+    readonly void TakeNearerEnds(Vector<int> needle)
+    {
+        for (int i = 0; i < Count; ++i)
+        {
+            ref var vertex = ref Vertices[i];
+            ref var end = ref Vertices[i + 1 < Count ? i + 1 : 0];
+            var useEnd = needle & Vector.LessThan(end.X * end.X + end.Y * end.Y, vertex.X * vertex.X + vertex.Y * vertex.Y) &
+                Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
+            var change = -(vertex.LineX * end.X + vertex.LineY * end.Y) - vertex.LineOffset;
+            vertex.WideLineOffset += Wide.Mask(useEnd, change);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void WidenSharp(Vector<float> border, Vector<float> lastX, Vector<float> lastY)
     {
         var vertices = Vertices;
         for (int i = 0; i < Count; ++i)
@@ -184,13 +203,9 @@ unsafe struct FacePolygon
         for (int i = Count - 1; i >= 0; --i)
         {
             ref var vertex = ref vertices[i];
-            ref var end = ref vertices[i + 1 < Count ? i + 1 : 0];
             var bluntness = Wide.Min(vertex.WideLineOffset, Bluntness(vertex, nextX, nextY));
             var share = Vector.SquareRoot(Wide.Clamp(bluntness * new Vector<float>(1 / SharpBluntness), Vector<float>.Zero, Vector<float>.One));
-            var useEnd = sharp & Vector.LessThan(end.X * end.X + end.Y * end.Y, vertex.X * vertex.X + vertex.Y * vertex.Y) &
-                Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
-            var offset = Wide.Select(useEnd, -(vertex.LineX * end.X + vertex.LineY * end.Y), vertex.LineOffset);
-            vertex.WideLineOffset = offset + border * share;
+            vertex.WideLineOffset = vertex.LineOffset + border * share;
             Follow(vertex, ref nextX, ref nextY);
         }
     }
