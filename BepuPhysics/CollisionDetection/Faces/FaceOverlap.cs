@@ -191,11 +191,12 @@ unsafe struct FaceOverlap
         public void MoveToFoot(in FaceVertex edge, Vector<int> mask)
         {
             var along = edge.EdgeX * edge.X + edge.EdgeY * edge.Y;
-            Start = Wide.Mask(mask, Wide.DivideOrZero(along, edge.EdgeX * edge.EdgeX + edge.EdgeY * edge.EdgeY));
-            End = Vector<float>.One + Start;
-            X = edge.X - edge.EdgeX * Start;
-            Y = edge.Y - edge.EdgeY * Start;
-            Height = edge.Height - edge.EdgeHeight * Start;
+            var start = Wide.DivideOrZero(along, edge.EdgeX * edge.EdgeX + edge.EdgeY * edge.EdgeY);
+            Start = Wide.Select(mask, start, Start);
+            End = Wide.Select(mask, Vector<float>.One + start, End);
+            X = Wide.Select(mask, edge.X - edge.EdgeX * start, X);
+            Y = Wide.Select(mask, edge.Y - edge.EdgeY * start, Y);
+            Height = Wide.Select(mask, edge.Height - edge.EdgeHeight * start, Height);
         }
     }
 

@@ -182,7 +182,7 @@ unsafe struct FacePolygon
             var useEnd = needle & Vector.LessThan(end.X * end.X + end.Y * end.Y, vertex.X * vertex.X + vertex.Y * vertex.Y) &
                 Vector.LessThan(vertex.LineOffset, new Vector<float>(Everything));
             var change = -(vertex.LineX * end.X + vertex.LineY * end.Y) - vertex.LineOffset;
-            vertex.WideLineOffset += Wide.Mask(useEnd, change);
+            vertex.WideLineOffset = Wide.Select(useEnd, vertex.WideLineOffset + change, vertex.WideLineOffset);
         }
     }
 

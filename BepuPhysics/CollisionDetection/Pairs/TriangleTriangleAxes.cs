@@ -87,9 +87,20 @@ struct TriangleTriangleAxes
 
         var way = normal * depth;
         var onFace = Vector3Wide.Select(useB, A.GetSupport(-normal), B.GetSupport(normal) - way);
-        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way, out var gapSquared), onFace);
+        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way, out var isBeyond), onFace);
+        var mayMiss = useEdge & isBeyond;
+        if (!Vector.EqualsAll(mayMiss, Vector<int>.Zero))
+            CheckEdges(mayMiss);
+    }
+
+    /// <summary>Finds another place where the edges of the axis do not cross.</summary>
+    /// <param name="mask">All bits set where they may not.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void CheckEdges(Vector<int> mask)
+    {
+        edges.GetPlaceAndGap(A, B, Normal * Depth, out var gapSquared);
         var gap = size * new Vector<float>(GapTolerance);
-        var misses = useEdge & Vector.GreaterThan(gapSquared, gap * gap);
+        var misses = mask & Vector.GreaterThan(gapSquared, gap * gap);
         if (!Vector.EqualsAll(misses, Vector<int>.Zero))
             FindTouchingPlace(misses, gapSquared);
     }
@@ -112,7 +123,7 @@ struct TriangleTriangleAxes
         var leastSquared = nearest.SquaredDistance;
         TryOverFace(movedB, A, ref leastSquared, ref point);
         TryOverFace(A, movedB, ref leastSquared, ref point);
-        var crossing = edges.GetPlace(A, B, way, out var crossingSquared);
+        var crossing = edges.GetPlaceAndGap(A, B, way, out var crossingSquared);
         point = Vector3Wide.Select(Vector.LessThan(crossingSquared, leastSquared), crossing, point);
         leastSquared = Wide.Min(crossingSquared, leastSquared);
         PointOnA = Vector3Wide.Select(mask & Vector.LessThan(leastSquared, gapSquared), point, PointOnA);
@@ -212,27 +223,46 @@ struct TriangleTriangleAxes
         /// <param name="a">First triangles.</param>
         /// <param name="b">Second triangles.</param>
         /// <param name="way">The normal times the depth.</param>
-        /// <param name="gapSquared">Squared distance from there to B's edge when B is moved back by the way: nothing but rounding where the edges cross.</param>
+        /// <param name="isBeyond">All bits set where the lines pass each other beyond the end of an edge, if by nothing but rounding.</param>
+        // start + s edge = startB - way + t edgeB, each side crossed with the other edge; s and t are times the squared length of the cross product.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly Vector3Wide GetPlace(in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<float> gapSquared)
+        public readonly Vector3Wide GetPlace(in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<int> isBeyond)
+        {
+            SelectEdges(a, b, out var start, out var edge, out var startB, out var edgeB);
+            var cross = Vector3Wide.Cross(edge, edgeB);
+            var squared = cross.LengthSquared();
+            var fromA = startB - way - start;
+            var place = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edgeB), cross);
+            var placeB = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edge), cross);
+            isBeyond = Vector.LessThan(Wide.Min(Wide.Min(place, placeB), squared - Wide.Max(place, placeB)), Vector<float>.Zero);
+            return start + edge * Wide.Clamp(Wide.DivideOrZero(place, squared), Vector<float>.Zero, Vector<float>.One);
+        }
+
+        /// <summary>Where A's edge passes B's, and the squared distance from there to B's edge when B is moved back by the way.</summary>
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        public readonly Vector3Wide GetPlaceAndGap(
+            in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<float> gapSquared)
+        {
+            var place = GetPlace(a, b, way, out _);
+            SelectEdges(a, b, out _, out _, out var startB, out var edgeB);
+            var fromB = place - (startB - way);
+            var placeB = Wide.DivideOrZero(Vector3Wide.Dot(fromB, edgeB), edgeB.LengthSquared());
+            gapSquared = (fromB - edgeB * Wide.Clamp(placeB, Vector<float>.Zero, Vector<float>.One)).LengthSquared();
+            return place;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        readonly void SelectEdges(in PlacedTriangleWide a, in PlacedTriangleWide b,
+            out Vector3Wide startA, out Vector3Wide edgeA, out Vector3Wide startB, out Vector3Wide edgeB)
         {
             var useSecondA = Vector.Equals(IndexA, Vector<int>.One);
             var useThirdA = Vector.GreaterThan(IndexA, Vector<int>.One);
-            var start = Vector3Wide.Select(useThirdA, a.C, Vector3Wide.Select(useSecondA, a.B, a.A));
-            var edge = Vector3Wide.Select(useThirdA, a.CA, Vector3Wide.Select(useSecondA, a.BC, a.AB));
+            startA = Vector3Wide.Select(useThirdA, a.C, Vector3Wide.Select(useSecondA, a.B, a.A));
+            edgeA = Vector3Wide.Select(useThirdA, a.CA, Vector3Wide.Select(useSecondA, a.BC, a.AB));
             var useSecondB = Vector.Equals(IndexB, Vector<int>.One);
             var useThirdB = Vector.GreaterThan(IndexB, Vector<int>.One);
-            var startB = Vector3Wide.Select(useThirdB, b.C, Vector3Wide.Select(useSecondB, b.B, b.A));
-            var edgeB = Vector3Wide.Select(useThirdB, b.CA, Vector3Wide.Select(useSecondB, b.BC, b.AB));
-            var cross = Vector3Wide.Cross(edge, edgeB);
-            var fromA = startB - way - start;
-            var place = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edgeB), cross);
-            place = Wide.DivideOrZero(place, cross.LengthSquared());
-            var along = edge * Wide.Clamp(place, Vector<float>.Zero, Vector<float>.One);
-            var fromB = along - fromA;
-            var placeB = Wide.DivideOrZero(Vector3Wide.Dot(fromB, edgeB), edgeB.LengthSquared());
-            gapSquared = (fromB - edgeB * Wide.Clamp(placeB, Vector<float>.Zero, Vector<float>.One)).LengthSquared();
-            return start + along;
+            startB = Vector3Wide.Select(useThirdB, b.C, Vector3Wide.Select(useSecondB, b.B, b.A));
+            edgeB = Vector3Wide.Select(useThirdB, b.CA, Vector3Wide.Select(useSecondB, b.BC, b.AB));
         }
     }
 
