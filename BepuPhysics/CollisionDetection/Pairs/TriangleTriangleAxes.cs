@@ -87,20 +87,22 @@ struct TriangleTriangleAxes
 
         var way = normal * depth;
         var onFace = Vector3Wide.Select(useB, A.GetSupport(-normal), B.GetSupport(normal) - way);
-        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way, out var isBeyond), onFace);
-        var mayMiss = useEdge & isBeyond;
+        var gap = size * new Vector<float>(GapTolerance);
+        PointOnA = Vector3Wide.Select(useEdge, edges.GetPlace(A, B, way, gap * gap, out var mayMiss), onFace);
+        mayMiss &= useEdge;
         if (!Vector.EqualsAll(mayMiss, Vector<int>.Zero))
-            CheckEdges(mayMiss);
+            CheckEdges(mayMiss, way, gap * gap);
     }
 
     /// <summary>Finds another place where the edges of the axis do not cross.</summary>
     /// <param name="mask">All bits set where they may not.</param>
+    /// <param name="way">The normal times the depth.</param>
+    /// <param name="limitSquared">Squared distance at which they miss each other.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void CheckEdges(Vector<int> mask)
+    void CheckEdges(Vector<int> mask, in Vector3Wide way, Vector<float> limitSquared)
     {
-        edges.GetPlaceAndGap(A, B, Normal * Depth, out var gapSquared);
-        var gap = size * new Vector<float>(GapTolerance);
-        var misses = mask & Vector.GreaterThan(gapSquared, gap * gap);
+        edges.GetPlaceAndGap(A, B, way, out var gapSquared);
+        var misses = mask & Vector.GreaterThan(gapSquared, limitSquared);
         if (!Vector.EqualsAll(misses, Vector<int>.Zero))
             FindTouchingPlace(misses, gapSquared);
     }
@@ -223,10 +225,15 @@ struct TriangleTriangleAxes
         /// <param name="a">First triangles.</param>
         /// <param name="b">Second triangles.</param>
         /// <param name="way">The normal times the depth.</param>
-        /// <param name="isBeyond">All bits set where the lines pass each other beyond the end of an edge, if by nothing but rounding.</param>
+        /// <param name="limitSquared">Squared distance at which the lines miss each other.</param>
+        /// <param name="mayMiss">
+        /// All bits set where the lines miss each other when B is moved back by the way, or cross beyond the end of an edge, if by nothing but
+        /// rounding.
+        /// </param>
         // start + s edge = startB - way + t edgeB, each side crossed with the other edge; s and t are times the squared length of the cross product.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly Vector3Wide GetPlace(in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<int> isBeyond)
+        public readonly Vector3Wide GetPlace(
+            in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, Vector<float> limitSquared, out Vector<int> mayMiss)
         {
             SelectEdges(a, b, out var start, out var edge, out var startB, out var edgeB);
             var cross = Vector3Wide.Cross(edge, edgeB);
@@ -234,7 +241,9 @@ struct TriangleTriangleAxes
             var fromA = startB - way - start;
             var place = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edgeB), cross);
             var placeB = Vector3Wide.Dot(Vector3Wide.Cross(fromA, edge), cross);
-            isBeyond = Vector.LessThan(Wide.Min(Wide.Min(place, placeB), squared - Wide.Max(place, placeB)), Vector<float>.Zero);
+            var apart = Vector3Wide.Dot(fromA, cross);
+            mayMiss = Vector.LessThan(Wide.Min(Wide.Min(place, placeB), squared - Wide.Max(place, placeB)), Vector<float>.Zero) |
+                Vector.GreaterThan(apart * apart, limitSquared * squared);
             return start + edge * Wide.Clamp(Wide.DivideOrZero(place, squared), Vector<float>.Zero, Vector<float>.One);
         }
 
@@ -243,7 +252,7 @@ struct TriangleTriangleAxes
         public readonly Vector3Wide GetPlaceAndGap(
             in PlacedTriangleWide a, in PlacedTriangleWide b, in Vector3Wide way, out Vector<float> gapSquared)
         {
-            var place = GetPlace(a, b, way, out _);
+            var place = GetPlace(a, b, way, Vector<float>.Zero, out _);
             SelectEdges(a, b, out _, out _, out var startB, out var edgeB);
             var fromB = place - (startB - way);
             var placeB = Wide.DivideOrZero(Vector3Wide.Dot(fromB, edgeB), edgeB.LengthSquared());
