@@ -88,6 +88,27 @@ public class DepthSearchTests(ITestOutputHelper output)
     }
 
     [Fact]
+    public void Remembered_pairs_keep_their_simplex_beside_new_ones()
+    {
+        foreach (var (kindA, kindB) in mixedPairs.Append((ConvexKind.Cylinder, ConvexKind.Cylinder)).Append((ConvexKind.Box, ConvexKind.Cylinder)))
+        {
+            using var pool = new BufferPool();
+            var random = new ConvexRandom(13, (ulong)kindA * 8 + (ulong)kindB);
+            var (a, b, places, margins) = CreateMixed(kindA, kindB, 64, random, pool);
+            var states = new DepthSearchState[a.Count];
+            DepthSearchShape.Find(a, b, places, margins, states);
+            for (int i = 0; i < states.Length; i += 2)
+                states[i] = default;
+            // Each in a bundle of its own.
+            DepthSearchState[] aloneStates = [.. states];
+            int[] slots = [.. Enumerable.Range(0, a.Count).Select(i => i * Vector<float>.Count)];
+            var alone = DepthSearchShape.Find(a, b, places, margins, aloneStates, slots);
+            Assert.Equal(alone, DepthSearchShape.Find(a, b, places, margins, states));
+            Assert.Equal(aloneStates, states);
+        }
+    }
+
+    [Fact]
     public void A_remembered_simplex_is_sound_wherever_the_shapes_go()
     {
         foreach (var (kindA, kindB) in mixedPairs)

@@ -41,7 +41,7 @@ public class SearchSimplexTests
                 expected[lane] = Height(above, tip, other, third);
             }
             var simplex = new SearchSimplex { A = vertices[1], B = vertices[2], C = vertices[2] };
-            simplex.Add(vertices[0], target, Vector<int>.AllBitsSet, Vector<int>.Zero, 2, out var offset);
+            simplex.Add(vertices[0], target, Vector<int>.AllBitsSet, Vector<int>.Zero, 2, out var offset, out _);
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
             {
                 Vector3Wide.ReadSlot(ref offset, lane, out var found);

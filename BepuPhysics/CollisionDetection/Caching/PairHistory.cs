@@ -60,8 +60,8 @@ unsafe struct PairHistory
     /// </summary>
     public const int Lifetime = 16;
 
-    // Support points of a search beyond which it is a slow one.
-    const int QuickEvaluations = 4;
+    // Support points of a search beyond which it is a slow one: a step of a walk costs several times what finding the old simplex right does.
+    const int QuickEvaluations = 1;
     const int SlowFlag = 1 << 30;
 
     // Relative rounding of offsets and depths, with room: what shapes that are apart must be farther apart by.

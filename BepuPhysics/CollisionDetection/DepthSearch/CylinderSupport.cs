@@ -34,6 +34,18 @@ public readonly struct CylinderSupport : ISupport<CylinderWide>
     }
 
     /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Radial(in Vector3Wide point) => new(point.X, Vector<float>.Zero, point.Z);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Tangent(in Vector3Wide radial) => new(radial.Z, Vector<float>.Zero, -radial.X);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Follow(in Vector3Wide point, in Vector3Wide radial) => new(radial.X, point.Y, radial.Z);
+
+    /// <inheritdoc/>
     // With r off the radius R and off half the length H, and a ball of r around, the depth at an angle v from the axis is
     // (R - r) sin v + (H - r) cos v + r: that of the cylinder across the axis and along it, less in between. What is added by another shape within
     // a reach changes by the reach times the angle at most. So with twice the reach left of R and of H, the least of all is still across or

@@ -31,13 +31,13 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         where TStatistics : struct, ISearchStatistics
     {
         statistics.Evaluated(activeMask);
-        Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out var vertex);
-        walk.Depth = Wide.Select(activeMask, Vector3Wide.Dot(vertex.Point, walk.Direction), walk.Depth);
+        Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out walk.Vertex);
+        walk.Depth = Wide.Select(activeMask, Vector3Wide.Dot(walk.Vertex.Point, walk.Direction), walk.Depth);
         knownMask = Vector.AndNot(knownMask, activeMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
         var keepMask = knownMask | Vector.OnesComplement(activeMask);
-        walk.Simplex.A.Keep(keepMask, vertex);
-        walk.Simplex.B.Keep(keepMask, vertex);
-        walk.Simplex.C.Keep(keepMask, vertex);
+        walk.Simplex.A.Keep(keepMask, walk.Vertex);
+        walk.Simplex.B.Keep(keepMask, walk.Vertex);
+        walk.Simplex.C.Keep(keepMask, walk.Vertex);
         // All stops are comparisons that NaN loses, so that lanes without a pair stop.
         activeMask &= Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth);
         if (activeMask == Vector<int>.Zero)
@@ -47,26 +47,41 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         {
             // The remembered triangle still is what is closest: most pairs that rest are done here.
             var insideMask = wholeMask & walk.Simplex.FaceOffset(walk.Target(), out var faceOffset);
-            activeMask = Vector.AndNot(activeMask, Vector.AndNot(insideMask, IsFar(frame, faceOffset.Length(), walk.Depth)));
+            var doneMask = Vector.AndNot(insideMask, IsFar(frame, faceOffset.Length(), walk.Depth));
+            if (IsRound)
+                doneMask |= Vector.AndNot(wholeMask, IsFar(frame, walk.Simplex.EdgeOffset(walk.Target()).Length(), walk.Depth));
+            activeMask = Vector.AndNot(activeMask, doneMask);
             if (activeMask == Vector<int>.Zero)
                 return;
             wholeMask &= activeMask;
         }
         var isNew = wholeMask == Vector<int>.Zero;
+        ref var curvature = ref walk.Curvature;
+        ref var form = ref walk.Form;
+        if (IsRound)
+            Follow(frame, walk.Vertex, walk.Direction, activeMask, isNew ? 0 : 3, ref curvature, ref walk.Simplex);
         var best = walk.Depth;
         var bestDirection = walk.Direction;
         var betterMask = activeMask;
         var rawMask = Vector<int>.Zero;
         var previousLength = new Vector<float>(float.MaxValue);
+        var walkedMask = activeMask;
         for (int i = 1; ; ++i)
         {
             // The tootbird: the origin's projection on the best plane; the origin itself once there is a plane between it and the shape.
             var target = bestDirection * Wide.Max(best, Vector<float>.Zero);
             Vector3Wide offset;
             if (isNew && i == 1)
-                offset = target - vertex.Point;
+            {
+                offset = target - walk.Vertex.Point;
+                form.PointMask = Vector<int>.AllBitsSet;
+                form.EdgeMask = Vector<int>.Zero;
+                form.Edge = Vector3Wide.Zero;
+            }
             else
-                walk.Simplex.Add(vertex, target, activeMask, wholeMask, isNew ? i - 1 : 3, out offset);
+            {
+                walk.Simplex.Add(walk.Vertex, target, activeMask, wholeMask, isNew ? i - 1 : 3, out offset, out form);
+            }
             wholeMask = Vector<int>.Zero;
             var length = offset.Length();
             activeMask &= IsFar(frame, length, best) & Vector.GreaterThanOrEqual(best, frame.LeastDepth);
@@ -82,27 +97,49 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             previousLength = length;
 
             var straight = offset * (Vector<float>.One / length);
-            var tiltMask = Vector.AndNot(
-                Vector.GreaterThan(best, Vector<float>.Zero) &
-                Vector.LessThan(Vector3Wide.Dot(straight, bestDirection), new Vector<float>(TiltCosine)), rawMask);
             var direction = straight;
+            var freeMask = Vector.AndNot(activeMask, rawMask);
+            var steerMask = Vector<int>.Zero;
+            if (IsRound)
+            {
+                // Where a step leads to nothing better and the simplex comes no closer, neither is done any more.
+                steerMask = freeMask & curvature.CanSteer(form, bestDirection);
+                if (steerMask != Vector<int>.Zero)
+                    curvature.Steer(form, offset, length, best, bestDirection, steerMask, IsBothRound, ref direction);
+            }
+            var tiltMask = Vector.AndNot(freeMask, steerMask) & Vector.GreaterThan(best, Vector<float>.Zero) &
+                Vector.LessThan(Vector3Wide.Dot(straight, bestDirection), new Vector<float>(TiltCosine));
             if (tiltMask != Vector<int>.Zero)
             {
                 var tilted = bestDirection + straight * new Vector<float>(Tilt);
-                direction = Vector3Wide.Select(tiltMask, tilted * (Vector<float>.One / tilted.Length()), straight);
+                direction = Vector3Wide.Select(tiltMask, tilted * (Vector<float>.One / tilted.Length()), direction);
             }
             // A support point that is no farther out than the simplex is to rounding: the simplex is what is closest.
             var limit = Vector3Wide.Dot(target - offset, straight) + frame.Rounding;
             statistics.Evaluated(activeMask);
-            Support(a, b, frame, direction, Vector.OnesComplement(activeMask), out vertex);
-            var depth = Vector3Wide.Dot(vertex.Point, direction);
+            Support(a, b, frame, direction, Vector.OnesComplement(activeMask), out walk.Vertex);
+            var depth = Vector3Wide.Dot(walk.Vertex.Point, direction);
             betterMask = activeMask & Vector.LessThan(depth, best);
             best = Wide.Select(betterMask, depth, best);
             bestDirection = Vector3Wide.Select(betterMask, direction, bestDirection);
-            activeMask &= betterMask | tiltMask | Vector.GreaterThan(depth, limit);
+            if (IsRound)
+            {
+                // Near the minimum steps change the depth by less than its rounding, and still bring the simplex nearer to the target.
+                var followMask = betterMask | (activeMask & steerMask & Vector.LessThan(depth, best + frame.Rounding));
+                bestDirection = Vector3Wide.Select(followMask, direction, bestDirection);
+                if (followMask != Vector<int>.Zero)
+                    Follow(frame, walk.Vertex, bestDirection, followMask, isNew ? i : 3, ref curvature, ref walk.Simplex);
+            }
+            activeMask &= betterMask | tiltMask | steerMask | Vector.GreaterThan(depth, limit);
         }
         walk.Direction = bestDirection;
         walk.Depth = best;
+        // New pairs that are apart may never be looked at again.
+        if (IsRound)
+        {
+            var nearMask = knownMask & Vector.GreaterThanOrEqual(best, frame.LeastDepth);
+            Spread(frame, walkedMask & (nearMask | Vector.GreaterThan(best, frame.CertificateSlack)), ref walk);
+        }
     }
 
     /// <summary>Whether the simplex is farther from its target than a result may be.</summary>

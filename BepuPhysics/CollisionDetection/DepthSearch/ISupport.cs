@@ -34,6 +34,19 @@ public interface ISupport<TShapeWide> where TShapeWide : unmanaged
     /// <returns>Radius of the balls, m; zero where the shape stays as it is.</returns>
     static virtual Vector<float> Shrink(ref TShapeWide shape, Vector<float> reach) => Vector<float>.Zero;
 
+    /// <summary>From the centre of the circle that a farthest point lies on to the point; zero for a core that is not round.</summary>
+    /// <param name="point">A farthest point.</param>
+    static virtual Vector3Wide Radial(in Vector3Wide point) => Vector3Wide.Zero;
+
+    /// <summary>The direction in which a farthest point runs around its circle, as long as the radius.</summary>
+    /// <param name="radial">From the circle's centre to the point.</param>
+    static virtual Vector3Wide Tangent(in Vector3Wide radial) => Vector3Wide.Zero;
+
+    /// <summary>Takes a point around its circle to where a farthest point is on its own.</summary>
+    /// <param name="point">A point that was farthest in another direction.</param>
+    /// <param name="radial">From the circle's centre to the farthest point.</param>
+    static virtual Vector3Wide Follow(in Vector3Wide point, in Vector3Wide radial) => point;
+
     /// <summary>A point of the core that is farthest along a direction. Of several, always the same.</summary>
     /// <param name="shape">Shapes.</param>
     /// <param name="direction">Direction; of length one to rounding.</param>

@@ -22,6 +22,14 @@ struct SearchVertex
     }
 }
 
+/// <summary>What a simplex is after it has taken in a vertex: that vertex alone, an edge at it, or else a triangle.</summary>
+struct SimplexForm
+{
+    public Vector<int> PointMask, EdgeMask;
+    /// <summary>From the new vertex to the other one.</summary>
+    public Vector3Wide Edge;
+}
+
 /// <summary>Up to three points of the Minkowski difference. A segment or a single point repeats some of its vertices.</summary>
 struct SearchSimplex
 {
@@ -51,6 +59,21 @@ struct SearchSimplex
         return TryWhole(target, Vector<int>.AllBitsSet, ref offset, ref distance);
     }
 
+    /// <summary>From the closest point of the longest edge at A to the target.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector3Wide EdgeOffset(in Vector3Wide target)
+    {
+        var b = B.Point - A.Point;
+        var c = C.Point - A.Point;
+        var squaredB = b.LengthSquared();
+        var squaredC = c.LengthSquared();
+        var longIsB = Vector.GreaterThan(squaredB, squaredC);
+        var offset = target - A.Point;
+        var distance = offset.LengthSquared();
+        TrySegment(offset, Vector3Wide.Select(longIsB, b, c), Wide.Select(longIsB, squaredB, squaredC), ref offset, ref distance);
+        return offset;
+    }
+
     /// <summary>
     /// Takes in a new vertex and keeps those that span, with it, what is closest to the target.
     /// </summary>
@@ -63,12 +86,14 @@ struct SearchSimplex
     /// is the same as something else then need not be tried, and would change nothing.
     /// </param>
     /// <param name="offset">From the closest point to the target.</param>
+    /// <param name="form">What the simplex is now.</param>
     // Exact: all three segments and all three triangles at the new vertex are tried. Choosing between them by plane tests alone is wrong
     // where the target is beside all of them, and then the search may never end.
     // A vertex that is not kept is overwritten by the new one in its place, so that three masks say everything.
     // With two vertices the triangle is c, a and not a, b: of triangles that are alike the last one wins.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, int oldCount, out Vector3Wide offset)
+    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, int oldCount,
+        out Vector3Wide offset, out SimplexForm form)
     {
         var q = target - vertex.Point;
         var a = A.Point - vertex.Point;
@@ -118,6 +143,9 @@ struct SearchSimplex
             keepB |= whole;
             keepC |= whole;
         }
+        form.PointMask = Vector.OnesComplement(keepA | keepB | keepC);
+        form.EdgeMask = Vector.AndNot(keepA ^ keepB ^ keepC, keepA & keepB & keepC);
+        form.Edge = edge;
         A.Keep(Vector.OnesComplement(activeMask) | keepA, vertex);
         B.Keep(Vector.OnesComplement(activeMask) | keepB, vertex);
         C.Keep(Vector.OnesComplement(activeMask) | keepC, vertex);

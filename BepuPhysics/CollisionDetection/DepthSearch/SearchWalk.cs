@@ -13,6 +13,12 @@ struct SearchWalk
     const float GreatestTurnCosine = 0.9f;
 
     public SearchSimplex Simplex;
+    /// <summary>The farthest point that was found last.</summary>
+    public SearchVertex Vertex;
+    /// <summary>How the farthest point moves; of pairs with a round shape.</summary>
+    public SearchCurvature Curvature;
+    /// <summary>What the simplex is.</summary>
+    public SimplexForm Form;
     /// <summary>Unit, from A to B, in A's frame.</summary>
     public Vector3Wide Direction;
     /// <summary>Of the cores, scaled.</summary>
