@@ -8,6 +8,9 @@ namespace BepuPhysics.CollisionDetection;
 // The deepest; the one farthest from it; the ones farthest to either side of the line through both. Where the overlap is level, the
 // deepest is any of its corners, and the corner farthest from its opposite takes its place: the line is then as long as can be, and the
 // four span more. Corners that come twice do not matter, as the second has no distance, or no area, to add.
+// Where the line is a side of the overlap, or nearly, one of the two is not there, or hardly spans anything: what is farthest out of the
+// triangle of the other three then takes its place. Four corners are four contacts; one that was left out would sink until it is the
+// deepest, push another one out in turn, and never come to rest.
 // Of more than four corners that are as good, rounding would choose, and choose others each time: a stack would never be still. So the
 // first two of the last time, from which the others follow, are preferred by more than rounding and less than matters. Not by more: what
 // becomes a contact late is already deep, and pushes what it holds up; and four that were kept for their own sake are less even.
@@ -28,6 +31,8 @@ static unsafe class FaceReduction
     const float DepthPreference = 8e-5f;
     // What the squared distances of the first two corners of the last time are multiplied by.
     const float SpanPreference = 1.05f;
+    // Part of one side's area below which the other side may have to give way to what is beyond the first.
+    const float UnevenSides = 0.5f;
     // Angle, rad, by which the line turns that sides are told by.
     const float SideTurn = 1e-4f;
     // Name of the witness. It is not remembered: one more is zero in eight bits.
@@ -51,6 +56,15 @@ static unsafe class FaceReduction
             Y = Wide.Select(better, candidate.Y, Y);
             Depth = Wide.Select(better, candidate.Depth, Depth);
             Name = Wide.Select(better, candidate.Name, Name);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Replace(Vector<int> isReplaced, in Choice other)
+        {
+            X = Wide.Select(isReplaced, other.X, X);
+            Y = Wide.Select(isReplaced, other.Y, Y);
+            Depth = Wide.Select(isReplaced, other.Depth, Depth);
+            Name = Wide.Select(isReplaced, other.Name, Name);
         }
     }
 
@@ -88,6 +102,18 @@ static unsafe class FaceReduction
         var rightArea = lineX * (right.Y - deepest.Y) - lineY * (right.X - deepest.X);
         var leftExists = secondExists & Vector.GreaterThan(leftArea, areaEnough);
         var rightExists = secondExists & Vector.LessThan(rightArea, -areaEnough);
+        var tipIsLeft = Vector.GreaterThanOrEqual(leftArea, -rightArea);
+        var otherArea = Wide.Min(leftArea, -rightArea);
+        var isUneven = secondExists & Vector.LessThan(otherArea, Wide.Max(leftArea, -rightArea) * new Vector<float>(UnevenSides));
+        if (!Vector.EqualsAll(isUneven, Vector<int>.Zero))
+        {
+            ChooseBeyond(overlap, deepest, farthest, tipIsLeft, left, right, out var beyond);
+            var isMore = isUneven & Vector.GreaterThan(beyond.Score, Wide.Max(otherArea, areaEnough));
+            left.Replace(Vector.AndNot(isMore, tipIsLeft), beyond);
+            right.Replace(isMore & tipIsLeft, beyond);
+            leftExists |= isMore;
+            rightExists |= isMore;
+        }
         writer.Write(deepest, near, ref manifold.Contacts[0]);
         writer.Write(farthest, secondExists, ref manifold.Contacts[1]);
         writer.Write(left, leftExists, ref manifold.Contacts[2]);
@@ -179,6 +205,32 @@ static unsafe class FaceReduction
         }
         left = most;
         right = least;
+    }
+
+    /// <summary>Chooses what is farthest out of the triangle of three contacts, by the area that it adds beyond its second or third side.</summary>
+    // Areas are twice what they are called. What is to the left of a side has a positive one; where the tip is on the left, that is inside.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseBeyond(in FaceOverlap overlap, in Choice deepest, in Choice farthest, Vector<int> tipIsLeft, in Choice left,
+        in Choice right, out Choice choice)
+    {
+        var most = deepest;
+        most.Score = Vector<float>.Zero;
+        var tipX = Wide.Select(tipIsLeft, left.X, right.X);
+        var tipY = Wide.Select(tipIsLeft, left.Y, right.Y);
+        var outside = Wide.Select(tipIsLeft, -Vector<float>.One, Vector<float>.One);
+        var secondX = (tipX - farthest.X) * outside;
+        var secondY = (tipY - farthest.Y) * outside;
+        var thirdX = (deepest.X - tipX) * outside;
+        var thirdY = (deepest.Y - tipY) * outside;
+        var end = overlap.Candidates + overlap.CandidateCount;
+        for (var candidate = overlap.Candidates; candidate != end; ++candidate)
+        {
+            var x = candidate->X - tipX;
+            var y = candidate->Y - tipY;
+            var area = Wide.Max(secondX * y - secondY * x, thirdX * y - thirdY * x);
+            most.Offer(Wide.Mask(Exists(*candidate), area), *candidate);
+        }
+        choice = most;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -15,8 +15,10 @@ struct ContactCandidate
 }
 
 /// <summary>The corners of the overlap of two faces, and the choice of four of them.</summary>
-// The deepest; the one farthest from it; the ones farthest to either side of the line through both. Corners that come twice do not
-// matter, as the second has no distance, or no area, to add.
+// The deepest; the one farthest from it; the ones farthest to either side of the line through both. Where the line is a side of the
+// overlap, or nearly, one of these is not there, or hardly spans anything: what is farthest out of the triangle of the other three then
+// takes its place, so that four corners are four contacts. Corners that come twice do not matter, as the second has no distance, or no
+// area, to add.
 [InlineArray(Count)]
 struct ContactCandidates
 {
@@ -31,6 +33,9 @@ struct ContactCandidates
     const float MinimumDistanceSquared = 100f;
     // Part of the distance of the first two contacts: a corner that is nearer to their line adds nothing.
     const float MinimumHeight = 1e-3f;
+
+    // Part of one side's area below which the other side may have to give way to what is beyond the first.
+    const float UnevenSides = 0.5f;
 
     ContactCandidate first;
 
@@ -54,6 +59,16 @@ struct ContactCandidates
             Depth = Wide.Select(better, candidate.Depth, Depth);
             Index = Wide.Select(better, index, Index);
         }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Replace(Vector<int> isReplaced, in Choice other)
+        {
+            Score = Wide.Select(isReplaced, other.Score, Score);
+            X = Wide.Select(isReplaced, other.X, X);
+            Y = Wide.Select(isReplaced, other.Y, Y);
+            Depth = Wide.Select(isReplaced, other.Depth, Depth);
+            Index = Wide.Select(isReplaced, other.Index, Index);
+        }
     }
 
     /// <summary>Chooses four candidates and writes them.</summary>
@@ -76,6 +91,16 @@ struct ContactCandidates
         var areaEnough = (lineX * lineX + lineY * lineY) * new Vector<float>(MinimumHeight);
         var firstExists = touching & Vector.GreaterThanOrEqual(deepest.Depth, minimumDepth);
         var secondExists = firstExists & Vector.GreaterThan(farthest.Score, farEnough);
+        var tipIsLeft = Vector.GreaterThanOrEqual(left.Score, right.Score);
+        var otherArea = Wide.Min(left.Score, right.Score);
+        var isUneven = secondExists & Vector.LessThan(otherArea, Wide.Max(left.Score, right.Score) * new Vector<float>(UnevenSides));
+        if (!Vector.EqualsAll(isUneven, Vector<int>.Zero))
+        {
+            ChooseBeyond(deepest, farthest, tipIsLeft, left, right, minimumDepth, out var beyond);
+            var isMore = isUneven & Vector.GreaterThan(beyond.Score, otherArea);
+            left.Replace(Vector.AndNot(isMore, tipIsLeft), beyond);
+            right.Replace(isMore & tipIsLeft, beyond);
+        }
         var plane = new ContactPlane(faces);
         manifold.Normal = plane.Normal;
         Write(plane, deepest, firstExists, ref manifold.Contacts[0]);
@@ -151,6 +176,32 @@ struct ContactCandidates
         }
         left = most;
         right = least;
+    }
+
+    /// <summary>Chooses what is farthest out of the triangle of three contacts, by the area that it adds beyond its second or third side.</summary>
+    // Areas are twice what they are called. What is to the left of a side has a positive one; where the tip is on the left, that is inside.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void ChooseBeyond(in Choice deepest, in Choice farthest, Vector<int> tipIsLeft, in Choice left, in Choice right,
+        Vector<float> minimumDepth, out Choice choice)
+    {
+        var most = deepest;
+        most.Score = Vector<float>.Zero;
+        var tipX = Wide.Select(tipIsLeft, left.X, right.X);
+        var tipY = Wide.Select(tipIsLeft, left.Y, right.Y);
+        var outside = Wide.Select(tipIsLeft, -Vector<float>.One, Vector<float>.One);
+        var secondX = (tipX - farthest.X) * outside;
+        var secondY = (tipY - farthest.Y) * outside;
+        var thirdX = (deepest.X - tipX) * outside;
+        var thirdY = (deepest.Y - tipY) * outside;
+        for (int i = 0; i < Count; ++i)
+        {
+            ref readonly var candidate = ref At(i);
+            var x = candidate.X - tipX;
+            var y = candidate.Y - tipY;
+            var area = Wide.Max(secondX * y - secondY * x, thirdX * y - thirdY * x);
+            most.Offer(Wide.Mask(Vector.GreaterThanOrEqual(candidate.Depth, minimumDepth), area), candidate, new Vector<int>(i));
+        }
+        choice = most;
     }
 
     /// <summary>The plane of A's face in the world, relative to A's centre.</summary>
