@@ -14,6 +14,7 @@ static class Floors
     public const string TwoSided = "two-sided triangle";
     public const string Back = "back of a two-sided triangle";
     public const string Pair = "two triangles";
+    public const string Boxes = "two boxes";
 
     public static readonly string[] Flat = [Box, Hull, Triangle, TwoSided, Back, Pair];
 
@@ -62,6 +63,14 @@ static class Floors
                 var second = new Vector3(to, 0, halfWidth);
                 world.AddStatic(new Triangle(first, second, new(from, 0, halfWidth)), surface);
                 world.AddStatic(new Triangle(first, new(to, 0, -halfWidth), second), surface);
+                break;
+            case Boxes:
+                // Side by side; they meet under the X axis.
+                foreach (float side in (ReadOnlySpan<float>)[-.5f, .5f])
+                {
+                    var middleOfBox = new Vector3((from + to) / 2, -1, side * halfWidth);
+                    world.AddStatic(new Box(to - from, 2, halfWidth), surface with { Position = Place(surface, middleOfBox) });
+                }
                 break;
             default:
                 throw new ArgumentOutOfRangeException(nameof(kind), kind, null);

@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
 using DemoTests.Support;
 using Xunit;
 
@@ -23,12 +22,14 @@ public sealed class QuadrilateralOverlapTests
 
     [Theory]
     [MemberData(nameof(Tilts))]
-    public void OnATriangle(float tilt) => AssertAll(tilt, new Triangle(new(-20, 0, -20), new(20, 0, 20), new(-20, 0, 20)), Quaternion.Identity, default);
+    public void OnATriangle(float tilt) =>
+        AssertAll(tilt, new Triangle(new(-20, 0, -20), new(20, 0, 20), new(-20, 0, 20)), Quaternion.Identity, default);
 
     [Theory]
     [MemberData(nameof(Tilts))]
     public void OnABox(float tilt) =>
-        AssertAll(tilt, new Box(20, 2, 20), Quaternion.CreateFromAxisAngle(Vector3.UnitY, MathF.PI / 4), new(-10 * MathF.Sqrt(0.5f), -1, 10 * MathF.Sqrt(0.5f)));
+        AssertAll(tilt, new Box(20, 2, 20), Quaternion.CreateFromAxisAngle(Vector3.UnitY, MathF.PI / 4),
+            new(-10 * MathF.Sqrt(0.5f), -1, 10 * MathF.Sqrt(0.5f)));
 
     [Theory]
     [MemberData(nameof(Tilts))]

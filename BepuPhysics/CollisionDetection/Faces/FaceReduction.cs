@@ -32,7 +32,7 @@ static unsafe class FaceReduction
     // What the squared distances of the first two corners of the last time are multiplied by.
     const float SpanPreference = 1.05f;
     // Part of one side's area below which the other side may have to give way to what is beyond the first.
-    const float UnevenSides = 0.5f;
+    const float UnevenSides = 0.1f;
     // Angle, rad, by which the line turns that sides are told by.
     const float SideTurn = 1e-4f;
     // Name of the witness. It is not remembered: one more is zero in eight bits.

@@ -35,7 +35,7 @@ struct ContactCandidates
     const float MinimumHeight = 1e-3f;
 
     // Part of one side's area below which the other side may have to give way to what is beyond the first.
-    const float UnevenSides = 0.5f;
+    const float UnevenSides = 0.1f;
 
     ContactCandidate first;
 
