@@ -86,6 +86,16 @@ public class OutsideContactTests
             ConvexShape.Cylinder(28.269716f, 34.609856f),
             new(new(-21.482603f, 10.955488f, -15.863507f), new(-0.47600615f, -0.15819946f, 0.12366532f, 0.8562114f),
                 new(-0.75253695f, -0.2268722f, -0.008941516f, 0.6181724f))),
+        // Steered by how the rim curves, the search went around in circles here: it stopped beside the nearest points, a thousandth of the size off.
+        (ConvexShape.Triangle(new(0.5356998f, -0.73686105f, -0.037811495f), new(0.7657982f, 0.04375459f, 1.9237988f),
+                new(0.6904687f, -0.24484706f, 1.235121f)),
+            ConvexShape.Cylinder(0.757827818f, 2 * 0.158781633f),
+            new(new(0.8523106f, -1.3133869f, 0.39510924f), new(-0.6274276f, 0.6175148f, -0.20687637f, 0.42686328f),
+                new(0.60326785f, -0.67935836f, 0.32719275f, -0.25977883f))),
+        (ConvexShape.Box(2 * 0.30445534f, 2 * 0.28478613f, 2 * 0.6f),
+            ConvexShape.Cylinder(0.818402708f, 2 * 0.0146210184f),
+            new(new(0.78317565f, -0.59330094f, -0.52268493f), new(-0.5740082f, -0.18860927f, 0.79040486f, -0.101001605f),
+                new(-0.3896132f, 0.865003f, -0.17412332f, 0.2639176f))),
     ];
 
     public static TheoryData<ConvexKind, int> Poses()

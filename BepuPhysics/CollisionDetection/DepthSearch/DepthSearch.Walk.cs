@@ -8,6 +8,9 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
 {
     // Steps of a walk. One pair in a hundred of deep cylinders gets there; all others stop long before.
     const int MaximumSteps = 50;
+    // Steps that may be steered, by the curvature of round shapes: one in a hundred walks takes as many. A steered step may undo what the one
+    // before has won, so those that go around in circles go on without.
+    const int SteeredSteps = 20;
     // A direction that is farther than 60 degrees from the best one is not taken as it is: the best direction is tilted towards it by a half.
     const float TiltCosine = 0.5f;
     const float Tilt = 0.5f;
@@ -100,7 +103,8 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             var direction = straight;
             var freeMask = Vector.AndNot(activeMask, rawMask);
             var steerMask = Vector<int>.Zero;
-            if (IsRound)
+            var isSteered = IsRound && i <= SteeredSteps;
+            if (isSteered)
             {
                 // Where a step leads to nothing better and the simplex comes no closer, neither is done any more.
                 steerMask = freeMask & curvature.CanSteer(form, bestDirection);
@@ -122,7 +126,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             betterMask = activeMask & Vector.LessThan(depth, best);
             best = Wide.Select(betterMask, depth, best);
             bestDirection = Vector3Wide.Select(betterMask, direction, bestDirection);
-            if (IsRound)
+            if (isSteered)
             {
                 // Near the minimum steps change the depth by less than its rounding, and still bring the simplex nearer to the target.
                 var followMask = betterMask | (activeMask & steerMask & Vector.LessThan(depth, best + frame.Rounding));
