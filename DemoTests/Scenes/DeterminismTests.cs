@@ -130,7 +130,8 @@ public sealed class DeterminismTests(ITestOutputHelper output)
             var error = process.StandardError.ReadToEndAsync();
             string messages = process.StandardOutput.ReadToEnd();
             process.WaitForExit();
-            Assert.True(process.ExitCode == 0, $"{scene} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
+            // A status of 2 says that bodies were lost: what falls freely for five seconds is.
+            Assert.True(process.ExitCode is 0 or 2, $"{scene} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
             var root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
             lanes = root.GetProperty("lanes").GetInt32();
             var hashes = new List<(int, string)>();
