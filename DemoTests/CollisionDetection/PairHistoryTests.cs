@@ -27,7 +27,7 @@ public class PairHistoryTests
         public Vector3 PointA, PointB;
         public PairHistory History;
 
-        public Found(bool touching = true, float depth = 0.002f, int leastCarriedCount = 1, bool bIsLarger = false)
+        public Found(bool touching = true, float depth = 0.002f, int leastCarriedCount = 1, bool bIsLarger = false, HistoryLane lane = default)
         {
             B = new(new Vector3(3.4f, 0.3f, 4.8f), Turn(new Vector3(-0.4f, 0.1f, 0.6f)));
             // The surface points lie half the depth to either side of the contact, A's towards B.
@@ -38,7 +38,7 @@ public class PairHistoryTests
             manifold.Contact0 = new ConvexContact { Offset = contact - A.Position, Depth = depth, FeatureId = 42 };
             History.Identify(shapeA, shapeB);
             var measures = new PairMeasures { Depth = depth, ReachA = bIsLarger ? ReachB : ReachA, ReachB = bIsLarger ? ReachA : ReachB };
-            History.Record(manifold, measures, A.Orientation, B.Orientation, Margin, leastCarriedCount);
+            lane.Record(ref History, manifold, measures, A.Orientation, B.Orientation, Margin, leastCarriedCount);
         }
 
         public bool Reuse(in RigidPose a, in RigidPose b, out ConvexContactManifold manifold, float margin = Margin)
@@ -61,12 +61,15 @@ public class PairHistoryTests
         AssertNear(found.Normal, manifold.Normal);
     }
 
+    /// <summary>Whichever lane of a bundle recorded it, in whichever order, from whichever of the four contacts.</summary>
     [Theory]
-    [InlineData(false)]
-    [InlineData(true)]
-    public void A_pair_that_moves_as_one_body_takes_its_contact_along(bool bIsLarger)
+    [InlineData(false, 0, false, 0)]
+    [InlineData(true, 0, false, 0)]
+    [InlineData(false, 2, true, 3)]
+    [InlineData(true, 3, true, 1)]
+    public void A_pair_that_moves_as_one_body_takes_its_contact_along(bool bIsLarger, int lane, bool flipped, int slot)
     {
-        var found = new Found(bIsLarger: bIsLarger);
+        var found = new Found(bIsLarger: bIsLarger, lane: new HistoryLane(lane, flipped, slot));
         // Far more than the tolerance, but the same for both.
         var motion = new RigidPose(new Vector3(20, 7, -9), Turn(new Vector3(1, 2, -0.5f)));
         var a = Moved(found.A, motion);
@@ -74,6 +77,7 @@ public class PairHistoryTests
 
         Assert.True(found.Reuse(a, b, out var manifold));
 
+        Assert.Equal((1, 42), (manifold.Count, manifold.Contact0.FeatureId));
         Assert.Equal(0.002f, manifold.Contact0.Depth, 1e-5f);
         AssertNear(Exact.Rotate(found.Normal, motion.Orientation), manifold.Normal);
         var contact = Transform((found.PointA + found.PointB) / 2, motion);
@@ -202,6 +206,30 @@ public class PairHistoryTests
         Assert.False(found.Reuse(found.A, found.B, out _));
         ConvexContactManifold manifold = default;
         Assert.False(default(PairHistory).TryReuse(default, Quaternion.Identity, Quaternion.Identity, 0, ref manifold));
+    }
+
+    // Bodies that sleep in all but name: nothing moves, so nothing may seem to.
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Whoever_does_not_move_has_not_moved_by_a_bit(bool flipped)
+    {
+        var random = new Random(3);
+        for (int i = 0; i < 500; ++i)
+        {
+            var lane = new HistoryLane(i % Vector<float>.Count, flipped);
+            var turnA = Turn(Direction(random) * 3);
+            var turnB = Turn(Direction(random) * 3);
+            var offset = Direction(random) * 5;
+            var history = default(PairHistory);
+            var measures = new PairMeasures { Depth = -1, ReachA = random.NextSingle(), ReachB = random.NextSingle() };
+            lane.Record(ref history, new ConvexContactManifold { OffsetB = offset }, measures, turnA, turnB, 0, 1);
+            // As far apart as the margin, less what rounding is allowed.
+            var margin = MathF.BitDecrement(1 - 1e-5f * (measures.ReachA + measures.ReachB));
+            ConvexContactManifold manifold = default;
+
+            Assert.True(history.TryReuse(offset, turnA, turnB, margin, ref manifold));
+        }
     }
 
     [Fact]

@@ -72,7 +72,7 @@ public unsafe class SlowPairTests
             var task = registry.GetTask(first.Type, second.Type, out var taskIndex, out var flipped);
             ref var history = ref histories[i + 1];
             var evaluations = slowness.NextDouble() < slowPart ? 9 : 1;
-            history.Record(default, new PairMeasures { Evaluations = evaluations }, Quaternion.Identity, Quaternion.Identity, 0, 1);
+            default(HistoryLane).Record(ref history, default, new PairMeasures { Evaluations = evaluations }, Quaternion.Identity, Quaternion.Identity, 0, 1);
             Assert.Equal(evaluations > 1, PairHistory.IsSlow(history.GetReference(i + 1)));
             Assert.Equal(i + 1, PairHistory.GetIndex(history.GetReference(i + 1)));
             var offset = i == 0 ? new Vector3(0.5f, 0.1f, 0) : new Vector3(places.NextSingle(), places.NextSingle(), places.NextSingle()) * 1.2f;

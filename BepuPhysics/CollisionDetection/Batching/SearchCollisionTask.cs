@@ -85,13 +85,13 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             PairHistory.GatherSearch(histories, historyIndices, out var state);
             TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, ref state, out var measures, out wide);
             PairHistory.ScatterSearch(histories, historyIndices, state);
+            PairHistory.Record(histories, historyIndices, bundle.Pose, bundle.FlipMask, bundle.SpeculativeMargin, measures, ref wide,
+                TTester.LeastCarriedContactCount);
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
             {
                 if (start + lane >= firstEmpty && start + lane < firstSlow)
                     continue;
                 Read(ref wide, ref bundle, lane, ref manifold);
-                if (historyIndices[lane] >= 0)
-                    Record(ref histories[historyIndices[lane]], manifold, ref bundle, ref measures, lane);
                 callbacks.OnPairCompleted(Lane(ref bundle.PairIds, lane), ref manifold);
             }
         }
@@ -116,20 +116,5 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             Lanes.Write(default(TShapeB), ref bundle.B, lane);
             Lane(ref bundle.SpeculativeMargin, lane) = float.NegativeInfinity;
         }
-    }
-
-    // The history is told in the order of the caller, as the contacts are.
-    static void Record(ref PairHistory history, in ConvexContactManifold manifold, ref PairBundle<TShapeWideA, TShapeWideB> bundle,
-        ref PairMeasuresWide measuresWide, int lane)
-    {
-        var measures = Lanes.Read<PairMeasures, PairMeasuresWide>(ref measuresWide, lane);
-        var orientationA = Lanes.Read<Quaternion, QuaternionWide>(ref bundle.Pose.OrientationA, lane);
-        var orientationB = Lanes.Read<Quaternion, QuaternionWide>(ref bundle.Pose.OrientationB, lane);
-        if (Lane(ref bundle.FlipMask, lane) != 0)
-        {
-            (orientationA, orientationB) = (orientationB, orientationA);
-            (measures.ReachA, measures.ReachB) = (measures.ReachB, measures.ReachA);
-        }
-        history.Record(manifold, measures, orientationA, orientationB, Lane(ref bundle.SpeculativeMargin, lane), TTester.LeastCarriedContactCount);
     }
 }

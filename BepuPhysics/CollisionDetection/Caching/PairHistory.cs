@@ -19,10 +19,10 @@ namespace BepuPhysics.CollisionDetection;
 // shape; where it belongs to the smaller, it lags by up to Tolerance rad until the next test.
 // Everything is in the axes of the larger shape, as seen from the centre of the smaller: contacts are short distances then, even on a floor
 // of a kilometre.
-// Four cache lines. The first decides whether there will be a test, and all that a pair without contacts needs. What comes then is
-// gathered and scattered as bundles, so that the size is a multiple of a row of eight floats.
+// Four cache lines. The first decides whether there will be a test, and all that a pair without contacts needs. But for the second row of eight
+// floats, all is written as bundles, and the search's state is read so.
 [StructLayout(LayoutKind.Sequential, Size = 4 * CacheLine)]
-unsafe struct PairHistory
+unsafe partial struct PairHistory
 {
     // Pose of the smaller shape in the frame of the larger at the last test.
     Quaternion turn;
@@ -34,7 +34,8 @@ unsafe struct PairHistory
     float reach;
     // Steps until the next test, come what may; zero where nothing is known.
     short remaining;
-    byte contactCount;
+    // A bit for each of the places below that has a contact.
+    byte contactMask;
     bool aIsLarger;
     bool isSlow;
     ShapeIdentity shapeA;
@@ -87,39 +88,6 @@ unsafe struct PairHistory
     /// <summary>Whether the last test of a pair was a slow one, and the next will most likely be.</summary>
     public static bool IsSlow(int reference) => reference >= SlowFlag;
 
-    /// <summary>Records the outcome of a test.</summary>
-    /// <param name="found">Contacts, as they were found.</param>
-    /// <param name="measures">What the test knows besides.</param>
-    /// <param name="turnA">Orientation of A.</param>
-    /// <param name="turnB">Orientation of B.</param>
-    /// <param name="speculativeMargin">Margin of the test.</param>
-    /// <param name="leastCarriedCount">Number of contacts from which on they may be carried along.</param>
-    public void Record(in ConvexContactManifold found, in PairMeasures measures, in Quaternion turnA, in Quaternion turnB, float speculativeMargin,
-        int leastCarriedCount)
-    {
-        isSlow = measures.Evaluations > QuickEvaluations;
-        remaining = (short)(found.Count == 0 || found.Count >= leastCarriedCount ? Lifetime : 0);
-        if (remaining == 0)
-            return;
-        contactCount = (byte)found.Count;
-        aIsLarger = measures.ReachA > measures.ReachB;
-        reach = aIsLarger ? measures.ReachB : measures.ReachA;
-        FindPose(found.OffsetB, turnA, turnB, out turn, out offset);
-        room = found.Count == 0 ? -measures.Depth - Rounding * (measures.ReachA + measures.ReachB) : speculativeMargin;
-        if (found.Count == 0)
-            return;
-        Matrix3x3.CreateFromQuaternion(Exact.Conjugate(aIsLarger ? turnA : turnB), out var toLarger);
-        Matrix3x3.Transform(found.Normal, toLarger, out normal);
-        var center = aIsLarger ? found.OffsetB : default;
-        for (int i = 0; i < found.Count; ++i)
-        {
-            ref readonly var contact = ref ConvexContactManifold.GetConvexContactReference(ref Unsafe.AsRef(in found), i);
-            Matrix3x3.Transform(contact.Offset - center, toLarger, out places[i]);
-            depths[i] = contact.Depth;
-            features[i] = contact.FeatureId;
-        }
-    }
-
     /// <summary>Finds the contacts without a test, if the bodies have hardly moved since the last one.</summary>
     /// <param name="offsetB">Position of B less that of A.</param>
     /// <param name="currentA">Orientation of A.</param>
@@ -136,7 +104,7 @@ unsafe struct PairHistory
         FindPose(offsetB, currentA, currentB, out var currentTurn, out var currentOffset);
         var translation = currentOffset - offset;
         var displacement = Exact.Length(translation) + reach * Displacement(currentTurn);
-        if (contactCount == 0)
+        if (contactMask == 0)
         {
             if (!(displacement + speculativeMargin < room))
                 return false;
@@ -151,6 +119,8 @@ unsafe struct PairHistory
         Carry(offsetB, translation, currentTurn, aIsLarger ? currentA : currentB, ref result);
         return true;
     }
+
+    static int Stride => sizeof(PairHistory) / sizeof(float);
 
     static float* SearchOf(PairHistory* histories) => (float*)&histories->Search;
 
@@ -168,7 +138,7 @@ unsafe struct PairHistory
         Unsafe.SkipInit(out state);
         ref var target = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref state);
         for (int i = 0; i < SearchRowCount; ++i)
-            Unsafe.Add(ref target, i) = Transpose.Gather(SearchOf(histories) + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
+            Unsafe.Add(ref target, i) = Transpose.Gather(SearchOf(histories) + i * Rows8.Count, Stride, indices);
     }
 
     /// <summary>Writes the state of the search of each lane that has a history.</summary>
@@ -178,7 +148,7 @@ unsafe struct PairHistory
             return;
         ref var source = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref Unsafe.AsRef(in state));
         for (int i = 0; i < SearchRowCount; ++i)
-            Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, sizeof(PairHistory) / sizeof(float), indices);
+            Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, Stride, indices);
     }
 
     /// <summary>Pose of the smaller shape in the frame of the larger.</summary>
@@ -207,15 +177,17 @@ unsafe struct PairHistory
     {
         Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(turn), currentTurn), out var rotation);
         Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
-        result.Count = contactCount;
         result.OffsetB = offsetB;
         Matrix3x3.Transform(normal, toWorld, out result.Normal);
         // From the larger shape's surface to the smaller one's where they touch.
         var across = aIsLarger ? normal : -normal;
         var center = aIsLarger ? offsetB : default;
-        for (int i = 0; i < contactCount; ++i)
+        var count = 0;
+        for (int i = 0; contactMask >> i != 0; ++i)
         {
-            ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, i);
+            if ((contactMask >> i & 1) == 0)
+                continue;
+            ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, count++);
             var halfway = across * (depths[i] * 0.5f);
             var onLarger = places[i] - halfway - translation;
             Matrix3x3.Transform(places[i] + halfway, rotation, out var onSmaller);
@@ -224,6 +196,7 @@ unsafe struct PairHistory
             carried.Depth = Exact.Dot(onSmaller - onLarger, across);
             carried.FeatureId = features[i];
         }
+        result.Count = count;
     }
 }
 
