@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
@@ -11,24 +10,21 @@ namespace BepuPhysics.CollisionDetection;
 // middles of its sides; where the contact of a tilted cylinder lies there, the pair's own witness stands in for it.
 public readonly struct CylinderFeature : IContactFeature<CylinderWide>
 {
-    const int CapVertexCount = 16;
-
-    // Sines of 22.5 degrees times 0 to 19; the cosines start at the fourth.
-    static ReadOnlySpan<float> Sines =>
-    [
-        0, 0.38268343f, 0.70710678f, 0.92387953f, 1, 0.92387953f, 0.70710678f, 0.38268343f,
-        0, -0.38268343f, -0.70710678f, -0.92387953f, -1, -0.92387953f, -0.70710678f, -0.38268343f,
-        0, 0.38268343f, 0.70710678f, 0.92387953f,
-    ];
-
     /// <inheritdoc/>
-    public static int MaximumVertexCount => CapVertexCount;
+    public static int MaximumVertexCount => FaceDisc.CornerCount;
 
     /// <inheritdoc/>
     public static bool IsRound => true;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static bool IsDisc => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> DiscRadius(in CylinderWide shape) => shape.Radius;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Find(in CylinderWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,
         out ContactFeatureWide feature)
     {
@@ -40,27 +36,9 @@ public readonly struct CylinderFeature : IContactFeature<CylinderWide>
         var toSide = shape.Radius * Wide.DivideOrZero(Vector<float>.One, Vector.SquareRoot(acrossSquared));
         var sideX = direction.X * toSide;
         var sideZ = direction.Z * toSide;
-        if (Vector.EqualsAny(isCap & ~done, new Vector<int>(-1)))
-        {
-            // From Z towards X is counter-clockwise seen from +Y. The polygon of the other end is its mirror image.
-            var capY = shape.HalfLength * sign;
-            var radiusX = shape.Radius * sign;
-            var y = Wide.Select(isCap, capY, -shape.HalfLength);
-            for (int i = 0; i < CapVertexCount; ++i)
-            {
-                Unsafe.Add(ref vertices, i) = new(
-                    Wide.Select(isCap, radiusX * new Vector<float>(Sines[i]), sideX),
-                    y,
-                    Wide.Select(isCap, shape.Radius * new Vector<float>(Sines[i + CapVertexCount / 4]), sideZ));
-            }
-            Unsafe.Add(ref vertices, 1).Y = Wide.Select(isCap, capY, shape.HalfLength);
-        }
-        else
-        {
-            vertices = new(sideX, -shape.HalfLength, sideZ);
-            Unsafe.Add(ref vertices, 1) = new(sideX, shape.HalfLength, sideZ);
-        }
-        feature.VertexCount = Wide.Select(isCap, new Vector<int>(CapVertexCount), new Vector<int>(2));
+        vertices = new(Wide.Select(isCap, zero, sideX), Wide.Select(isCap, shape.HalfLength * sign, -shape.HalfLength), Wide.Select(isCap, zero, sideZ));
+        Unsafe.Add(ref vertices, 1) = new(sideX, shape.HalfLength, sideZ);
+        feature.VertexCount = Wide.Select(isCap, new Vector<int>(FaceDisc.CornerCount), new Vector<int>(2));
         feature.PlaneNormal = new(
             Wide.Select(isCap, zero, direction.X), Wide.Mask(isCap, sign), Wide.Select(isCap, zero, direction.Z));
         // 0 and 1 are the ends, 2 is the side.

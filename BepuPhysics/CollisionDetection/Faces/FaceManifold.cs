@@ -80,7 +80,7 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         TFeatureA.Find(a, frameA.Outwards, ~exists, ref *points, out overlap.A.Feature);
         overlap.A.List.First = scratch.VerticesA;
         overlap.A.List.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
-        overlap.A.Project(points, frameA, -1);
+        Project<TFeatureA, TShapeWideA>(a, points, frameA, -1, ref overlap.A);
 
         ref var frameB = ref scratch.FrameB;
         frameB.X = localOrientationB * frameA.X;
@@ -90,10 +90,20 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         TFeatureB.Find(b, frameB.Outwards, ~exists, ref *points, out overlap.B.Feature);
         overlap.B.List.First = scratch.VerticesB;
         overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
-        overlap.B.Project(points, frameB, 1);
+        Project<TFeatureB, TShapeWideB>(b, points, frameB, 1, ref overlap.B);
 
-        overlap.FindCandidates(exists);
+        overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
         FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref remembered, ref manifold);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Project<TFeature, TShapeWide>(in TShapeWide shape, Vector3Wide* points, in FaceFrame frame, float winding, ref FacePolygon polygon)
+        where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
+        if (TFeature.IsDisc)
+            polygon.ProjectDisc(points, TFeature.DiscRadius(shape), frame);
+        else
+            polygon.Project(points, frame, winding);
     }
 
     /// <summary>What a bundle is worked on in; arrays follow it, the ones that are always used first.</summary>

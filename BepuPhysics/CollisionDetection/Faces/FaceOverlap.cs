@@ -47,33 +47,35 @@ unsafe struct FaceOverlap
 
     /// <summary>Finds the corners.</summary>
     /// <param name="near">All bits set where the pair may have contacts.</param>
+    /// <param name="aIsDisc">Whether polygons of A are discs.</param>
+    /// <param name="bIsDisc">Whether polygons of B are discs.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void FindCandidates(Vector<int> near)
+    public void FindCandidates(Vector<int> near, bool aIsDisc, bool bIsDisc)
     {
         CandidateCount = 0;
         Border = Wide.Min(A.Extent, B.Extent) * new Vector<float>(BorderTolerance) +
             Wide.Max(A.Feature.Size, B.Feature.Size) * new Vector<float>(BorderRounding);
         var polygons = near & A.IsPolygon & B.IsPolygon;
         if (!Vector.EqualsAll(polygons, Vector<int>.Zero))
-            ClipPolygons(polygons);
+            ClipPolygons(polygons, aIsDisc, bIsDisc);
         var segments = near & A.IsSegment & B.IsPolygon;
         if (!Vector.EqualsAll(segments, Vector<int>.Zero))
-            ClipSegment(A, B, segments, 0);
+            ClipSegment(A, B, bIsDisc, segments, 0);
         segments = near & A.IsPolygon & B.IsSegment;
         if (!Vector.EqualsAll(segments, Vector<int>.Zero))
-            ClipSegment(B, A, segments, SegmentName);
+            ClipSegment(B, A, aIsDisc, segments, SegmentName);
         segments = near & A.IsSegment & B.IsSegment;
         if (!Vector.EqualsAll(segments, Vector<int>.Zero))
             ClipSegments(segments);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void ClipPolygons(Vector<int> mask)
+    void ClipPolygons(Vector<int> mask, bool aIsDisc, bool bIsDisc)
     {
         var border = Border;
         // An edge that moves less than half the border across another counts as parallel to it.
         var half = border * new Vector<float>(0.5f);
-        var needles = B.Widen(border, mask);
+        var needles = bIsDisc ? Vector<int>.Zero : B.Widen(border, mask);
         var anyNeedle = !Vector.EqualsAll(needles, Vector<int>.Zero);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
@@ -87,21 +89,14 @@ unsafe struct FaceOverlap
             var line = new EdgeLine(edge);
             if (anyNeedle)
                 line.MoveToFoot(edge, needles);
-            var x = line.X;
-            var y = line.Y;
-            var edgeX = edge.EdgeX;
-            var edgeY = edge.EdgeY;
-            var lineX = edge.LineX;
-            var lineY = edge.LineY;
-            var lineOffset = edge.LineOffset;
             var start = line.Start;
             var end = line.End;
-            for (var vertex = verticesB; vertex != endB; ++vertex)
-            {
-                Clip(x * vertex->LineX + y * vertex->LineY + vertex->WideLineOffset, edgeX * vertex->LineX + edgeY * vertex->LineY,
-                    half, ref start, ref end);
-                vertex->Inside = Wide.Min(lineX * vertex->X + lineY * vertex->Y + lineOffset, vertex->Inside);
-            }
+            if (bIsDisc)
+                B.Disc.Clip(line.X, line.Y, edge.EdgeX, edge.EdgeY, border, ref start, ref end);
+            else
+                ClipToLines(verticesB, endB, line, edge, half, ref start, ref end);
+            if (!aIsDisc)
+                Measure(verticesB, endB, edge);
             var isInside = mask & Vector.LessThanOrEqual(start, end) & Vector.LessThan(new Vector<int>(i), A.Feature.VertexCount);
             AddOnEdge(edge, line, B, start, isInside, 2 * i);
             AddOnEdge(edge, line, B, end, isInside & Vector.LessThan(end, line.End), 2 * i + 1);
@@ -109,27 +104,61 @@ unsafe struct FaceOverlap
         for (int i = 0; i < countB; ++i)
         {
             ref var vertex = ref verticesB[i];
-            var isInside = mask & Vector.GreaterThan(vertex.Inside, half) & Vector.LessThan(new Vector<int>(i), B.Feature.VertexCount);
+            var isInside = aIsDisc ? A.Disc.Holds(vertex.X, vertex.Y, half) : Vector.GreaterThan(vertex.Inside, half);
+            isInside &= mask & Vector.LessThan(new Vector<int>(i), B.Feature.VertexCount);
             Add(vertex.X, vertex.Y, vertex.Height + A.HeightAt(vertex.X, vertex.Y), isInside, VertexName + i);
         }
     }
 
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    void ClipSegment(in FacePolygon segment, in FacePolygon polygon, Vector<int> mask, int name)
+    /// <summary>Measures how far vertices are inside of an edge.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Measure(FaceVertex* vertices, FaceVertex* verticesEnd, in FaceVertex edge)
     {
-        var needles = polygon.Widen(Border, mask);
+        var x = edge.LineX;
+        var y = edge.LineY;
+        var offset = edge.LineOffset;
+        for (var vertex = vertices; vertex != verticesEnd; ++vertex)
+            vertex->Inside = Wide.Min(x * vertex->X + y * vertex->Y + offset, vertex->Inside);
+    }
+
+    /// <summary>Cuts an interval of an edge to what is inside of a polygon.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void ClipToLines(FaceVertex* polygon, FaceVertex* polygonEnd, in EdgeLine line, in FaceVertex edge, Vector<float> half,
+        ref Vector<float> start, ref Vector<float> end)
+    {
+        var x = line.X;
+        var y = line.Y;
+        var edgeX = edge.EdgeX;
+        var edgeY = edge.EdgeY;
+        var (first, last) = (start, end);
+        for (var vertex = polygon; vertex != polygonEnd; ++vertex)
+        {
+            Clip(x * vertex->LineX + y * vertex->LineY + vertex->WideLineOffset, edgeX * vertex->LineX + edgeY * vertex->LineY,
+                half, ref first, ref last);
+        }
+        (start, end) = (first, last);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ClipSegment(in FacePolygon segment, in FacePolygon polygon, bool isDisc, Vector<int> mask, int name)
+    {
         ref var edge = ref segment.Vertices[0];
         var line = new EdgeLine(edge);
-        if (!Vector.EqualsAll(needles, Vector<int>.Zero))
-            line.MoveToFoot(edge, needles);
-        var half = Border * new Vector<float>(0.5f);
         var start = line.Start;
         var end = line.End;
-        for (int i = 0; i < polygon.Count; ++i)
+        if (isDisc)
         {
-            ref var other = ref polygon.Vertices[i];
-            Clip(line.X * other.LineX + line.Y * other.LineY + other.WideLineOffset,
-                edge.EdgeX * other.LineX + edge.EdgeY * other.LineY, half, ref start, ref end);
+            polygon.Disc.Clip(line.X, line.Y, edge.EdgeX, edge.EdgeY, Border, ref start, ref end);
+        }
+        else
+        {
+            var needles = polygon.Widen(Border, mask);
+            if (!Vector.EqualsAll(needles, Vector<int>.Zero))
+            {
+                line.MoveToFoot(edge, needles);
+                (start, end) = (line.Start, line.End);
+            }
+            ClipToLines(polygon.Vertices, polygon.Vertices + polygon.Count, line, edge, Border * new Vector<float>(0.5f), ref start, ref end);
         }
         var isInside = mask & Vector.LessThanOrEqual(start, end);
         AddOnEdge(edge, line, polygon, start, isInside, name);

@@ -50,7 +50,7 @@ struct FaceFrame
 }
 
 /// <summary>The features of a bundle of shapes, seen along the normal.</summary>
-unsafe struct FacePolygon
+unsafe partial struct FacePolygon
 {
     // Cosine of the angle of a plane to the normal below which its slope says more about rounding than about the surface: at this one,
     // of 87 degrees, the tolerance of a border becomes that of a depth.
@@ -74,6 +74,8 @@ unsafe struct FacePolygon
     public Vector<float> Highest;
     /// <summary>All bits set where the feature is a polygon or a segment that is not steep.</summary>
     public Vector<int> IsPolygon, IsSegment;
+    /// <summary>Of features whose polygons are discs.</summary>
+    public FaceDisc Disc;
 
     /// <summary>First vertices.</summary>
     public readonly FaceVertex* Vertices

@@ -14,13 +14,23 @@ public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
     /// <summary>Whether the shape can roll: its surface then turns away under a contact that stays where it is.</summary>
     static virtual bool IsRound => false;
 
+    /// <summary>
+    /// Whether polygons are discs across the shape's Y axis, which have <see cref="MaximumVertexCount"/> corners around them. Only their centre
+    /// is asked for.
+    /// </summary>
+    static virtual bool IsDisc => false;
+
+    /// <summary>Radius of the shapes' discs, m.</summary>
+    /// <param name="shape">Shapes.</param>
+    static virtual Vector<float> DiscRadius(in TShapeWide shape) => Vector<float>.Zero;
+
     /// <summary>Finds the feature that faces a direction.</summary>
     /// <param name="shape">Shapes.</param>
     /// <param name="direction">Unit directions out of the shapes, in their frames.</param>
     /// <param name="done">All bits set in lanes whose feature is not wanted.</param>
     /// <param name="vertices">
     /// First of <see cref="MaximumVertexCount"/> places for vertices in the shape's frame, counter-clockwise seen from outside; those from
-    /// the count of a lane on repeat its first, up to the greatest count of the bundle.
+    /// the count of a lane on repeat its first, up to the greatest count of the bundle. Of a disc, its centre alone.
     /// </param>
     /// <param name="feature">What else there is to say of the feature.</param>
     static abstract void Find(in TShapeWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices,

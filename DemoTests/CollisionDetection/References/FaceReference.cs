@@ -123,18 +123,9 @@ sealed class FaceReference
             double ex = feature[1].X - p.X, ey = feature[1].Y - p.Y;
             return p.Height + (feature[1].Height - p.Height) * ((x - p.X) * ex + (y - p.Y) * ey) / (ex * ex + ey * ey);
         }
-        // The triangle of the first vertex with the largest area.
-        double best = 0;
-        FacePoint q = default, r = default;
-        for (int i = 1; i < feature.Length; ++i)
-        {
-            for (int j = i + 1; j < feature.Length; ++j)
-            {
-                var area = Math.Abs(FacePoint.Cross(p, feature[i], feature[j]));
-                if (area > best)
-                    (best, q, r) = (area, feature[i], feature[j]);
-            }
-        }
+        // The triangle of the first vertex, the one farthest from it, and the one farthest from the line of both.
+        var q = feature.MaxBy(v => (v.X - p.X) * (v.X - p.X) + (v.Y - p.Y) * (v.Y - p.Y));
+        var r = feature.MaxBy(v => Math.Abs(FacePoint.Cross(p, q, v)));
         var place = new FacePoint(x, y, 0);
         var all = FacePoint.Cross(p, q, r);
         return p.Height + (q.Height - p.Height) * FacePoint.Cross(p, place, r) / all + (r.Height - p.Height) * FacePoint.Cross(p, q, place) / all;
