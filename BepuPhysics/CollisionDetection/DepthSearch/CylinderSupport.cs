@@ -12,6 +12,34 @@ public readonly struct CylinderSupport : ISupport<CylinderWide>
     public static bool IsRound => true;
 
     /// <inheritdoc/>
+    public static bool IsCylinder => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void GetCylinder(in CylinderWide shape, out Vector<float> radius, out Vector<float> halfLength)
+    {
+        radius = shape.Radius;
+        halfLength = shape.HalfLength;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide FaceNormal(in CylinderWide shape, in Vector3Wide direction) =>
+        new(Vector<float>.Zero, Wide.CopySign(Vector<float>.One, direction.Y), Vector<float>.Zero);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void GetFace(in CylinderWide shape, in Vector3Wide normal, out SearchFace face)
+    {
+        var zero = Vector<float>.Zero;
+        Unsafe.SkipInit(out face);
+        face.Normal = normal;
+        face.AxisX = new(Vector<float>.One, zero, zero);
+        face.AxisY = new(zero, zero, Vector<float>.One);
+        face.Height = shape.HalfLength;
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Margin(in CylinderWide shape) => Vector<float>.Zero;
 

@@ -33,14 +33,21 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         ref Vector<int> knownMask, ref SearchWalk walk, ref TStatistics statistics)
         where TStatistics : struct, ISearchStatistics
     {
-        statistics.Evaluated(activeMask);
-        Support(a, b, frame, walk.Direction, Vector.OnesComplement(activeMask), out walk.Vertex);
-        walk.Depth = Wide.Select(activeMask, Vector3Wide.Dot(walk.Vertex.Point, walk.Direction), walk.Depth);
-        knownMask = Vector.AndNot(knownMask, activeMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
-        var keepMask = knownMask | Vector.OnesComplement(activeMask);
-        walk.Simplex.A.Keep(keepMask, walk.Vertex);
-        walk.Simplex.B.Keep(keepMask, walk.Vertex);
-        walk.Simplex.C.Keep(keepMask, walk.Vertex);
+        var seenMask = activeMask;
+        var metMask = Vector<int>.Zero;
+        if (MayMeet)
+        {
+            // The simplex of what is known is tried first, unless it is the one point of a meeting: that moves with every tilt.
+            var triedMask = activeMask & (Vector.OnesComplement(knownMask) | walk.Simplex.IsPoint());
+            if (triedMask != Vector<int>.Zero)
+            {
+                metMask = Meet(a, b, frame, triedMask, ref walk, ref statistics, out var doneMask);
+                seenMask = Vector.AndNot(activeMask, metMask);
+                activeMask = Vector.AndNot(activeMask, doneMask);
+            }
+        }
+        if (seenMask != Vector<int>.Zero)
+            See(a, b, frame, seenMask, ref knownMask, ref walk, ref statistics);
         // All stops are comparisons that NaN loses, so that lanes without a pair stop.
         activeMask &= Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth);
         if (activeMask == Vector<int>.Zero)
@@ -57,6 +64,15 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             if (activeMask == Vector<int>.Zero)
                 return;
             wholeMask &= activeMask;
+            var triedMask = Vector.AndNot(wholeMask, metMask);
+            if (MayMeet && triedMask != Vector<int>.Zero)
+            {
+                Meet(a, b, frame, triedMask, ref walk, ref statistics, out doneMask);
+                activeMask = Vector.AndNot(activeMask, doneMask) & Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth);
+                if (activeMask == Vector<int>.Zero)
+                    return;
+                wholeMask &= activeMask;
+            }
         }
         var isNew = wholeMask == Vector<int>.Zero;
         ref var curvature = ref walk.Curvature;
@@ -144,6 +160,24 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             var nearMask = knownMask & Vector.GreaterThanOrEqual(best, frame.LeastDepth);
             Spread(frame, walkedMask & (nearMask | Vector.GreaterThan(best, frame.CertificateSlack)), ref walk);
         }
+    }
+
+    /// <summary>Finds the depth in the walk's direction, and forgets simplices that are not of the shapes as they are now.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void See<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, Vector<int> seenMask, ref Vector<int> knownMask,
+        ref SearchWalk walk, ref TStatistics statistics)
+        where TStatistics : struct, ISearchStatistics
+    {
+        statistics.Evaluated(seenMask);
+        var vertex = walk.Vertex;
+        Support(a, b, frame, walk.Direction, Vector.OnesComplement(seenMask), out walk.Vertex);
+        walk.Vertex.Keep(seenMask, vertex);
+        walk.Depth = Wide.Select(seenMask, Vector3Wide.Dot(walk.Vertex.Point, walk.Direction), walk.Depth);
+        knownMask = Vector.AndNot(knownMask, seenMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
+        var keepMask = knownMask | Vector.OnesComplement(seenMask);
+        walk.Simplex.A.Keep(keepMask, walk.Vertex);
+        walk.Simplex.B.Keep(keepMask, walk.Vertex);
+        walk.Simplex.C.Keep(keepMask, walk.Vertex);
     }
 
     /// <summary>Whether the simplex is farther from its target than a result may be.</summary>

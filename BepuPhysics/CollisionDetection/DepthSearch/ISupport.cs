@@ -14,6 +14,30 @@ public interface ISupport<TShapeWide> where TShapeWide : unmanaged
     /// <summary>Whether cores have surfaces or edges that are not straight, so that many of their points may be farthest in turn.</summary>
     static virtual bool IsRound => false;
 
+    /// <summary>Number of corners of a core's flat faces, at most 4; zero where there are none, or more.</summary>
+    static virtual int FaceVertexCount => 0;
+
+    /// <summary>Normal of the flat face that is nearest to a direction.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="direction">Unit direction out of the shape.</param>
+    static virtual Vector3Wide FaceNormal(in TShapeWide shape, in Vector3Wide direction) => default;
+
+    /// <summary>A flat face.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="normal">Its normal, as it was given.</param>
+    /// <param name="face">The face.</param>
+    static virtual void GetFace(in TShapeWide shape, in Vector3Wide normal, out SearchFace face) => face = default;
+
+    /// <summary>Whether cores are cylinders about their Y axis.</summary>
+    static virtual bool IsCylinder => false;
+
+    /// <summary>Measures of a cylinder.</summary>
+    /// <param name="shape">Shapes.</param>
+    /// <param name="radius">Radius, m.</param>
+    /// <param name="halfLength">Distance of either end from the centre, m.</param>
+    static virtual void GetCylinder(in TShapeWide shape, out Vector<float> radius, out Vector<float> halfLength) =>
+        radius = halfLength = Vector<float>.Zero;
+
     /// <summary>Distance of the surface from the core, m.</summary>
     /// <param name="shape">Shapes.</param>
     static abstract Vector<float> Margin(in TShapeWide shape);

@@ -50,6 +50,13 @@ struct SearchSimplex
         Vector.GreaterThan(Vector3Wide.Dot(B.Point, direction), height) |
         Vector.GreaterThan(Vector3Wide.Dot(C.Point, direction), height);
 
+    /// <summary>Whether all three vertices are one.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<int> IsPoint() => AreOne(A.Point, B.Point) & AreOne(A.Point, C.Point);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
+
     /// <summary>From the closest point to the target, where that is inside of the triangle; where it is not, the mask is not set.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector<int> FaceOffset(in Vector3Wide target, out Vector3Wide offset)

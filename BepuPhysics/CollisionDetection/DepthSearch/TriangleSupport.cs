@@ -9,6 +9,36 @@ namespace BepuPhysics.CollisionDetection;
 public readonly struct TriangleSupport : ISupport<TriangleWide>
 {
     /// <inheritdoc/>
+    public static int FaceVertexCount => 3;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide FaceNormal(in TriangleWide shape, in Vector3Wide direction)
+    {
+        var normal = Vector3Wide.Cross(shape.B - shape.A, shape.C - shape.A);
+        var along = Vector3Wide.Dot(normal, direction);
+        return normal * (Wide.CopySign(Vector<float>.One, along) / normal.Length());
+    }
+
+    /// <inheritdoc/>
+    // Counter-clockwise whichever side is looked at: the second axis is turned to where the third corner is.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void GetFace(in TriangleWide shape, in Vector3Wide normal, out SearchFace face)
+    {
+        Unsafe.SkipInit(out face);
+        var ab = shape.B - shape.A;
+        face.Normal = normal;
+        face.AxisX = ab * (Vector<float>.One / ab.Length());
+        var across = Vector3Wide.Cross(normal, face.AxisX);
+        face.AxisY = across * Wide.CopySign(Vector<float>.One, Vector3Wide.Dot(across, shape.C - shape.A));
+        face.Height = Vector3Wide.Dot(normal, shape.A);
+        face.Corner0 = face.Place(shape.A);
+        face.Corner1 = face.Place(shape.B);
+        face.Corner2 = face.Place(shape.C);
+        face.Corner3 = face.Corner0;
+    }
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Margin(in TriangleWide shape) => Vector<float>.Zero;
 
