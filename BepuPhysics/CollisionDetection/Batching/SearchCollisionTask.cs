@@ -73,6 +73,7 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
     {
         ref var wide = ref Manifold(batch);
         Unsafe.SkipInit(out ConvexContactManifold manifold);
+        Unsafe.SkipInit(out PairMeasuresWide measures);
         var firstEmpty = batch.Count - SlowCount(batch);
         var firstSlow = PairBatch.Capacity - SlowCount(batch);
         EmptyLanes(batch, firstEmpty, firstSlow);
@@ -83,10 +84,14 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
             var historyIndices = *(Vector<int>*)(HistoryIndices(batch) + start);
             PairHistory.GatherSearch(histories, historyIndices, out var state);
-            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, ref state, out var measures, out wide);
-            PairHistory.ScatterSearch(histories, historyIndices, state);
-            PairHistory.Record(histories, historyIndices, bundle.Pose, bundle.FlipMask, bundle.SpeculativeMargin, measures, ref wide,
-                TTester.LeastCarriedContactCount);
+            TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, ref state, ref measures, out wide);
+            if (Vector.GreaterThanOrEqualAny(historyIndices, Vector<int>.Zero))
+            {
+                PairHistory.ScatterSearch(histories, historyIndices, state);
+                TTester.MeasureReaches(bundle.A, bundle.B, ref measures);
+                PairHistory.Record(histories, historyIndices, bundle.Pose, bundle.FlipMask, bundle.SpeculativeMargin, measures, ref wide,
+                    TTester.LeastCarriedContactCount);
+            }
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
             {
                 if (start + lane >= firstEmpty && start + lane < firstSlow)

@@ -40,8 +40,6 @@ unsafe partial struct PairHistory
         where TContacts : unmanaged, IFew<ContactWide>
     {
         var recordedMask = Vector.GreaterThanOrEqual(indices, Vector<int>.Zero);
-        if (recordedMask == Vector<int>.Zero)
-            return;
         var count = Vector<int>.Zero;
         var contactMask = Vector<int>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)

@@ -144,8 +144,6 @@ unsafe partial struct PairHistory
     /// <summary>Writes the state of the search of each lane that has a history.</summary>
     public static void ScatterSearch(PairHistory* histories, Vector<int> indices, in DepthSearchStateWide state)
     {
-        if (Vector.LessThanAll(indices, Vector<int>.Zero))
-            return;
         ref var source = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref Unsafe.AsRef(in state));
         for (int i = 0; i < SearchRowCount; ++i)
             Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, Stride, indices);

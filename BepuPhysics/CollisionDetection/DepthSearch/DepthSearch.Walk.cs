@@ -169,10 +169,19 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         where TStatistics : struct, ISearchStatistics
     {
         statistics.Evaluated(seenMask);
-        var vertex = walk.Vertex;
-        Support(a, b, frame, walk.Direction, Vector.OnesComplement(seenMask), out walk.Vertex);
-        walk.Vertex.Keep(seenMask, vertex);
-        walk.Depth = Wide.Select(seenMask, Vector3Wide.Dot(walk.Vertex.Point, walk.Direction), walk.Depth);
+        if (seenMask == Vector<int>.AllBitsSet && knownMask == Vector<int>.Zero)
+        {
+            // Nothing to keep.
+            Support(a, b, frame, walk.Direction, Vector<int>.Zero, out walk.Vertex);
+            walk.Depth = Vector3Wide.Dot(walk.Vertex.Point, walk.Direction);
+            walk.Simplex.A.Set(walk.Vertex);
+            walk.Simplex.B.Set(walk.Vertex);
+            walk.Simplex.C.Set(walk.Vertex);
+            return;
+        }
+        Support(a, b, frame, walk.Direction, Vector.OnesComplement(seenMask), out var vertex);
+        walk.Vertex.Keep(Vector.OnesComplement(seenMask), vertex);
+        walk.Depth = Wide.Select(seenMask, Vector3Wide.Dot(vertex.Point, walk.Direction), walk.Depth);
         knownMask = Vector.AndNot(knownMask, seenMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
         var keepMask = knownMask | Vector.OnesComplement(seenMask);
         walk.Simplex.A.Keep(keepMask, walk.Vertex);

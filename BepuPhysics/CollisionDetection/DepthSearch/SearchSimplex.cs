@@ -13,6 +13,15 @@ struct SearchVertex
     /// <summary>In B's frame, m.</summary>
     public Vector3Wide OnB;
 
+    // Row by row: copied as a whole, 288 bytes are a call.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Set(in SearchVertex other)
+    {
+        Point = other.Point;
+        OnA = other.OnA;
+        OnB = other.OnB;
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Keep(Vector<int> keepMask, in SearchVertex other)
     {

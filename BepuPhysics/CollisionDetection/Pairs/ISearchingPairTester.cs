@@ -19,8 +19,14 @@ interface ISearchingPairTester<TShapeWideA, TShapeWideB, TContacts>
     /// <param name="pose">Poses of the pairs.</param>
     /// <param name="speculativeMargin">Greatest distance at which a contact exists, m; zero or more.</param>
     /// <param name="state">Where the search of the last test ended, and then where this one did; zero where there was none.</param>
-    /// <param name="measures">Bounds that hold beyond this test.</param>
+    /// <param name="measures">Bounds that hold beyond this test, but for the reaches.</param>
     /// <param name="manifold">The contacts.</param>
     static abstract void Test(in TShapeWideA a, in TShapeWideB b, in PairPoseWide pose, Vector<float> speculativeMargin,
-        ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<TContacts> manifold);
+        ref DepthSearchStateWide state, ref PairMeasuresWide measures, out ConvexManifoldWide<TContacts> manifold);
+
+    /// <summary>Measures how far shapes reach from their centres, which only those need that remember a test.</summary>
+    /// <param name="a">First shapes.</param>
+    /// <param name="b">Second shapes.</param>
+    /// <param name="measures">Where the reaches go.</param>
+    static abstract void MeasureReaches(in TShapeWideA a, in TShapeWideB b, ref PairMeasuresWide measures);
 }

@@ -26,7 +26,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in TShapeWideA a, in TShapeWideB b, in PairPoseWide pose, Vector<float> speculativeMargin,
-        ref DepthSearchStateWide state, out PairMeasuresWide measures, out ConvexManifoldWide<Few4<ContactWide>> manifold)
+        ref DepthSearchStateWide state, ref PairMeasuresWide measures, out ConvexManifoldWide<Few4<ContactWide>> manifold)
     {
         Unsafe.SkipInit(out manifold);
         pose.GetLocal(out var axesA, out var localAxesB, out var localOffsetB);
@@ -35,8 +35,6 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
             a, b, localOffsetB, localAxesB, speculativeMargin, ref state, ref effort, out var found);
         measures.Evaluations = effort.Evaluations;
         measures.Depth = found.Depth;
-        measures.ReachA = Reach<TShapeWideA, TSupportA>(a);
-        measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
         if (found.Near == Vector<int>.Zero)
         {
             manifold.RemoveContacts();
@@ -44,6 +42,14 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
         }
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.Build(a, b, localOffsetB, localAxesB, found.Normal, found.Depth,
             found.PointOnA, found.Near, speculativeMargin, axesA, ref state.Contacts, out manifold);
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void MeasureReaches(in TShapeWideA a, in TShapeWideB b, ref PairMeasuresWide measures)
+    {
+        measures.ReachA = Reach<TShapeWideA, TSupportA>(a);
+        measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
