@@ -30,6 +30,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
                 ? MeetDisc(DiscRadius(f), center, radius, slope, far, out place, out tilt, out isRim)
                 : MeetPolygon(face, center, radius, slope, far, out place, out tilt, out isRim);
         }
+        mask &= Vector.LessThan(tilt.LengthSquared(), new Vector<float>(GreatestSquaredTilt));
         if (mask == Vector<int>.Zero)
             return mask;
         direction = Vector3Wide.Select(mask, face.Tilt(tilt), direction);

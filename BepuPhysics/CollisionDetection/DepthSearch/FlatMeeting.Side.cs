@@ -44,6 +44,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
             place += unit * leave;
             gap = Vector3Wide.Dot(line, face.Normal) - face.Height - slope * leave;
         }
+        mask &= Vector.LessThan(tilt.LengthSquared(), new Vector<float>(GreatestSquaredTilt));
         if (mask == Vector<int>.Zero)
             return mask;
         direction = Vector3Wide.Select(mask, face.Tilt(tilt), direction);
