@@ -85,7 +85,7 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
             var historyIndices = *(Vector<int>*)(HistoryIndices(batch) + start);
             PairHistory.GatherSearch(histories, historyIndices, out var state);
             TTester.Test(bundle.A, bundle.B, bundle.Pose, bundle.SpeculativeMargin, ref state, ref measures, out wide);
-            if (Vector.GreaterThanOrEqualAny(historyIndices, Vector<int>.Zero))
+            if (!Vector.LessThanAll(historyIndices, Vector<int>.Zero))
             {
                 PairHistory.ScatterSearch(histories, historyIndices, state);
                 TTester.MeasureReaches(bundle.A, bundle.B, ref measures);
