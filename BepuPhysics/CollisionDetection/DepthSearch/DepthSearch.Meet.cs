@@ -48,9 +48,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         doneMask = Vector.AndNot(metMask, IsFar(frame, (walk.Target() - met.Point).Length() - frame.Rounding, walk.Depth));
         var keepMask = Vector.OnesComplement(metMask);
         walk.Vertex.Keep(keepMask, met);
-        walk.Simplex.A.Keep(keepMask, met);
-        walk.Simplex.B.Keep(keepMask, met);
-        walk.Simplex.C.Keep(keepMask, met);
+        walk.Simplex.Keep(keepMask, met);
         return metMask;
     }
 

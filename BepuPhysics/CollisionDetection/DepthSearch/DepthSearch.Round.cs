@@ -116,9 +116,9 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     static void Spread(in SearchFrame frame, Vector<int> mask, ref SearchWalk walk)
     {
         ref var simplex = ref walk.Simplex;
-        var sameAB = AreOne(simplex.A.Point, simplex.B.Point);
-        var sameBC = AreOne(simplex.B.Point, simplex.C.Point);
-        var sameCA = AreOne(simplex.C.Point, simplex.A.Point);
+        var sameAB = SearchVertex.AreOne(simplex.A.Point, simplex.B.Point);
+        var sameBC = SearchVertex.AreOne(simplex.B.Point, simplex.C.Point);
+        var sameCA = SearchVertex.AreOne(simplex.C.Point, simplex.A.Point);
         mask &= (sameAB | sameBC | sameCA) & Vector.GreaterThan(walk.Curvature.Sum, Vector<float>.Zero);
         if (mask == Vector<int>.Zero)
             return;
@@ -168,7 +168,4 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         var radial = TSupport.Radial(point);
         return point + (TSupport.Tangent(radial) * angle - radial * (angle * angle * new Vector<float>(0.5f)));
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
 }

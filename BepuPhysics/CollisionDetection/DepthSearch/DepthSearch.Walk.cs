@@ -174,19 +174,14 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
             // Nothing to keep.
             Support(a, b, frame, walk.Direction, Vector<int>.Zero, out walk.Vertex);
             walk.Depth = Vector3Wide.Dot(walk.Vertex.Point, walk.Direction);
-            walk.Simplex.A.Set(walk.Vertex);
-            walk.Simplex.B.Set(walk.Vertex);
-            walk.Simplex.C.Set(walk.Vertex);
+            walk.Simplex.Set(walk.Vertex);
             return;
         }
         Support(a, b, frame, walk.Direction, Vector.OnesComplement(seenMask), out var vertex);
         walk.Vertex.Keep(Vector.OnesComplement(seenMask), vertex);
         walk.Depth = Wide.Select(seenMask, Vector3Wide.Dot(vertex.Point, walk.Direction), walk.Depth);
         knownMask = Vector.AndNot(knownMask, seenMask & walk.Simplex.IsBeyond(walk.Direction, walk.Depth + frame.Tolerance + frame.Rounding));
-        var keepMask = knownMask | Vector.OnesComplement(seenMask);
-        walk.Simplex.A.Keep(keepMask, walk.Vertex);
-        walk.Simplex.B.Keep(keepMask, walk.Vertex);
-        walk.Simplex.C.Keep(keepMask, walk.Vertex);
+        walk.Simplex.Keep(knownMask | Vector.OnesComplement(seenMask), walk.Vertex);
     }
 
     /// <summary>Whether the simplex is farther from its target than a result may be.</summary>

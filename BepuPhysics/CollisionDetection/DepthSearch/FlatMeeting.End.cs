@@ -27,7 +27,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
             var center = underMiddle - tilt * gap;
             var far = center + slope * (radius * inverseSlope);
             mask &= TSupportF.IsCylinder
-                ? MeetDisc(DiscRadius(f), center, radius, slope, far, out place, out tilt, out isRim)
+                ? MeetDisc(DiscRadius(f), center, radius, slope, inverseSlope, far, out place, out tilt, out isRim)
                 : MeetPolygon(face, center, radius, slope, far, out place, out tilt, out isRim);
         }
         mask &= Vector.LessThan(tilt.LengthSquared(), new Vector<float>(GreatestSquaredTilt));
@@ -53,6 +53,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
     /// <param name="center">Centre of the second.</param>
     /// <param name="radius">Radius of the second.</param>
     /// <param name="slope">How the depth grows over the place.</param>
+    /// <param name="inverseSlope">One over the length of that; zero where there is none.</param>
     /// <param name="far">Where the second disc reaches farthest along the slope.</param>
     /// <param name="place">The place.</param>
     /// <param name="tilt">Slope of the direction of least depth.</param>
@@ -61,12 +62,12 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
     // Where one rim reaches farthest, if that is inside of the other; otherwise the corner of the lens that does. There, with the vectors p and q from
     // the centres to the corner, g = s p + t q, and both are positive.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> MeetDisc(Vector<float> radiusF, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, in Vector2Wide far,
-        out Vector2Wide place, out Vector2Wide tilt, out Vector<int> isRim)
+    static Vector<int> MeetDisc(Vector<float> radiusF, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, Vector<float> inverseSlope,
+        in Vector2Wide far, out Vector2Wide place, out Vector2Wide tilt, out Vector<int> isRim)
     {
         var squaredF = radiusF * radiusF;
         var squared = radius * radius;
-        var farF = slope * (radiusF * Wide.DivideOrZero(Vector<float>.One, slope.Length()));
+        var farF = slope * (radiusF * inverseSlope);
         var isFarF = Vector.LessThanOrEqual((farF - center).LengthSquared(), squared);
         isRim = Vector.AndNot(Vector.LessThanOrEqual(far.LengthSquared(), squaredF), isFarF);
 
@@ -84,8 +85,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
             Vector.GreaterThanOrEqual(t, Vector<float>.Zero);
 
         place = Vector2Wide.Select(isFarF, farF, Vector2Wide.Select(isRim, far, corner));
-        tilt = Vector2Wide.Select(isFarF, slope, new Vector2Wide(
-            Wide.Mask(Vector.OnesComplement(isRim), corner.X * s), Wide.Mask(Vector.OnesComplement(isRim), corner.Y * s)));
+        tilt = Vector2Wide.Select(isFarF, slope, Vector2Wide.Select(isRim, default, corner * s));
         return isFarF | isRim | isCorner;
     }
 
@@ -135,8 +135,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
         }
         var isCorner = Vector.AndNot(Vector.LessThanOrEqual((farthest - center).LengthSquared(), squared), isRim);
         place = Vector2Wide.Select(isRim, far, Vector2Wide.Select(isCorner, farthest, place));
-        tilt = Vector2Wide.Select(isCorner, slope, new Vector2Wide(
-            Wide.Mask(Vector.OnesComplement(isRim), tilt.X), Wide.Mask(Vector.OnesComplement(isRim), tilt.Y)));
+        tilt = Vector2Wide.Select(isCorner, slope, Vector2Wide.Select(isRim, default, tilt));
         return foundMask | isRim | isCorner;
     }
 }

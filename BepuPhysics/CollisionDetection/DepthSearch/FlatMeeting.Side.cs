@@ -21,14 +21,13 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
         var slope = Vector.Abs(along) / length;
         var reach = halfLength * length;
         var tilt = new Vector2Wide(Vector<float>.Zero, Vector<float>.Zero);
-        var found = face.Normal;
         var isEnd = Vector<int>.Zero;
         var gap = Vector<float>.Zero;
         Vector2Wide place = default;
         Vector3Wide line = default;
         for (int i = 0; i < Rounds; ++i)
         {
-            found = face.Tilt(tilt);
+            var found = face.Tilt(tilt);
             var radial = found - down * Vector3Wide.Dot(found, down);
             line = offset - radial * (radius / radial.Length());
             // Followed to the plane of the face along the direction.

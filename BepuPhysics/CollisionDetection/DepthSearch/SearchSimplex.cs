@@ -13,6 +13,10 @@ struct SearchVertex
     /// <summary>In B's frame, m.</summary>
     public Vector3Wide OnB;
 
+    /// <summary>Whether two points are the same, to the bit.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
+
     // Row by row: copied as a whole, 288 bytes are a call.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Set(in SearchVertex other)
@@ -52,6 +56,24 @@ struct SearchSimplex
 
     public SearchVertex A, B, C;
 
+    /// <summary>Makes a point of the simplex.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Set(in SearchVertex vertex)
+    {
+        A.Set(vertex);
+        B.Set(vertex);
+        C.Set(vertex);
+    }
+
+    /// <summary>Makes a point of the simplices that are not to be kept.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Keep(Vector<int> keepMask, in SearchVertex vertex)
+    {
+        A.Keep(keepMask, vertex);
+        B.Keep(keepMask, vertex);
+        C.Keep(keepMask, vertex);
+    }
+
     /// <summary>Whether a vertex is farther along a direction than a height, which no point of the difference is.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector<int> IsBeyond(in Vector3Wide direction, Vector<float> height) =>
@@ -61,10 +83,7 @@ struct SearchSimplex
 
     /// <summary>Whether all three vertices are one.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly Vector<int> IsPoint() => AreOne(A.Point, B.Point) & AreOne(A.Point, C.Point);
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
+    public readonly Vector<int> IsPoint() => SearchVertex.AreOne(A.Point, B.Point) & SearchVertex.AreOne(A.Point, C.Point);
 
     /// <summary>From the closest point to the target, where that is inside of the triangle; where it is not, the mask is not set.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

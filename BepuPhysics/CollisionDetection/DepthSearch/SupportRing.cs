@@ -89,17 +89,14 @@ struct SupportRing
     // Four points that are one are no ring: all its sides would pass for want of triangles.
     [MethodImpl(MethodImplOptions.NoInlining)]
     public readonly Vector<int> Certifies() =>
-        Mask & ~(AreOne(Vertex0.Point, Vertex1.Point) & AreOne(Vertex0.Point, Vertex2.Point)) &
+        Mask & ~(SearchVertex.AreOne(Vertex0.Point, Vertex1.Point) & SearchVertex.AreOne(Vertex0.Point, Vertex2.Point)) &
         IsBeyond(Vertex0.Point, Vertex1.Point) & IsBeyond(Vertex1.Point, Vertex2.Point) &
         IsBeyond(Vertex2.Point, Vertex3.Point) & IsBeyond(Vertex3.Point, Vertex0.Point);
 
     /// <summary>Whether the triangles above and below a side of the ring are far enough from the origin. Two points that are one have none.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly Vector<int> IsBeyond(in Vector3Wide from, in Vector3Wide to) =>
-        AreOne(from, to) | (IsBeyond(top, from, to) & IsBeyond(to, from, bottom));
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> AreOne(in Vector3Wide a, in Vector3Wide b) => Vector.Equals(a.X, b.X) & Vector.Equals(a.Y, b.Y) & Vector.Equals(a.Z, b.Z);
+        SearchVertex.AreOne(from, to) | (IsBeyond(top, from, to) & IsBeyond(to, from, bottom));
 
     /// <summary>Whether the origin is far enough inside of a triangle that is counterclockwise seen from outside.</summary>
     // The first corner is one that is near: a plane that is measured from a far one has that corner's rounding.

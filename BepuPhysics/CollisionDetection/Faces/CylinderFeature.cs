@@ -5,9 +5,9 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>A cylinder's end, as a regular polygon with its corners on the rim, or the line of its side that faces the direction.</summary>
-// The polygon is fixed to the cylinder, so that a contact keeps its corner while the cylinder rests. It lacks 2 % of the radius in the
-// middles of its sides; where the contact of a tilted cylinder lies there, the pair's own witness stands in for it.
+/// <summary>A cylinder's end, as a disc with corners around its rim, or the line of its side that faces the direction.</summary>
+// The corners are fixed to the cylinder, so that a contact keeps its corner while the cylinder rests. Where the contact of a tilted cylinder lies
+// between two of them, the pair's own witness stands in for it.
 public readonly struct CylinderFeature : IContactFeature<CylinderWide>
 {
     /// <inheritdoc/>

@@ -79,8 +79,11 @@ unsafe struct FaceOverlap
         var anyNeedle = !Vector.EqualsAll(needles, Vector<int>.Zero);
         var verticesB = B.Vertices;
         var endB = verticesB + B.Count;
-        for (var vertex = verticesB; vertex != endB; ++vertex)
-            vertex->Inside = new Vector<float>(float.MaxValue);
+        if (!aIsDisc)
+        {
+            for (var vertex = verticesB; vertex != endB; ++vertex)
+                vertex->Inside = new Vector<float>(float.MaxValue);
+        }
         var countA = A.Count;
         var countB = B.Count;
         for (int i = 0; i < countA; ++i)

@@ -19,13 +19,13 @@ unsafe partial struct FacePolygon
         var first = points[0] - frame.Origin;
         var edge = points[1] - points[0];
         var isSegment = Vector.Equals(Feature.VertexCount, new Vector<int>(2));
+        var x = Vector3Wide.Dot(first, frame.X);
+        var y = Vector3Wide.Dot(first, frame.Y);
+        var height = Vector3Wide.Dot(first, frame.Outwards);
         var highest = Vector<float>.Zero;
         if (Count > 2)
         {
             var radiusX = radius * Feature.PlaneNormal.Y;
-            var x = Vector3Wide.Dot(first, frame.X);
-            var y = Vector3Wide.Dot(first, frame.Y);
-            var height = Vector3Wide.Dot(first, frame.Outwards);
             // Of what turns around the axis.
             var (sineX, sineY, sineHeight) = (radiusX * frame.X.X, radiusX * frame.Y.X, radiusX * frame.Outwards.X);
             var (cosineX, cosineY, cosineHeight) = (radius * frame.X.Z, radius * frame.Y.Z, radius * frame.Outwards.Z);
@@ -46,9 +46,9 @@ unsafe partial struct FacePolygon
             }
         }
         Unsafe.SkipInit(out FaceVertex segment);
-        segment.X = Vector3Wide.Dot(first, frame.X);
-        segment.Y = Vector3Wide.Dot(first, frame.Y);
-        segment.Height = Vector3Wide.Dot(first, frame.Outwards);
+        segment.X = x;
+        segment.Y = y;
+        segment.Height = height;
         segment.EdgeX = Vector3Wide.Dot(edge, frame.X);
         segment.EdgeY = Vector3Wide.Dot(edge, frame.Y);
         segment.EdgeHeight = Vector3Wide.Dot(edge, frame.Outwards);
