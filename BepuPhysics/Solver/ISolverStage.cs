@@ -7,6 +7,8 @@ enum SolverPoint
     BeforeSubsteps,
     /// <summary>Bodies of a substep have been integrated.</summary>
     AfterIntegration,
+    /// <summary>As the one before, when all stages are done there: the place for what needs all of their results.</summary>
+    BeforeWarmStart,
     /// <summary>The impulses of the last substep have been applied: the place for stages that move a load across a whole structure.</summary>
     AfterWarmStart,
     /// <summary>The constraints of a substep have been solved; the bodies have not moved yet.</summary>

@@ -166,6 +166,7 @@ public sealed unsafe partial class Solver
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
             AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
             AddOptional(ref work, SolverPoint.AfterIntegration, substep);
+            AddOptional(ref work, SolverPoint.BeforeWarmStart, substep);
             DrawOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, SolverPoint.AfterWarmStart, substep);

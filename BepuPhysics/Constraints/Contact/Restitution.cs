@@ -1,49 +1,43 @@
 using System;
+using System.Numerics;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints.Contact;
 
-/// <summary>Lets the contacts that ask for it bounce, once per step, after the substeps.</summary>
-// Contacts bring two surfaces to rest against each other; what the impact speed was is lost by then. So the pairs that have a coefficient of
-// restitution (no others are visited) are watched: each substep notes the speed at which their contacts approach, and where a contact
-// begins to push, the speed at the instant of impact. A substep that begins with a gap s above an approach of speed v meets the surface
-// after the part s / (v h) of its time, and has gained that part of the substep's acceleration: so a bounce does not depend on where
-// within a substep it happened to fall.
+/// <summary>Lets the pairs that ask for it bounce, at the beginning of the substep in which they meet.</summary>
+// Contacts bring two surfaces to rest against each other; a bounce that came after them would have to know who had given what to whom. So
+// the pairs that have a coefficient of restitution (no others are visited) bounce before a substep is solved. Bodies move in straight
+// lines within it: a gap s that closes at a speed v closes at the time s / v. Impacts are made one after the other in the order of their
+// times, and each looks again at the pairs of its two bodies. So a blow passes through a row of spheres within one substep, each impact
+// is one of two bodies, and none adds energy (PairImpact). What then still approaches comes to rest by the solver.
 //
-// After the last substep each contact that was hit gets the velocity -e times its speed of impact, by sequential impulses over the hit
-// contacts alone. The corners of a box do not hit at the same instant: the first to stop turns the box about itself, and the next hits the
-// faster for it. To give each its own speed of impact back would give that energy twice; so a body that bounces off the world ends
-// with no more kinetic energy than it had before the first of its impacts. Contacts no faster than what the acceleration of two steps gives
-// do not bounce: they rest.
+// A body gets its new velocity at the beginning of the substep, but bounces at the time t: it is moved back by t times the change, and so
+// is at the end of the substep where it would be. In between it overlaps what it has bounced off.
+//
+// Pairs that nobody expected to meet, since a third body sent the one against the other, overlap when they are found. They should have met
+// at the negative time s / v, and bounce as if they had. What overlap is left then is taken out by moving the bodies.
+// The solver is told of neither overlap: it would push them out with a velocity, and a contact that bounces keeps that energy. Where a contact
+// carries a load it is told: that contact rests, and overlaps by its softness.
+//
+// Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
 sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     const int PairsPerBlock = 64;
-    // The hit contacts of a box that lands flat share one bounce; their coupling converges by about a factor of two a sweep.
-    const int Sweeps = 8;
     // Steps of acceleration that a contact may gather while it rests.
     const float RestingSteps = 2;
+    // Impacts of one pair in one substep.
+    const int MaximumImpacts = 16;
+    // Part of the weight of either body from which on a contact carries a load: a body that rests on many contacts gives each a part.
+    const float LoadingShare = 1 / 16f;
+    // Speed of approach over speed of the bodies that may be rounding.
+    const float RoundingShare = 1e-6f;
 
     QuickList<BouncingPair> pairs = new(16, pool);
-    int substepCount;
-
-    struct BouncingPair
-    {
-        public ConstraintHandle Constraint;
-        public int ContactCount;
-        public float Coefficient;
-        // Normal velocity of each contact after the last two integrations; negative while approaching.
-        public FourFloats Previous;
-        public FourFloats Current;
-        public FourFloats Gap;
-        // Normal velocity at the instant of impact; 0 where there was none.
-        public FourFloats Impact;
-        public FourFloats Impulse;
-        // Kinetic energy of A before the first impact.
-        public float Energy;
-        public bool Hit;
-    }
+    ImpactQueue queue = new(pool);
+    bool isLinked;
+    bool anyMeets;
 
     /// <summary>Watches a contact constraint in the coming step.</summary>
     internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient) =>
@@ -53,7 +47,8 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     internal void BeginStep()
     {
         pairs.Count = 0;
-        substepCount = solver.SubstepCount;
+        isLinked = false;
+        anyMeets = false;
     }
 
     /// <summary>No longer watches a contact constraint that is removed between collision detection and the solver.</summary>
@@ -69,97 +64,178 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         }
     }
 
-    internal void Dispose() => pairs.Dispose(pool);
+    internal void Dispose()
+    {
+        pairs.Dispose(pool);
+        queue.Dispose();
+    }
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
-        SolverPoint.AfterWarmStart => 0,
-        // Bounces push bodies that others push too: they are made in one order.
-        SolverPoint.AfterSubsteps => pairs.Count > 0 ? 1 : 0,
-        _ => (pairs.Count + PairsPerBlock - 1) / PairsPerBlock,
+        SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration => (pairs.Count + PairsPerBlock - 1) / PairsPerBlock,
+        // Impacts change bodies that others push too: they are made in one order.
+        SolverPoint.BeforeWarmStart => pairs.Count > 0 ? 1 : 0,
+        _ => 0,
     };
 
     void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
     {
-        if (point == SolverPoint.AfterSubsteps)
+        if (point == SolverPoint.BeforeWarmStart)
         {
-            Bounce();
+            if (anyMeets)
+                Bounce(substep.Dt);
+            anyMeets = false;
             return;
         }
         var end = Math.Min(pairs.Count, (block + 1) * PairsPerBlock);
         for (int i = block * PairsPerBlock; i < end; ++i)
         {
             ref var pair = ref pairs[i];
-            var rows = new ContactRows(solver, bodies, pair.Constraint, pair.ContactCount);
-            if (point == SolverPoint.AfterSolve)
-                NoteImpacts(ref pair, rows, substep);
-            else
-                NoteApproach(ref pair, rows);
-        }
-    }
-
-    static void NoteApproach(ref BouncingPair pair, in ContactRows rows)
-    {
-        for (int i = 0; i < pair.ContactCount; ++i)
-        {
-            pair.Previous[i] = pair.Current[i];
-            pair.Current[i] = rows.NormalVelocity(i);
-            pair.Gap[i] = rows.Gap(i);
-        }
-        if (!pair.Hit)
-            pair.Energy = rows.KineticEnergyOfA();
-    }
-
-    static void NoteImpacts(ref BouncingPair pair, in ContactRows rows, in Substep substep)
-    {
-        for (int i = 0; i < pair.ContactCount; ++i)
-        {
-            if (pair.Impact[i] < 0 || !(rows.NormalImpulse(i) > 0) || !(pair.Current[i] < 0))
+            var contacts = Contacts(pair);
+            if (point == SolverPoint.BeforeSubsteps)
+            {
+                pair.A = contacts.A;
+                pair.B = contacts.IsFixedB ? -1 : contacts.B;
+                pair.GainA = contacts.VelocityA;
+                pair.GainB = contacts.VelocityB;
                 continue;
-            var part = MathHelper.Clamp(pair.Gap[i] / (-pair.Current[i] * substep.Dt), 0, 1);
-            pair.Impact[i] = pair.Previous[i] + (pair.Current[i] - pair.Previous[i]) * part;
-            pair.Hit = true;
+            }
+            contacts.Show(ref pair.Hidden);
+            if (substep.Index == 0)
+            {
+                pair.GainA = Difference(contacts.VelocityA, pair.GainA);
+                pair.GainB = Difference(contacts.VelocityB, pair.GainB);
+            }
+            Predict(ref pair, contacts, substep.Dt);
+            // Whichever block writes it writes the same.
+            if (pair.Time < BouncingPair.Never || pair.Overlaps)
+                anyMeets = true;
         }
     }
 
-    void Bounce()
+    ContactRows Contacts(in BouncingPair pair) => new(solver, bodies, pair.Constraint, pair.ContactCount);
+
+    static BodyVelocity Difference(in BodyVelocity a, in BodyVelocity b) => new(a.Linear - b.Linear, a.Angular - b.Angular);
+
+    // When a pair meets, and where it should have before.
+    void Predict(ref BouncingPair pair, in ContactRows contacts, float dt)
+    {
+        pair.Time = BouncingPair.Never;
+        pair.Speed = 0;
+        pair.Overlap = 0;
+        pair.Overlaps = false;
+        var isLoaded = IsLoaded(pair, contacts);
+        var earliest = isLoaded ? 0 : -dt * solver.SubstepCount;
+        for (int i = 0; i < pair.ContactCount; ++i)
+        {
+            var row = contacts.NormalRow(i);
+            var gap = contacts.Gap(i, row);
+            var speed = -row.Along(contacts.VelocityA, contacts.VelocityB);
+            if (gap < 0 && !isLoaded)
+            {
+                pair.Overlaps = true;
+                pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(0, speed) * dt - gap);
+            }
+            if (!(speed > 0) || !(gap <= speed * dt) || !(speed > RestingSpeed(pair, contacts, row)))
+                continue;
+            var time = MathHelper.Max(earliest, gap / speed);
+            if (!(time < pair.Time))
+                continue;
+            pair.Time = time;
+            pair.Speed = speed;
+        }
+    }
+
+    float RestingSpeed(in BouncingPair pair, in ContactRows contacts, in ContactRow row)
+    {
+        // In a pile that falls nobody falls against another, and yet its contacts rest on the floor below.
+        var gained = MathHelper.Max(
+            MathF.Abs(row.Along(pair.GainA, pair.GainB)),
+            MathHelper.Max(MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal))));
+        var moving = MathF.Sqrt(Exact.LengthSquared(contacts.VelocityA.Linear) + Exact.LengthSquared(contacts.VelocityB.Linear));
+        return MathHelper.Max(RestingSteps * solver.SubstepCount * gained, RoundingShare * moving);
+    }
+
+    static bool IsLoaded(in BouncingPair pair, in ContactRows contacts)
+    {
+        var load = contacts.Load * (contacts.InertiaA.InverseMass + contacts.InertiaB.InverseMass);
+        var weight = MathHelper.Max(Exact.LengthSquared(pair.GainA.Linear), Exact.LengthSquared(pair.GainB.Linear));
+        return weight > 0 && load * load > LoadingShare * LoadingShare * weight;
+    }
+
+    void Bounce(float dt)
+    {
+        if (!isLinked)
+            queue.Link(ref pairs, bodies.ActiveSet.Count);
+        isLinked = true;
+        queue.Fill(ref pairs);
+        MakeImpacts(dt);
+        Separate(dt);
+        // Who was in the way.
+        MakeImpacts(dt);
+        HideOverlaps();
+    }
+
+    void HideOverlaps()
     {
         for (int i = 0; i < pairs.Count; ++i)
-            DropSlowImpacts(ref pairs[i]);
-        for (int sweep = 0; sweep < Sweeps; ++sweep)
         {
-            for (int i = 0; i < pairs.Count; ++i)
-            {
-                ref var pair = ref pairs[i];
-                var rows = new ContactRows(solver, bodies, pair.Constraint, pair.ContactCount);
-                for (int j = 0; j < pair.ContactCount; ++j)
-                {
-                    if (pair.Impact[j] < 0)
-                        rows.Push(j, -pair.Coefficient * pair.Impact[j], ref pair.Impulse[j]);
-                }
-            }
+            if (pairs[i].Overlaps)
+                Contacts(pairs[i]).Hide(ref pairs[i].Hidden);
         }
-        LimitEnergy();
     }
 
-    void LimitEnergy()
+    void MakeImpacts(float dt)
+    {
+        while (!queue.IsEmpty)
+        {
+            ref var pair = ref pairs[queue.First];
+            ++pair.ImpactCount;
+            var contacts = Contacts(pair);
+            PairImpact.Find(contacts, pair, dt, out var changeA, out var changeB);
+            var time = pair.Time;
+            contacts.Push(pair.A, changeA);
+            Move(contacts, pair.A, changeA.Linear * -time, dt);
+            if (pair.B < 0)
+                continue;
+            contacts.Push(pair.B, changeB);
+            Move(contacts, pair.B, changeB.Linear * -time, dt);
+        }
+    }
+
+    // Moves a body whose velocity has changed, and looks at its pairs again.
+    void Move(in ContactRows contacts, int body, Vector3 way, float dt)
+    {
+        contacts.Move(body, way);
+        for (int i = queue.FirstOf(body); i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        {
+            ref var pair = ref pairs[i];
+            var others = Contacts(pair);
+            others.NoteMove(pair.A == body ? way : -way);
+            Predict(ref pair, others, dt);
+            if (pair.ImpactCount == MaximumImpacts)
+                pair.Time = BouncingPair.Never;
+            queue.Update(ref pairs, i);
+        }
+    }
+
+    // What this leaves, as others are in the way or the overlap is deep, the next steps take out.
+    void Separate(float dt)
     {
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            var rows = new ContactRows(solver, bodies, pair.Constraint, pair.ContactCount);
-            if (pair.Hit && rows.HasOneBody)
-                rows.LimitEnergyOfA(pair.Energy, pair.Impulse);
-        }
-    }
-
-    void DropSlowImpacts(ref BouncingPair pair)
-    {
-        for (int i = 0; i < pair.ContactCount; ++i)
-        {
-            var gained = MathHelper.Max(0, pair.Previous[i] - pair.Current[i]) * substepCount;
-            if (!(-pair.Impact[i] > RestingSteps * gained))
-                pair.Impact[i] = 0;
+            if (!(pair.Overlap > 0))
+                continue;
+            var contacts = Contacts(pair);
+            var massA = contacts.InertiaA.InverseMass;
+            var massB = contacts.InertiaB.InverseMass;
+            if (!(massA + massB > 0))
+                continue;
+            var way = MathHelper.Min(pair.Overlap, contacts.MaximumRecoveryVelocity * dt) / (massA + massB);
+            Move(contacts, pair.A, contacts.Normal * (way * massA), dt);
+            if (pair.B >= 0)
+                Move(contacts, pair.B, contacts.Normal * -(way * massB), dt);
         }
     }
 }

@@ -1,0 +1,38 @@
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>A pair with a coefficient of restitution, for one step.</summary>
+struct BouncingPair
+{
+    /// <summary>Time of a pair whose surfaces do not meet in the substep.</summary>
+    internal const float Never = float.PositiveInfinity;
+
+    public ConstraintHandle Constraint;
+    public int ContactCount;
+    public float Coefficient;
+    /// <summary>Velocity of A before the step, then what the integration of a substep adds to it.</summary>
+    public BodyVelocity GainA;
+    /// <summary>As <see cref="GainA"/>, of B.</summary>
+    public BodyVelocity GainB;
+    /// <summary>When the surfaces meet, s from the beginning of the substep; negative where they did before, and nobody looked.</summary>
+    public float Time;
+    /// <summary>Speed at which they then approach, m/s.</summary>
+    public float Speed;
+    /// <summary>Whether the surfaces overlap, and carry no load.</summary>
+    public bool Overlaps;
+    /// <summary>How far they still do after this substep.</summary>
+    public float Overlap;
+    /// <summary>Overlap of each contact that the solver is not told of in this substep.</summary>
+    public FourFloats Hidden;
+    /// <summary>Impacts in this substep.</summary>
+    public int ImpactCount;
+    /// <summary>Index of body A in the active set.</summary>
+    public int A;
+    /// <summary>Index of body B, or -1 where nothing moves it.</summary>
+    public int B;
+    /// <summary>Next pair of A, or -1.</summary>
+    public int NextOfA;
+    /// <summary>Next pair of B, or -1.</summary>
+    public int NextOfB;
+    /// <summary>Place in the queue, or -1.</summary>
+    public int QueueIndex;
+}

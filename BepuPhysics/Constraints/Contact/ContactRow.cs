@@ -1,0 +1,24 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>One row of a contact between two bodies: what velocity it sees, and what an impulse along it does.</summary>
+readonly struct ContactRow(Vector3 linear, Vector3 angularA, Vector3 angularB)
+{
+    readonly Vector3 linear = linear;
+    readonly Vector3 angularA = angularA;
+    readonly Vector3 angularB = angularB;
+
+    /// <summary>Velocity of A against B along the row.</summary>
+    internal float Along(in BodyVelocity a, in BodyVelocity b) =>
+        Exact.Dot(a.Linear, linear) + Exact.Dot(a.Angular, angularA) + (Exact.Dot(b.Angular, angularB) - Exact.Dot(b.Linear, linear));
+
+    /// <summary>What an impulse along the row adds to the velocity of A.</summary>
+    internal BodyVelocity ResponseOfA(in BodyInertia inertia, float impulse) =>
+        new(linear * (inertia.InverseMass * impulse), inertia.InverseInertiaTensor * (angularA * impulse));
+
+    /// <summary>What an impulse along the row adds to the velocity of B.</summary>
+    internal BodyVelocity ResponseOfB(in BodyInertia inertia, float impulse) =>
+        new(linear * -(inertia.InverseMass * impulse), inertia.InverseInertiaTensor * (angularB * impulse));
+}
