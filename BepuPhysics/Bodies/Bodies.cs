@@ -352,13 +352,8 @@ public sealed unsafe partial class Bodies
     {
         ref var set = ref ActiveSet;
         for (int i = 0; i < set.Count; ++i)
-        {
-            set.Constraints[i].Dispose(Pool);
             HandleToLocation[set.IndexToHandle[i].Value].SetIndex = -1;
-        }
-        set.MotionStates.Clear(0, set.Count);
-        set.LocalInertias.Clear(0, set.Count);
-        set.Count = 0;
+        set.Clear(Pool);
         HandlePool.Clear();
     }
 

@@ -33,8 +33,12 @@ struct StepOrigin
     /// which a position that was written since is recognised.
     /// </summary>
     [FieldOffset(0)] public Vector3 Position;
+    /// <summary>X of the velocity that the last step ended with, by which one that was written since is recognised. Only where some was lost.</summary>
+    [FieldOffset(12)] public float VelocityX;
     /// <summary>What rounding took of the velocity of a fast body, to be added to its next change.</summary>
     [FieldOffset(16)] public Vector3 LostVelocity;
+    /// <summary>Y of the velocity that the last step ended with. Z is in the row of the displacement, behind the translation.</summary>
+    [FieldOffset(28)] public float VelocityY;
 }
 
 /// <summary>Bodies that are stored together, each property in an array of its own.</summary>
@@ -150,6 +154,25 @@ public struct BodySet
         Collidables[last] = default;
         Activity[last] = default;
         Constraints[last] = default;
+    }
+
+    /// <summary>Removes all bodies. No row keeps anything of them, or it would be found by those that come after.</summary>
+    internal void Clear(BufferPool pool)
+    {
+        for (int i = 0; i < Count; ++i)
+            Constraints[i].Dispose(pool);
+        IndexToHandle.Clear(0, Count);
+        MotionStates.Clear(0, Count);
+        LocalInertias.Clear(0, Count);
+        WorldInertias.Clear(0, Count);
+        Displacements.Clear(0, Count);
+        Origins.Clear(0, Count);
+        if (Stiffness.Allocated)
+            Stiffness.Clear(0, Count);
+        Collidables.Clear(0, Count);
+        Activity.Clear(0, Count);
+        Constraints.Clear(0, Count);
+        Count = 0;
     }
 
     internal void Dispose(BufferPool pool)

@@ -15,16 +15,20 @@ namespace BepuPhysics;
 // over at the end of the step is where the next sum begins, so that it does not add up from step to step.
 //
 // The same holds for the velocity of a fast body: 0.04 m/s of gravity is added to 500 m/s with an error of 4e-4 of itself, and with the same
-// sign for many substeps on end. What is lost is kept and added back.
+// sign for many substeps on end. What is lost is kept and added back, unless the velocity was written since the step that lost it.
 sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
 {
     const int FloatsPerRow = 8;
     const int FloatsPerMotion = 16;
     // Velocity over change of velocity from which on rounding takes up to 6e-5 of the change.
     const float FastRatio = 1024;
+    // Half of the distance from one float to the next is the most that rounding takes, 2^-24 of the sum; the sum may be half of what is compared.
+    const float GreatestLoss = 1f / (1 << 23);
 
     TCallbacks callbacks;
     Bodies bodies = null!;
+    // Whether any body was ever so fast that rounding took of its velocity. Set by any worker, read in later stages.
+    bool keepsLostVelocity;
 
     internal PoseIntegrator(in TCallbacks callbacks) => this.callbacks = callbacks;
 
@@ -52,13 +56,15 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             ReadBodies(motions, localInertias, indices, out var pose, out var velocity, out var localInertia);
             var kinematic = IsKinematic(localInertia);
             if (stage == IntegrationStage.First)
-                Begin(origins, displacements, indices, pose.Position);
+                Begin(origins, displacements, indices, pose.Position, velocity.Linear);
             else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
             if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation.
                 WriteVelocity(motions, indices, velocity);
+                if (keepsLostVelocity)
+                    RememberVelocity(origins, indices, velocity.Linear);
                 if (stage == IntegrationStage.Poses)
                     WriteMovedInertia(indices, pose.Orientation, velocity.Angular, wideDt, localInertia);
                 continue;
@@ -141,14 +147,16 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
             Vector.Equals(i.ZX, zero) & Vector.Equals(i.ZY, zero) & Vector.Equals(i.ZZ, zero);
     }
 
-    // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then.
+    // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then. So it is
+    // with a velocity that is not the one that the last step ended with.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position)
+    static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position, in Vector3Wide velocity)
     {
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);
         var row = Transpose.Gather(displacements, FloatsPerRow, indices);
         var kept = Vector.Equals(origin.R0 + row.R0, position.X) & Vector.Equals(origin.R1 + row.R1, position.Y) &
             Vector.Equals(origin.R2 + row.R2, position.Z);
+        var keptVelocity = kept & Vector.Equals(origin.R3, velocity.X) & Vector.Equals(origin.R7, velocity.Y) & Vector.Equals(row.R3, velocity.Z);
         Rows8 start = default;
         start.R0 = Wide.Mask(kept, LeftOver(origin.R0, row.R0, position.X));
         start.R1 = Wide.Mask(kept, LeftOver(origin.R1, row.R1, position.Y));
@@ -157,9 +165,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         origin.R0 = position.X;
         origin.R1 = position.Y;
         origin.R2 = position.Z;
-        origin.R4 = Wide.Mask(kept, origin.R4);
-        origin.R5 = Wide.Mask(kept, origin.R5);
-        origin.R6 = Wide.Mask(kept, origin.R6);
+        origin.R4 = Wide.Mask(keptVelocity, origin.R4);
+        origin.R5 = Wide.Mask(keptVelocity, origin.R5);
+        origin.R6 = Wide.Mask(keptVelocity, origin.R6);
         Transpose.Scatter(origin, origins, FloatsPerRow, indices);
     }
 
@@ -182,6 +190,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         row.R0 = translation.X;
         row.R1 = translation.Y;
         row.R2 = translation.Z;
+        row.R3 = velocity.Linear.Z;
         row.R4 = rotation.X;
         row.R5 = rotation.Y;
         row.R6 = rotation.Z;
@@ -237,23 +246,43 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
 
     // The change by itself is what the callbacks make of a body at rest, provided that they only add: what they made of the moving body must
     // differ from the sum by no more than rounding. Damping, for one, does not; such lanes keep nothing.
+    //
+    // Runs where some lane is fast, and must not show it to the others: their rows stay as they are.
     [MethodImpl(MethodImplOptions.NoInlining)]
     void KeepLostVelocity(
         float* origins, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
         Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
     {
+        keepsLostVelocity = true;
         BodyVelocityWide added = default;
         callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);
         var sum = before + added.Linear;
-        fast &= Vector.Equals(sum.X, after.X) & Vector.Equals(sum.Y, after.Y) & Vector.Equals(sum.Z, after.Z);
+        var adds = fast & Vector.Equals(sum.X, after.X) & Vector.Equals(sum.Y, after.Y) & Vector.Equals(sum.Z, after.Z);
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);
-        var change = added.Linear + Vector3Wide.Mask(fast, new(origin.R4, origin.R5, origin.R6));
+        var change = added.Linear + new Vector3Wide(Plausible(origin.R4, before.X), Plausible(origin.R5, before.Y), Plausible(origin.R6, before.Z));
         var changed = before + change;
-        origin.R4 = Wide.Mask(fast, LeftOver(before.X, change.X, changed.X));
-        origin.R5 = Wide.Mask(fast, LeftOver(before.Y, change.Y, changed.Y));
-        origin.R6 = Wide.Mask(fast, LeftOver(before.Z, change.Z, changed.Z));
+        origin.R4 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.X, change.X, changed.X)), origin.R4);
+        origin.R5 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.Y, change.Y, changed.Y)), origin.R5);
+        origin.R6 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.Z, change.Z, changed.Z)), origin.R6);
         Transpose.Scatter(origin, origins, FloatsPerRow, indices);
-        after = Vector3Wide.Select(fast, changed, after);
+        after = Vector3Wide.Select(adds, changed, after);
+    }
+
+    // More than rounding can take of a velocity was left by a faster one, before something else slowed the body down.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Plausible(Vector<float> lost, Vector<float> velocity) => Wide.Mask(
+        Vector.LessThanOrEqual(Vector.Abs(lost), Vector.Abs(velocity) * new Vector<float>(GreatestLoss)), lost);
+
+    // By this velocity the next step sees whether it was written in between. Its third component went along with the displacement.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void RememberVelocity(float* origins, Vector<int> indices, in Vector3Wide velocity)
+    {
+        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var zero = Vector<float>.Zero;
+        var lostNothing = Vector.Equals(origin.R4, zero) & Vector.Equals(origin.R5, zero) & Vector.Equals(origin.R6, zero);
+        origin.R3 = Vector.ConditionalSelect(lostNothing, origin.R3, velocity.X);
+        origin.R7 = Vector.ConditionalSelect(lostNothing, origin.R7, velocity.Y);
+        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -36,14 +36,23 @@ public struct ConstraintBatch
         return count;
     }
 
-    /// <summary>Index of the type batch of a type, created if there is none.</summary>
-    internal int FindOrCreate(int typeId, BufferPool pool)
+    /// <summary>Index of the type batch of a type; -1 if there is none.</summary>
+    internal readonly int Find(int typeId)
     {
         for (int i = 0; i < TypeBatches.Count; ++i)
         {
             if (TypeBatches[i].TypeId == typeId)
                 return i;
         }
+        return -1;
+    }
+
+    /// <summary>Index of the type batch of a type, created if there is none.</summary>
+    internal int FindOrCreate(int typeId, BufferPool pool)
+    {
+        var index = Find(typeId);
+        if (index >= 0)
+            return index;
         TypeBatches.Add(new TypeBatch { TypeId = typeId }, pool);
         return TypeBatches.Count - 1;
     }

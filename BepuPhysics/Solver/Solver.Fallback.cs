@@ -132,13 +132,18 @@ public sealed unsafe partial class Solver
         return sum > 0 ? MathF.Max(Least, inertias[bodyIndex].InverseMass / sum) : 1;
     }
 
-    // Counts the parts of each body, or, with the next free place of each body's range, fills the ranges.
+    // Counts the parts of each body, or, with the next free place of each body's range, fills the ranges. In the order of the types' ids: that of
+    // the type batches is the order in which constraints of the types were first there, be they removed since.
     void VisitParts(ref FallbackParts split, int* next)
     {
-        ref var typeBatches = ref ActiveSet.Batches[FallbackBatchThreshold].TypeBatches;
-        for (int i = 0; i < typeBatches.Count; ++i)
+        ref var batch = ref ActiveSet.Batches[FallbackBatchThreshold];
+        ref var typeBatches = ref batch.TypeBatches;
+        for (int typeId = 0; typeId < MaximumTypeCount; ++typeId)
         {
-            var processor = Processor(typeBatches[i].TypeId);
+            var i = batch.Find(typeId);
+            if (i < 0)
+                continue;
+            var processor = Processor(typeId);
             for (int constraint = 0; constraint < typeBatches[i].ConstraintCount; ++constraint)
             {
                 for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)

@@ -24,23 +24,29 @@ public sealed unsafe partial class Solver
     // Part of the state of a simulation: it begins with zero and takes the same values in each run.
     uint drawnOrder;
 
-    /// <summary>Lists the batches in the order of their indices, and finds out whether it has to change.</summary>
+    /// <summary>Lists the batches that have constraints in the order of their indices, and finds out whether it has to change.</summary>
+    // What was removed has no part in it: batches and type batches that have become empty stay, since contacts come back to them.
     void BuildOrder(ref SolveWork work)
     {
         ref var batches = ref ActiveSet.Batches;
         work.Order = new QuickList<int>(Math.Max(1, batches.Count), pool);
         for (int i = 0; i < batches.Count; ++i)
         {
+            if (work.BlocksOfBatch[i].Count == 0)
+                continue;
             work.Order.Add(i, pool);
             // The batches of a body are not those of another: batches with joints that far up are there only if some body has that many constraints.
             work.DrawsOrder |= i >= JointsOfHub - 1 && HoldsPoints(batches[i]);
         }
+        // Who comes after the last hub finds what the first one found.
+        if (!work.DrawsOrder)
+            drawnOrder = 0;
     }
 
     bool HoldsPoints(in ConstraintBatch batch)
     {
         for (int i = 0; i < batch.TypeBatches.Count; ++i)
-            if (Processor(batch.TypeBatches[i].TypeId).CarriesPointLoad)
+            if (batch.TypeBatches[i].ConstraintCount > 0 && Processor(batch.TypeBatches[i].TypeId).CarriesPointLoad)
                 return true;
         return false;
     }

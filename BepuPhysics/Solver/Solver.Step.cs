@@ -91,7 +91,10 @@ public sealed unsafe partial class Solver
     {
         ref var set = ref bodies.ActiveSet;
         if (set.Count == 0)
+        {
+            drawnOrder = 0;
             return;
+        }
         var substepDt = dt / substepCount;
         var scale = previousSubstepDt > 0 ? substepDt / previousSubstepDt : 1;
         previousSubstepDt = substepDt;
@@ -212,11 +215,9 @@ public sealed unsafe partial class Solver
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
-        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
+        for (int i = 0; i < work.Order.Count; ++i)
         {
             var batch = work.Order[i];
-            if (work.BlocksOfBatch[batch].Count == 0)
-                continue;
             work.Stages.Add(new()
             {
                 Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count,

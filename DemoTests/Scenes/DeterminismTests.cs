@@ -58,6 +58,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("shape-pile", 200, 300)]
     [InlineData("hull-pile", 200, 300)]
     [InlineData("coins", 300, 900)]
+    [InlineData("fast-1", 120, 300)]
+    [InlineData("fast-2", 120, 300)]
+    [InlineData("fast-3", 120, 300)]
     public void Lanes_do_not_change_a_bit(string name, int steps, int fullSteps)
     {
         steps = IsFull ? fullSteps : steps;
@@ -86,7 +89,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         }
     }
 
-    static SceneDescription Scene(string name) => IsFull ? SceneLibrary.Load(name, 1) : name switch
+    static bool IsFast(string name) => name.StartsWith("fast-", StringComparison.Ordinal);
+
+    static SceneDescription Scene(string name) => IsFast(name) ? SmallScenes.Fast(name[^1]) : IsFull ? SceneLibrary.Load(name, 1) : name switch
     {
         "pyramids" => SmallScenes.Pyramids(count: 5, baseCount: 12),
         "cloth-lattice" => SmallScenes.Lattice(width: 24),
@@ -107,7 +112,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         try
         {
             // Another process knows the built-in scenes only; a small one it reads from a file.
-            if (!IsFull && scene is ("shape-pile" or "hull-pile"))
+            if (IsFast(scene) || (!IsFull && scene is "shape-pile" or "hull-pile"))
             {
                 File.WriteAllText(file, SmallScenes.Write(Scene(scene)));
                 scene = file;

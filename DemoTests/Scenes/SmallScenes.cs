@@ -1,3 +1,4 @@
+using System;
 using System.Globalization;
 using System.Linq;
 using System.Numerics;
@@ -65,6 +66,23 @@ static class SmallScenes
             int x = i % columns, z = i / columns % columns, y = i / (columns * columns);
             var position = new Vector3(x - (columns - 1) * .5f, .8f + y, z - (columns - 1) * .5f) * spacing;
             scene.AddDynamic(bodies[i].Children[0].Shape, bodies[i].Mass, position, bodies[i].Orientation);
+        }
+        return scene;
+    }
+
+    /// <summary>Bodies of all kinds that fall, some of them so fast that rounding takes of their velocity.</summary>
+    public static SceneDescription Fast(int seed)
+    {
+        var random = new Random(seed);
+        var scene = new SceneDescription { Name = "fast bodies", Damping = 0 };
+        int[] shapes = [scene.AddSphere(.5f), scene.AddBox(.4f, .3f, .5f), scene.AddCapsule(.3f, .4f), scene.AddCylinder(.4f, .3f)];
+        scene.AddStatic(scene.AddBox(100, 1, 100), new Vector3(0, -1, 0));
+        for (int i = 0; i < 37; ++i)
+        {
+            // A third is fast, of these some upwards and some into the floor.
+            float speed = i % 3 == 0 ? MathF.Pow(10, 1.5f + 2.5f * random.NextSingle()) : 3;
+            scene.AddDynamic(shapes[i % shapes.Length], 1, TestWorld.Scatter(random, 12) + new Vector3(0, 7, 0), TestWorld.Turn(random),
+                TestWorld.Scatter(random, 2 * speed), TestWorld.Scatter(random, 10));
         }
         return scene;
     }
