@@ -37,7 +37,8 @@ struct TestedPairs(int initialCapacity, BufferPool pool)
             pairs.Add(pair, pool);
             return pairs.Count - 1;
         }
-        var id = freeIds[--freeIds.Count];
+        var id = freeIds[freeIds.Count - 1];
+        --freeIds.Count;
         pairs[id] = pair;
         return id;
     }

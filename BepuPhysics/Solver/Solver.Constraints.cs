@@ -42,8 +42,8 @@ public sealed unsafe partial class Solver
             throw new ArgumentException($"{typeof(TDescription).Name} connects {TDescription.BodyCount} bodies, not {bodyHandles.Length}.",
                 nameof(bodyHandles));
         CheckBodies(bodyHandles);
-        description.Validate();
         Register<TDescription>();
+        description.Validate();
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
         WriteDescription(HandleToConstraint[handle.Value], description);
         return handle;
@@ -299,7 +299,7 @@ public sealed unsafe partial class Solver
     void CheckType<TDescription>(ConstraintHandle handle) where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         CheckHandle(handle);
-        if (HandleToConstraint[handle.Value].TypeId != TDescription.ConstraintTypeId)
+        if (HandleToConstraint[handle.Value].TypeId != TDescription.ConstraintTypeId || !IsRegistered<TDescription>())
             throw new ArgumentException($"{handle} is no {typeof(TDescription).Name}.", nameof(handle));
     }
 

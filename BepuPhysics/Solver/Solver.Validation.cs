@@ -41,7 +41,7 @@ public sealed partial class Solver
         for (int typeBatchIndex = 0; typeBatchIndex < batch.TypeBatches.Count; ++typeBatchIndex)
         {
             ref var typeBatch = ref batch.TypeBatches[typeBatchIndex];
-            Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && TypeProcessors[typeBatch.TypeId] is not null, "type of type batch",
+            Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && processors[typeBatch.TypeId] is not null, "type of type batch",
                 batchIndex, typeBatchIndex);
             for (int other = 0; other < typeBatchIndex; ++other)
                 Invariant.Require(batch.TypeBatches[other].TypeId != typeBatch.TypeId, "second type batch of a type", batchIndex, typeBatch.TypeId);

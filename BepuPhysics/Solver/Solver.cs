@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
@@ -23,6 +24,9 @@ public sealed unsafe partial class Solver
 
     readonly Bodies bodies;
     readonly BufferPool pool;
+    readonly TypeProcessor?[] processors = new TypeProcessor?[MaximumTypeCount];
+    // Who may write into the columns of a type; null for contacts, which have no description.
+    readonly Type?[] descriptionTypes = new Type?[MaximumTypeCount];
     Action<ConstraintHandle> contactRemoved = static _ => { };
     int velocityIterationCount;
     int substepCount;
@@ -35,7 +39,7 @@ public sealed unsafe partial class Solver
     /// <summary>Hands out the values of constraint handles.</summary>
     public IdPool HandlePool;
     /// <summary>Processor of each constraint type by id; null where the type is not registered.</summary>
-    public TypeProcessor?[] TypeProcessors { get; } = new TypeProcessor?[MaximumTypeCount];
+    public IReadOnlyList<TypeProcessor?> TypeProcessors => processors;
 
     /// <summary>Constraints that are solved each step.</summary>
     public ref ConstraintSet ActiveSet => ref Sets[0];
@@ -102,28 +106,8 @@ public sealed unsafe partial class Solver
         HandlePool = new IdPool(Math.Max(16, initialCapacity), pool);
     }
 
-    /// <summary>Makes a constraint type known. Types of the library are known already.</summary>
-    /// <exception cref="ArgumentException">Another type has the same id, or the id is out of range.</exception>
-    public void Register<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
-    {
-        var typeId = TDescription.ConstraintTypeId;
-        if ((uint)typeId >= MaximumTypeCount)
-            throw new ArgumentException($"Constraint type ids are from 0 to {MaximumTypeCount - 1}; {typeof(TDescription).Name} has {typeId}.");
-        var processor = TDescription.CreateTypeProcessor();
-        if (TypeProcessors[typeId] is { } other && other.GetType() != processor.GetType())
-            throw new ArgumentException($"Constraint type id {typeId} of {typeof(TDescription).Name} is taken by another type.");
-        if (TypeProcessors[typeId] is null)
-            RegisterProcessor(typeId, processor);
-    }
-
     /// <summary>Chooses who is told when a contact constraint is removed by anyone but the narrow phase.</summary>
     internal void OnContactRemoved(Action<ConstraintHandle> action) => contactRemoved = action;
-
-    internal void RegisterProcessor(int typeId, TypeProcessor processor)
-    {
-        processor.TypeId = typeId;
-        TypeProcessors[typeId] = processor;
-    }
 
     /// <summary>Number of constraints in all sets.</summary>
     public int CountConstraints()
@@ -150,7 +134,7 @@ public sealed unsafe partial class Solver
     internal ref TypeBatch TypeBatchAt(in ConstraintLocation location) =>
         ref Sets[location.SetIndex].Batches[location.BatchIndex].TypeBatches[location.TypeBatchIndex];
 
-    internal TypeProcessor Processor(int typeId) => TypeProcessors[typeId]!;
+    internal TypeProcessor Processor(int typeId) => processors[typeId]!;
 
     void CheckHandle(ConstraintHandle handle)
     {

@@ -12,8 +12,8 @@ namespace BepuPhysics.Constraints;
 /// </remarks>
 public abstract class TypeProcessor
 {
-    /// <summary>Id of the type; set when the type is registered with a solver.</summary>
-    public int TypeId { get; internal set; }
+    /// <summary>Id of the type; set when the type is registered with a solver, -1 before.</summary>
+    public int TypeId { get; internal set; } = -1;
     /// <summary>Number of bodies that a constraint of this type connects.</summary>
     public int BodiesPerConstraint { get; }
     /// <summary>Number of floats of a description.</summary>
@@ -27,6 +27,8 @@ public abstract class TypeProcessor
         PrestepFloats = prestepFloats;
         ImpulseFloats = impulseFloats;
     }
+
+    internal bool IsRegistered => TypeId >= 0;
 
     /// <summary>Whether constraints of this type stiffen the rotation of their bodies by their load.</summary>
     internal abstract bool CarriesPointLoad { get; }
