@@ -59,8 +59,8 @@ public sealed partial class Simulation : IDisposable
 
     /// <summary>Creates a simulation.</summary>
     /// <param name="bufferPool">Memory of the simulation; must outlive it.</param>
-    /// <param name="narrowPhaseCallbacks">Which pairs collide, and their materials. <see cref="NarrowPhaseCallbacks"/> is ready to use.</param>
-    /// <param name="poseIntegratorCallbacks">What moves bodies besides constraints. <see cref="PoseIntegratorCallbacks"/> is ready to use.</param>
+    /// <param name="narrowPhaseCallbacks">Which pairs collide, and their materials. <see cref="DefaultNarrowPhaseCallbacks"/> is ready to use.</param>
+    /// <param name="poseIntegratorCallbacks">What moves bodies besides constraints. <see cref="DefaultPoseIntegratorCallbacks"/> is ready to use.</param>
     /// <param name="solveDescription">Substeps and iterations, as in <c>new SolveDescription(1, 4)</c>.</param>
     /// <param name="timestepper">Order of the stages of a step; null for the usual one.</param>
     /// <param name="initialAllocationSizes">How much room to make at first; null for a few thousand bodies.</param>

@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Runtime.InteropServices;
+using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;

@@ -6,6 +6,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <remarks>
 /// Implement this with a struct: the narrow phase is compiled for it, so calls are direct and usually inlined. Methods with a worker index
 /// are called from worker threads, in no particular order; do not change the simulation from inside them.
+/// Implement <see cref="ISurfaceCallbacks{TSelf}"/> instead for surfaces that bounce.
 /// </remarks>
 public interface INarrowPhaseCallbacks
 {
@@ -33,4 +34,9 @@ public interface INarrowPhaseCallbacks
 
     /// <summary>Called once, when the simulation is disposed.</summary>
     void Dispose();
+
+    /// <summary>What <see cref="ISurfaceCallbacks{TSelf}"/> says of a pair; nothing where the callbacks do not implement it.</summary>
+    internal static virtual SurfaceProperties SurfaceOf<TCallbacks, TManifold>(
+        ref TCallbacks callbacks, int workerIndex, in CollidablePair pair, ref TManifold manifold)
+        where TCallbacks : struct, INarrowPhaseCallbacks where TManifold : unmanaged, IContactManifold<TManifold> => default;
 }

@@ -11,14 +11,16 @@ using BepuUtilities.TaskScheduling;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>The narrow phase, compiled for the callbacks of a game.</summary>
-sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : struct, INarrowPhaseCallbacks
+/// <remarks>What <see cref="Simulation.NarrowPhase"/> is: cast it to this to reach the callbacks.</remarks>
+public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : struct, INarrowPhaseCallbacks
 {
-    TCallbacks callbacks;
+    /// <summary>The callbacks themselves: <see cref="Simulation.Create"/> copied the struct that it was given. Not to be changed during a step.</summary>
+    public TCallbacks Callbacks;
     Worker[] workers = [];
     QuickList<PairKey> order;
 
     internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
-        : base(simulation, collisionTaskRegistry, initialPairCapacity) => this.callbacks = callbacks;
+        : base(simulation, collisionTaskRegistry, initialPairCapacity) => Callbacks = callbacks;
 
     // What a worker has found; its memory is its own.
     struct Worker
@@ -79,9 +81,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             workerIndex, broadPhase.ActiveLeaves[leafA], bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB]);
     }
 
-    internal override void Initialize() => callbacks.Initialize(Simulation);
+    internal override void Initialize() => Callbacks.Initialize(Simulation);
 
-    internal override void DisposeCallbacks() => callbacks.Dispose();
+    internal override void DisposeCallbacks() => Callbacks.Dispose();
 
     internal override void FindContacts(float dt, IThreadDispatcher? dispatcher)
     {
@@ -172,7 +174,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             margin += set.Collidables[indexB].SpeculativeMargin;
             poseB = ref set.MotionStates[indexB].Pose;
         }
-        if (!callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
+        if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
             return;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
@@ -230,7 +232,7 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
 
     void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        if (!callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
+        if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
             if (tested.KeepsHistory)
                 CompleteWithoutContacts(ref workers[workerIndex], tested);
@@ -240,8 +242,9 @@ sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : str
             throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint yet.");
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        if (material.Restitution > 0)
-            Note(ref worker, new() { Pair = tested.Pair, Coefficient = material.Restitution });
+        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, tested.Pair, ref manifold);
+        if (surface.Restitution > 0)
+            Note(ref worker, new() { Pair = tested.Pair, Coefficient = surface.Restitution });
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {

@@ -2,7 +2,8 @@ using BepuPhysics.Constraints;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>How the surfaces of a pair behave.</summary>
+/// <summary>How the surfaces of a pair behave: these three fields and no others, so that a game may set them one by one.</summary>
+/// <remarks>What only some pairs have, such as restitution, is in <see cref="SurfaceProperties"/>.</remarks>
 /// <param name="frictionCoefficient">Coulomb coefficient: greatest friction force over normal force of the whole contact patch; not negative.</param>
 /// <param name="maximumRecoveryVelocity">Greatest speed at which penetration is corrected, m/s; not negative.</param>
 /// <param name="springSettings">Stiffness of the contacts; the default is rigid.</param>
@@ -14,9 +15,4 @@ public struct PairMaterialProperties(float frictionCoefficient, float maximumRec
     public float MaximumRecoveryVelocity = maximumRecoveryVelocity;
     /// <summary>Stiffness of the contacts; the default is rigid.</summary>
     public SpringSettings SpringSettings = springSettings;
-    /// <summary>
-    /// Coefficient of restitution: speed after an impact over speed before it, 0 to 1. Impacts no faster than what gravity adds in two steps
-    /// do not bounce, so that resting things rest. Costs nothing where it is 0.
-    /// </summary>
-    public float Restitution;
 }

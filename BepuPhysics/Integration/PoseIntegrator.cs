@@ -7,6 +7,7 @@ using BepuUtilities.Memory;
 namespace BepuPhysics;
 
 /// <summary>Moves bodies, compiled for the callbacks of a game.</summary>
+/// <remarks>What <see cref="Simulation.PoseIntegrator"/> is: cast it to this to reach the callbacks.</remarks>
 // A pass over all bodies between two substeps does all that happens to a body there: the pose follows the velocity that the solver left,
 // the callbacks change the velocity for the next substep, and the inverse inertia is turned to the new orientation.
 //
@@ -16,7 +17,7 @@ namespace BepuPhysics;
 //
 // The same holds for the velocity of a fast body: 0.04 m/s of gravity is added to 500 m/s with an error of 4e-4 of itself, and with the same
 // sign for many substeps on end. What is lost is kept and added back, unless the velocity was written since the step that lost it.
-sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
+public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
 {
     const int FloatsPerRow = 8;
     const int FloatsPerMotion = 16;
@@ -25,20 +26,21 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     // Half of the distance from one float to the next is the most that rounding takes, 2^-24 of the sum; the sum may be half of what is compared.
     const float GreatestLoss = 1f / (1 << 23);
 
-    TCallbacks callbacks;
+    /// <summary>The callbacks themselves: <see cref="Simulation.Create"/> copied the struct that it was given. Not to be changed during a step.</summary>
+    public TCallbacks Callbacks;
     Bodies bodies = null!;
     // Whether any body was ever so fast that rounding took of its velocity. Set by any worker, read in later stages.
     bool keepsLostVelocity;
 
-    internal PoseIntegrator(in TCallbacks callbacks) => this.callbacks = callbacks;
+    internal PoseIntegrator(in TCallbacks callbacks) => Callbacks = callbacks;
 
     void IPoseIntegrator.Initialize(Simulation simulation)
     {
         bodies = simulation.Bodies;
-        callbacks.Initialize(simulation);
+        Callbacks.Initialize(simulation);
     }
 
-    void IPoseIntegrator.Prepare(float dt) => callbacks.PrepareForIntegration(dt);
+    void IPoseIntegrator.Prepare(float dt) => Callbacks.PrepareForIntegration(dt);
 
     void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
     {
@@ -199,7 +201,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);
         pose.Position = new Vector3Wide(origin.R0, origin.R1, origin.R2) + translation;
         var inverseInertia = localInertia.InverseInertiaTensor;
-        switch (callbacks.AngularIntegrationMode)
+        switch (Callbacks.AngularIntegrationMode)
         {
             case AngularIntegrationMode.ConserveMomentum:
                 FreeRotation.TurnKeepingMomentum(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
@@ -228,9 +230,9 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
         Vector<int> indices, Vector<int> exists, Vector<int> kinematic, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
         Vector<float> dt, ref BodyVelocityWide velocity)
     {
-        var mask = callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
+        var mask = Callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
         var changed = velocity;
-        callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, mask, workerIndex, dt, ref changed);
+        Callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, mask, workerIndex, dt, ref changed);
         velocity.Linear = Vector3Wide.Select(mask, changed.Linear, velocity.Linear);
         velocity.Angular = Vector3Wide.Select(mask, changed.Angular, velocity.Angular);
     }
@@ -255,7 +257,7 @@ sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallback
     {
         keepsLostVelocity = true;
         BodyVelocityWide added = default;
-        callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);
+        Callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);
         var sum = before + added.Linear;
         var adds = fast & Vector.Equals(sum.X, after.X) & Vector.Equals(sum.Y, after.Y) & Vector.Equals(sum.Z, after.Z);
         var origin = Transpose.Gather(origins, FloatsPerRow, indices);

@@ -1,8 +1,9 @@
 using System.Diagnostics;
+using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
-namespace BepuPhysics.Constraints;
+namespace BepuPhysics;
 
 /// <summary>Where a constraint is stored.</summary>
 public struct ConstraintLocation

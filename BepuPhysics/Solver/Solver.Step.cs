@@ -7,9 +7,6 @@ using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
 
-/// <summary>Something that happens at the beginning or the end of a substep.</summary>
-public delegate void SubstepEvent(int substepIndex);
-
 // One step of the solver: a list of stages, each a number of independent blocks, run by StagedWork on one dispatch.
 //
 //   for each substep:  integrate bodies;  for each batch: warm start;  for each iteration, for each batch: solve
@@ -23,6 +20,9 @@ public delegate void SubstepEvent(int substepIndex);
 // The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
 public sealed unsafe partial class Solver
 {
+    /// <summary>Something that happens at the beginning or the end of a substep.</summary>
+    public delegate void SubstepEvent(int substepIndex);
+
     /// <summary>Bundles of constraints per block: large enough that claiming a block is cheap against solving it.</summary>
     const int ConstraintBundlesPerBlock = 16;
     /// <summary>Bundles of bodies per block of integration.</summary>

@@ -20,10 +20,7 @@ sealed class AccuracyWorld : IDisposable
     public AccuracyWorld(AccuracySettings settings)
     {
         Settings = settings;
-        var material = EngineTraits.Material(settings.Friction, settings.Restitution, settings.MaximumRecoveryVelocity, settings.Spring);
-        Simulation = Simulation.Create(
-            pool, new WorldContacts(material, settings.Contacts), new WorldGravity(settings),
-            EngineTraits.Solve(settings));
+        Simulation = Simulation.Create(pool, EngineTraits.Contacts(settings), new WorldGravity(settings), EngineTraits.Solve(settings));
     }
 
     public AccuracySettings Settings { get; }

@@ -48,7 +48,7 @@ static class BadSolverInput
             var pool = new BufferPool();
             try
             {
-                var contacts = new WorldContacts(EngineTraits.Material(.5f, 0, 2, settings.Spring), ContactScope.All);
+                var contacts = EngineTraits.Contacts(settings);
                 Simulation.Create(pool, contacts, new WorldGravity(settings), solve(value)).Dispose();
             }
             finally

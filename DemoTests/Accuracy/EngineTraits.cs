@@ -31,7 +31,14 @@ static class EngineTraits
     public static SolveDescription Solve(AccuracySettings settings) =>
         new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount };
 
-    public static PairMaterialProperties Material(
-        float friction, float restitution, float maximumRecoveryVelocity, SpringSettings spring) =>
-        new(friction, maximumRecoveryVelocity, spring) { Restitution = restitution };
+    /// <summary>What pairs collide, and how: here bounces are no part of the spring.</summary>
+    public static WorldContacts Contacts(AccuracySettings settings) => new(
+        new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, settings.Spring), settings.Contacts, settings.Restitution);
+}
+
+/// <summary>The part of the callbacks that only this engine asks for.</summary>
+partial struct WorldContacts : ISurfaceCallbacks<WorldContacts>
+{
+    public readonly SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
+        where TManifold : unmanaged, IContactManifold<TManifold> => new() { Restitution = restitution };
 }

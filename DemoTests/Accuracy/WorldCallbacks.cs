@@ -7,7 +7,7 @@ using BepuUtilities;
 namespace DemoTests.Accuracy;
 
 /// <summary>One material for all pairs, contacts between everything that can move, or none.</summary>
-struct WorldContacts(PairMaterialProperties material, ContactScope scope) : INarrowPhaseCallbacks
+partial struct WorldContacts(PairMaterialProperties material, ContactScope scope, float restitution = 0) : INarrowPhaseCallbacks
 {
     public readonly void Initialize(Simulation simulation)
     {

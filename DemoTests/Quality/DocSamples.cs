@@ -20,7 +20,7 @@ static class DocSamples
     {
         using var pool = new BufferPool();
         using var simulation = Simulation.Create(
-            pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
 
         var floor = simulation.Shapes.Add(new Box(100, 1, 100));
         simulation.Statics.Add(new StaticDescription(new Vector3(0, -0.5f, 0), floor));
@@ -32,16 +32,16 @@ static class DocSamples
     }
 
     // Docs/Guides/GettingStarted.md
-    public static NarrowPhaseCallbacks Bouncing()
+    public static DefaultNarrowPhaseCallbacks Bouncing()
     {
-        var material = new PairMaterialProperties(0.1f, 2, SpringSettings.Rigid) { Restitution = 0.5f };
-        var callbacks = new NarrowPhaseCallbacks(material);
+        var material = new PairMaterialProperties(0.1f, 2, SpringSettings.Rigid);
+        var callbacks = new DefaultNarrowPhaseCallbacks(material) { Surface = new() { Restitution = 0.5f } };
         return callbacks;
     }
 
-    public static NarrowPhaseCallbacks Soft()
+    public static DefaultNarrowPhaseCallbacks Soft()
     {
-        var soft = new NarrowPhaseCallbacks(new PairMaterialProperties(0.5f, 2, new SpringSettings(10, 1)));
+        var soft = new DefaultNarrowPhaseCallbacks(new PairMaterialProperties(0.5f, 2, new SpringSettings(10, 1)));
         return soft;
     }
 
@@ -91,7 +91,7 @@ static class DocSamples
     public static void GiveEverythingBack()
     {
         var pool = new BufferPool();
-        var simulation = Simulation.Create(pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        var simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         simulation.Timestep(1 / 60f);
         simulation.Dispose();
         pool.AssertEmpty();

@@ -88,9 +88,9 @@ public sealed class DocSamplesTests : IDisposable
     }
 
     // Greatest height of the underside after the first impact, of a sphere that falls from one metre.
-    float ReboundHeight(NarrowPhaseCallbacks callbacks)
+    float ReboundHeight(DefaultNarrowPhaseCallbacks callbacks)
     {
-        using var simulation = Simulation.Create(pool, callbacks, new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        using var simulation = Simulation.Create(pool, callbacks, new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         AddFloor(simulation);
         var handle = simulation.Bodies.Add(
             BodyDescription.CreateConvexDynamic(new Vector3(0, 1.5f, 0), 1, simulation.Shapes, new Sphere(0.5f)));
@@ -117,7 +117,7 @@ public sealed class DocSamplesTests : IDisposable
     float SlidingSpeed(bool onIce)
     {
         var callbacks = new IceCallbacks { Ice = new StaticHandle(onIce ? 0 : 99) };
-        using var simulation = Simulation.Create(pool, callbacks, new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        using var simulation = Simulation.Create(pool, callbacks, new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         AddFloor(simulation);
         var handle = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(
             new Vector3(0, 0.5f, 0), new BodyVelocity(new Vector3(1, 0, 0)), 1, simulation.Shapes, new Box(1, 1, 1)));
@@ -185,7 +185,7 @@ public sealed class DocSamplesTests : IDisposable
     public void The_pair_of_the_recipe_keeps_spheres_apart()
     {
         using var simulation = Simulation.Create(
-            pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         DocSamples.RegisterPair(simulation);
         simulation.Statics.Add(new StaticDescription(Vector3.Zero, simulation.Shapes.Add(new Sphere(1))));
         var body = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(0, 2.1f, 0), 1, simulation.Shapes, new Sphere(1)));
@@ -213,7 +213,7 @@ public sealed class DocSamplesTests : IDisposable
 
     Simulation CreateWorld()
     {
-        var simulation = Simulation.Create(pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        var simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         AddFloor(simulation);
         return simulation;
     }

@@ -19,7 +19,7 @@ public class StaticsGrowthTests
         var sizes = SimulationAllocationSizes.Default;
         sizes.Statics = expectedCount;
         using (var simulation = Simulation.Create(
-            pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, 4), initialAllocationSizes: sizes))
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4), initialAllocationSizes: sizes))
         {
             var shape = simulation.Shapes.Add(new Sphere(0.4f));
             var statics = simulation.Statics;

@@ -114,7 +114,7 @@ public class EventTests
     public void Bodies_that_bounce_may_be_removed_between_collision_detection_and_solver()
     {
         var timestepper = new DefaultTimestepper();
-        using var world = new TestWorld(timestepper: timestepper, material: new PairMaterialProperties(.5f, 2, default) { Restitution = .8f });
+        using var world = new TestWorld(timestepper: timestepper, material: new PairMaterialProperties(.5f, 2, default), restitution: .8f);
         world.AddStatic(new Box(20, 2, 20), new RigidPose(new Vector3(0, -1, 0)));
         var falling = new List<BodyHandle>();
         for (int i = 0; i < 6; ++i)
@@ -138,7 +138,7 @@ public class EventTests
     [Fact]
     public void A_simulation_that_bounced_can_be_cleared_and_used_again()
     {
-        using var world = new TestWorld(material: new PairMaterialProperties(.5f, 2, default) { Restitution = .8f });
+        using var world = new TestWorld(material: new PairMaterialProperties(.5f, 2, default), restitution: .8f);
         for (int round = 0; round < 2; ++round)
         {
             world.AddStatic(new Box(20, 2, 20), new RigidPose(new Vector3(0, -1, 0)));

@@ -16,12 +16,14 @@ sealed class TestWorld : IDisposable
     public const float Dt = 1 / 60f;
 
     public TestWorld(AccuracySettings? settings = null, int threads = 1, SimulationAllocationSizes? sizes = null,
-        Shapes? shapes = null, ITimestepper? timestepper = null, PairMaterialProperties? material = null)
+        Shapes? shapes = null, ITimestepper? timestepper = null, PairMaterialProperties? material = null, float restitution = 0)
     {
         settings ??= new AccuracySettings();
         Dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         Simulation = Simulation.Create(
-            Pool, new WorldContacts(material ?? new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, default), settings.Contacts),
+            Pool,
+            new WorldContacts(
+                material ?? new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, default), settings.Contacts, restitution),
             new WorldGravity(settings), EngineTraits.Solve(settings), timestepper, sizes, shapes);
     }
 

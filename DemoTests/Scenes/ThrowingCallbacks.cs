@@ -12,6 +12,7 @@ public enum FailingPlace
 {
     AllowContacts,
     ConfigureManifold,
+    GetSurface,
     PrepareForIntegration,
     IntegrateVelocity,
     SubstepStarted,
@@ -34,7 +35,7 @@ sealed class Bomb(FailingPlace place)
     }
 }
 
-struct ThrowingContacts(Bomb bomb) : INarrowPhaseCallbacks
+struct ThrowingContacts(Bomb bomb) : ISurfaceCallbacks<ThrowingContacts>
 {
     public readonly void Initialize(Simulation simulation)
     {
@@ -51,8 +52,15 @@ struct ThrowingContacts(Bomb bomb) : INarrowPhaseCallbacks
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         bomb.Pass(FailingPlace.ConfigureManifold);
-        pairMaterial = new PairMaterialProperties(.5f, 2, default) { Restitution = .5f };
+        pairMaterial = new PairMaterialProperties(.5f, 2, default);
         return true;
+    }
+
+    public readonly SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
+        where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        bomb.Pass(FailingPlace.GetSurface);
+        return new() { Restitution = .5f };
     }
 
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
