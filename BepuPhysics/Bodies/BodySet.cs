@@ -79,6 +79,12 @@ public struct BodySet
     /// <summary>Constraints of each body.</summary>
     public Buffer<QuickList<BodyConstraintReference>> Constraints;
 
+    /// <summary>Whether the set has memory.</summary>
+    public readonly bool Allocated => IndexToHandle.Allocated;
+
+    /// <summary>Motion and inertia of each body in one view.</summary>
+    public readonly BodyDynamicsView DynamicsState => new(this);
+
     internal readonly int Capacity => IndexToHandle.Length;
 
     internal void Resize(int capacity, BufferPool pool)

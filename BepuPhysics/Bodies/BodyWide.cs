@@ -10,6 +10,13 @@ public struct RigidPoseWide
     public Vector3Wide Position;
     /// <inheritdoc cref="RigidPose.Orientation"/>
     public QuaternionWide Orientation;
+
+    /// <summary>The same pose in all lanes.</summary>
+    public static void Broadcast(in RigidPose pose, out RigidPoseWide poses)
+    {
+        poses.Position = Vector3Wide.Broadcast(pose.Position);
+        poses.Orientation = QuaternionWide.Broadcast(pose.Orientation);
+    }
 }
 
 /// <summary>A bundle of velocities.</summary>

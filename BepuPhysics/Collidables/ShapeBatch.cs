@@ -95,6 +95,22 @@ public abstract unsafe class ShapeBatch
     public abstract void RayTest<TRayHitHandler>(int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool,
         ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler;
 
+    /// <summary>Tests a ray against a shape that is not made of children, which takes no temporary memory, and reports hits to a handler.</summary>
+    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="pose">Pose of the shape.</param>
+    /// <param name="ray">Ray in the world.</param>
+    /// <param name="maximumT">Farthest t of interest; the handler may lower it.</param>
+    /// <param name="hitHandler">Receives the hits.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    /// <exception cref="InvalidOperationException">Shapes of this type are made of children.</exception>
+    public void RayTest<TRayHitHandler>(int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, ref TRayHitHandler hitHandler)
+        where TRayHitHandler : struct, IShapeRayHitHandler
+    {
+        if (Compound)
+            throw new InvalidOperationException($"Shapes of type id {TypeId} are made of children: their ray test needs a pool.");
+        RayTest(shapeIndex, pose, ray, ref maximumT, null!, ref hitHandler);
+    }
+
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Index of the shape.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>

@@ -138,8 +138,8 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
 
     void Enqueue(int workerIndex, CollidableReference a, CollidableReference b)
     {
-        // Statics come second, then kinematics, then the larger handle: the constraint of a pair has its bodies in one order for ever.
-        if (a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.RawHandleValue > b.RawHandleValue))
+        // The constraint of a pair has its bodies in one order for ever.
+        if (ComesSecond(a, b))
             (a, b) = (b, a);
         if (a.Mobility != CollidableMobility.Dynamic)
             return;

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
@@ -34,6 +35,26 @@ public abstract partial class NarrowPhase
 
     /// <summary>Number of pairs that have contacts.</summary>
     public int PairCount { get; private set; }
+
+    /// <summary>The order in which the two collidables of a pair are named in manifolds and constraints, which does not change from step to step.</summary>
+    /// <remarks>Statics come second, then kinematics, then the larger handle.</remarks>
+    /// <param name="a">One collidable.</param>
+    /// <param name="b">The other.</param>
+    /// <param name="aMobility">How the first collidable of the pair moves.</param>
+    /// <param name="bMobility">How the second collidable of the pair moves.</param>
+    /// <param name="sortedA">First collidable of the pair.</param>
+    /// <param name="sortedB">Second collidable of the pair.</param>
+    public static void SortCollidableReferencesForPair(CollidableReference a, CollidableReference b,
+        out CollidableMobility aMobility, out CollidableMobility bMobility, out CollidableReference sortedA, out CollidableReference sortedB)
+    {
+        (sortedA, sortedB) = ComesSecond(a, b) ? (b, a) : (a, b);
+        aMobility = sortedA.Mobility;
+        bMobility = sortedB.Mobility;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private protected static bool ComesSecond(CollidableReference a, CollidableReference b) =>
+        a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.RawHandleValue > b.RawHandleValue);
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);

@@ -28,6 +28,12 @@ static class ConstraintChecks
             throw new ArgumentOutOfRangeException(name, value, $"{name} must not be negative or NaN.");
     }
 
+    internal static void Cosine(float value, string name)
+    {
+        if (!(value >= -1 && value <= 1))
+            throw new ArgumentOutOfRangeException(name, value, "A cosine must be from -1 to 1.");
+    }
+
     internal static void Unit(Vector3 value, string name)
     {
         Finite(value, name);

@@ -16,9 +16,10 @@ public interface IConstraintDescription<TDescription> where TDescription : unman
     static abstract int BodyCount { get; }
     /// <summary>Creates the processor that stores and solves constraints of this type.</summary>
     static abstract TypeProcessor CreateTypeProcessor();
-    /// <summary>Throws where a value cannot be simulated.</summary>
+    /// <summary>Throws where a value of a description cannot be simulated. A type that does not have this is added as it is.</summary>
     /// <exception cref="ArgumentException">Names the field and the value.</exception>
-    void Validate();
+    // Static, because an instance method with a body boxes the descriptions that do not have it.
+    static virtual void Validate(in TDescription description) { }
 }
 
 /// <summary>A constraint on one body.</summary>

@@ -43,7 +43,7 @@ public sealed unsafe partial class Solver
                 nameof(bodyHandles));
         CheckBodies(bodyHandles);
         Register<TDescription>();
-        description.Validate();
+        TDescription.Validate(description);
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
         WriteDescription(HandleToConstraint[handle.Value], description);
         return handle;
@@ -79,7 +79,7 @@ public sealed unsafe partial class Solver
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         CheckType<TDescription>(handle);
-        description.Validate();
+        TDescription.Validate(description);
         WriteDescription(HandleToConstraint[handle.Value], description);
     }
 

@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;

@@ -88,8 +88,19 @@ public partial struct QuickDictionary<TKey, TValue, TComparer>
     {
         if (!GetTableIndices(in key, out var tableIndex, out var index))
             return false;
-        FastRemove(tableIndex, index);
+        Remove(tableIndex, index);
         return true;
+    }
+
+    /// <summary>Removes the key and the value that <see cref="GetTableIndices"/> has found; the last ones take their place.</summary>
+    /// <param name="tableIndex">Slot of the key in the table.</param>
+    /// <param name="elementIndex">Index of the key and its value.</param>
+    /// <exception cref="ArgumentException">The slot is not that of the element.</exception>
+    public void FastRemove(int tableIndex, int elementIndex)
+    {
+        if ((uint)elementIndex >= (uint)Count || (uint)tableIndex > (uint)TableMask || Table[tableIndex] != elementIndex + 1)
+            throw new ArgumentException($"Slot {tableIndex} of the table is not that of element {elementIndex}.", nameof(tableIndex));
+        Remove(tableIndex, elementIndex);
     }
 
     /// <summary>Removes the key and the value at an index; the last ones take their place.</summary>
@@ -97,10 +108,10 @@ public partial struct QuickDictionary<TKey, TValue, TComparer>
     {
         ArgumentOutOfRangeException.ThrowIfNegative(index);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, Count);
-        FastRemove(ProbingTable.FindSlotOfIndex(Table, TableMask, Keys, index, ref EqualityComparer), index);
+        Remove(ProbingTable.FindSlotOfIndex(Table, TableMask, Keys, index, ref EqualityComparer), index);
     }
 
-    void FastRemove(int tableIndex, int index)
+    void Remove(int tableIndex, int index)
     {
         ProbingTable.RemoveSlot(Table, TableMask, Keys, tableIndex, ref EqualityComparer);
         var last = Count - 1;

@@ -18,9 +18,21 @@ public partial struct Matrix3x3
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Matrix3x3 CreateFromAxisAngle(in Vector3 axis, float angle) => FromQuaternion(QuaternionEx.CreateFromAxisAngle(axis, angle));
 
+    /// <summary>Rotation about a unit axis by an angle in radians.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void CreateFromAxisAngle(Vector3 axis, float angle, out Matrix3x3 result) => result = CreateFromAxisAngle(axis, angle);
+
     /// <summary>Scale along the axes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Matrix3x3 CreateScale(in Vector3 scale) => new(new(scale.X, 0, 0), new(0, scale.Y, 0), new(0, 0, scale.Z));
+
+    /// <summary>Scale along the axes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void CreateScale(Vector3 scale, out Matrix3x3 linearTransform) => linearTransform = CreateScale(scale);
+
+    /// <summary>Determinant.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly float Determinant() => Determinant(this);
 
     /// <summary>The matrix whose product with a column vector u is the cross product v x u.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -7,6 +7,9 @@ namespace BepuUtilities;
 /// <summary>Quaternion operations under the names that games use, with the same bits on every machine (see <see cref="Exact"/>).</summary>
 public static class QuaternionEx
 {
+    /// <summary>The rotation that changes nothing.</summary>
+    public static Quaternion Identity => new(0, 0, 0, 1);
+
     /// <summary>Sum of components.</summary>
     public static void Add(in Quaternion a, in Quaternion b, out Quaternion result) => result = new(a.X + b.X, a.Y + b.Y, a.Z + b.Z, a.W + b.W);
 
@@ -185,9 +188,13 @@ public static class QuaternionEx
     public static void GetRelativeRotation(in Quaternion start, in Quaternion end, out Quaternion relative) =>
         relative = Exact.Concatenate(Exact.Conjugate(start), end);
 
-    /// <summary>A rotation expressed in the axes of a basis: the change of coordinates basis * rotation * conjugate(basis).</summary>
-    public static void GetLocalRotation(in Quaternion rotation, in Quaternion targetBasis, out Quaternion localRotation) =>
-        localRotation = Exact.Concatenate(Exact.Concatenate(targetBasis, rotation), Exact.Conjugate(targetBasis));
+    /// <summary>The rotation from <paramref name="start"/> to <paramref name="end"/>, both in world axes: start * relative = end.</summary>
+    public static void GetRelativeRotationWithoutOverlap(in Quaternion start, in Quaternion end, out Quaternion relative) =>
+        GetRelativeRotation(start, end, out relative);
+
+    /// <summary>A rotation as it is seen from a basis: local * basis = rotation.</summary>
+    public static void GetLocalRotationWithoutOverlap(in Quaternion rotation, in Quaternion targetBasis, out Quaternion localRotation) =>
+        localRotation = Exact.Concatenate(rotation, Exact.Conjugate(targetBasis));
 
     /// <summary>Rotation between two unit quaternions by a constant rate along the shorter way; amount 0 gives the start, 1 the end.</summary>
     public static Quaternion Slerp(in Quaternion start, in Quaternion end, float interpolationAmount)

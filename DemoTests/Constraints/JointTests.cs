@@ -257,7 +257,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         for (int i = 0; i < Samples; ++i)
         {
             var description = Describe(samples, spring ?? samples.Spring());
-            description.Validate();
+            TDescription.Validate(description);
             var bodies = NewBodies(samples);
             if (settled)
                 Settle(description, bodies);

@@ -153,11 +153,11 @@ public struct HeightLimit : IOneBodyConstraintDescription<HeightLimit>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         OneBody, HeightLimitWide, Rows1, JointConstraint<OneBody, HeightLimitWide, HeightLimitGeometry, Rows1, Rows1, HeightLimitJoint>>();
 
-    public readonly void Validate()
+    public static void Validate(in HeightLimit description)
     {
-        if (!float.IsFinite(MinimumHeight))
-            throw new ArgumentException($"{nameof(MinimumHeight)} must be finite, not {MinimumHeight}.", nameof(MinimumHeight));
-        if (!SpringSettings.Validate(SpringSettings))
+        if (!float.IsFinite(description.MinimumHeight))
+            throw new ArgumentException($"{nameof(MinimumHeight)} must be finite, not {description.MinimumHeight}.", nameof(MinimumHeight));
+        if (!SpringSettings.Validate(description.SpringSettings))
             throw new ArgumentException($"{nameof(SpringSettings)} must be finite and not negative.", nameof(SpringSettings));
     }
 }

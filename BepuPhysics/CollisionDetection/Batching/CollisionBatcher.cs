@@ -143,6 +143,16 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
             Execute(task, ref batch);
     }
 
+    /// <summary>For callers that keep a copy of the second shape until its pair is tested: there is no need to, so this is the shape itself.</summary>
+    /// <remarks>Adding a pair copies its shapes. The memory must stay as it is until then, and no longer.</remarks>
+    /// <param name="shapeTypeA">Type id of the first shape.</param>
+    /// <param name="shapeTypeB">Type id of the second shape.</param>
+    /// <param name="shapeDataB">Second shape.</param>
+    /// <param name="shapeSizeB">Size of the second shape, bytes.</param>
+    /// <param name="cachedShapeDataB">What to give to <see cref="AddDirectly"/>.</param>
+    public readonly void CacheShapeB(int shapeTypeA, int shapeTypeB, void* shapeDataB, int shapeSizeB, out void* cachedShapeDataB) =>
+        cachedShapeDataB = shapeDataB;
+
     [MethodImpl(MethodImplOptions.NoInlining)]
     void AddChecked(TypedIndex shapeIndexA, TypedIndex shapeIndexB, in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB,
         float speculativeMargin, int pairId)

@@ -21,11 +21,11 @@ public struct BallSocket : ITwoBodyConstraintDescription<BallSocket>
         new TypeProcessor<TwoBodies, BallSocketWide, Rows3,
             JointConstraint<TwoBodies, BallSocketWide, BallSocketGeometry, Rows3, RowMatrix3, BallSocketJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in BallSocket description)
     {
-        ConstraintChecks.Finite(LocalOffsetA, nameof(LocalOffsetA));
-        ConstraintChecks.Finite(LocalOffsetB, nameof(LocalOffsetB));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

@@ -24,13 +24,13 @@ public struct Hinge : ITwoBodyConstraintDescription<Hinge>
     public static TypeProcessor CreateTypeProcessor() =>
         new TypeProcessor<TwoBodies, HingeWide, Rows5, JointConstraint<TwoBodies, HingeWide, HingeGeometry, Rows5, RowMatrix5, HingeJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in Hinge description)
     {
-        ConstraintChecks.Finite(LocalOffsetA, nameof(LocalOffsetA));
-        ConstraintChecks.Unit(LocalHingeAxisA, nameof(LocalHingeAxisA));
-        ConstraintChecks.Finite(LocalOffsetB, nameof(LocalOffsetB));
-        ConstraintChecks.Unit(LocalHingeAxisB, nameof(LocalHingeAxisB));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Unit(description.LocalHingeAxisA, nameof(LocalHingeAxisA));
+        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
+        ConstraintChecks.Unit(description.LocalHingeAxisB, nameof(LocalHingeAxisB));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

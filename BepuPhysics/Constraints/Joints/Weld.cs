@@ -20,11 +20,11 @@ public struct Weld : ITwoBodyConstraintDescription<Weld>
     public static TypeProcessor CreateTypeProcessor() =>
         new TypeProcessor<TwoBodies, WeldWide, Rows6, JointConstraint<TwoBodies, WeldWide, WeldGeometry, Rows6, RowMatrix6, WeldJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in Weld description)
     {
-        ConstraintChecks.Finite(LocalOffset, nameof(LocalOffset));
-        ConstraintChecks.Unit(LocalOrientation, nameof(LocalOrientation));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Finite(description.LocalOffset, nameof(LocalOffset));
+        ConstraintChecks.Unit(description.LocalOrientation, nameof(LocalOrientation));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

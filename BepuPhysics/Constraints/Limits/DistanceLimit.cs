@@ -30,13 +30,13 @@ public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float mi
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         TwoBodies, DistanceLimitWide, Rows1, JointConstraint<TwoBodies, DistanceLimitWide, DistanceLimitGeometry, Rows1, Rows1, DistanceLimitJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in DistanceLimit description)
     {
-        ConstraintChecks.Finite(LocalOffsetA, nameof(LocalOffsetA));
-        ConstraintChecks.Finite(LocalOffsetB, nameof(LocalOffsetB));
-        ConstraintChecks.NotNegative(MinimumDistance, nameof(MinimumDistance));
-        ConstraintChecks.Order(MinimumDistance, MaximumDistance, nameof(MinimumDistance), nameof(MaximumDistance));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
+        ConstraintChecks.NotNegative(description.MinimumDistance, nameof(MinimumDistance));
+        ConstraintChecks.Order(description.MinimumDistance, description.MaximumDistance, nameof(MinimumDistance), nameof(MaximumDistance));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

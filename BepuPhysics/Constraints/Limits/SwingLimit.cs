@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -30,13 +29,12 @@ public struct SwingLimit : ITwoBodyConstraintDescription<SwingLimit>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         TwoBodies, SwingLimitWide, Rows1, JointConstraint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in SwingLimit description)
     {
-        ConstraintChecks.Unit(AxisLocalA, nameof(AxisLocalA));
-        ConstraintChecks.Unit(AxisLocalB, nameof(AxisLocalB));
-        if (!(MinimumDot >= -1 && MinimumDot <= 1))
-            throw new ArgumentOutOfRangeException(nameof(MinimumDot), MinimumDot, "A cosine must be from -1 to 1.");
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Unit(description.AxisLocalA, nameof(AxisLocalA));
+        ConstraintChecks.Unit(description.AxisLocalB, nameof(AxisLocalB));
+        ConstraintChecks.Cosine(description.MinimumDot, nameof(MinimumDot));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

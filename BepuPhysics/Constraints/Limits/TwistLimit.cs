@@ -24,12 +24,12 @@ public struct TwistLimit : ITwoBodyConstraintDescription<TwistLimit>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         TwoBodies, TwistLimitWide, Rows1, JointConstraint<TwoBodies, TwistLimitWide, TwistLimitGeometry, Rows1, Rows1, TwistLimitJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in TwistLimit description)
     {
-        ConstraintChecks.Unit(LocalBasisA, nameof(LocalBasisA));
-        ConstraintChecks.Unit(LocalBasisB, nameof(LocalBasisB));
-        ConstraintChecks.Order(MinimumAngle, MaximumAngle, nameof(MinimumAngle), nameof(MaximumAngle));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Unit(description.LocalBasisA, nameof(LocalBasisA));
+        ConstraintChecks.Unit(description.LocalBasisB, nameof(LocalBasisB));
+        ConstraintChecks.Order(description.MinimumAngle, description.MaximumAngle, nameof(MinimumAngle), nameof(MaximumAngle));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }
 

@@ -23,12 +23,12 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
         OneBody, OneBodyLinearServoWide, Rows3,
         JointConstraint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>>();
     /// <inheritdoc/>
-    public readonly void Validate()
+    public static void Validate(in OneBodyLinearServo description)
     {
-        ConstraintChecks.Finite(LocalOffset, nameof(LocalOffset));
-        ConstraintChecks.Finite(Target, nameof(Target));
-        ConstraintChecks.Spring(SpringSettings, nameof(SpringSettings));
-        ConstraintChecks.Servo(ServoSettings, nameof(ServoSettings));
+        ConstraintChecks.Finite(description.LocalOffset, nameof(LocalOffset));
+        ConstraintChecks.Finite(description.Target, nameof(Target));
+        ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
+        ConstraintChecks.Servo(description.ServoSettings, nameof(ServoSettings));
     }
 }
 

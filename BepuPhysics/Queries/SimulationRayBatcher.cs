@@ -1,0 +1,74 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Collects rays and casts them together.</summary>
+/// <remarks>
+/// For code that collects its rays; each is cast by itself, as by <see cref="Simulation.RayCast"/>, in the order in which they were
+/// added. Used by one thread at a time; any number of batchers may ask one simulation. Do not copy one that holds rays.
+/// </remarks>
+public struct SimulationRayBatcher<TRayHitHandler> : IDisposable where TRayHitHandler : struct, IRayHitHandler
+{
+    struct BatchedRay
+    {
+        public RayData Ray;
+        public float MaximumT;
+    }
+
+    readonly BufferPool pool;
+    readonly Simulation simulation;
+    readonly int capacity;
+    QuickList<BatchedRay> rays;
+
+    /// <summary>Chooses what to test and receives the hits.</summary>
+    public TRayHitHandler HitHandler;
+
+    /// <summary>Creates an empty batcher.</summary>
+    /// <param name="pool">Source of the batcher's memory; a pool of the calling thread.</param>
+    /// <param name="simulation">Simulation to cast rays in.</param>
+    /// <param name="hitHandler">Chooses what to test and receives the hits; copied.</param>
+    /// <param name="batcherRayCapacity">Number of rays at which they are cast.</param>
+    public SimulationRayBatcher(BufferPool pool, Simulation simulation, TRayHitHandler hitHandler, int batcherRayCapacity = 2048)
+    {
+        ArgumentNullException.ThrowIfNull(pool);
+        ArgumentNullException.ThrowIfNull(simulation);
+        ArgumentOutOfRangeException.ThrowIfLessThan(batcherRayCapacity, 1);
+        this.pool = pool;
+        this.simulation = simulation;
+        capacity = batcherRayCapacity;
+        HitHandler = hitHandler;
+        rays = new QuickList<BatchedRay>(batcherRayCapacity, pool);
+    }
+
+    /// <summary>Adds a ray, and casts all where that fills the batcher.</summary>
+    /// <param name="origin">Where the ray starts, m.</param>
+    /// <param name="direction">Direction of the ray; its length is the unit in which t is measured.</param>
+    /// <param name="maximumT">Length of the ray in units of its direction; may be infinite.</param>
+    /// <param name="id">The caller's number for the ray.</param>
+    public void Add(ref Vector3 origin, ref Vector3 direction, float maximumT, int id = 0)
+    {
+        rays.Add(new() { Ray = new() { Origin = origin, Direction = direction, Id = id }, MaximumT = maximumT }, pool);
+        if (rays.Count == capacity)
+            Flush();
+    }
+
+    /// <summary>Casts all rays that wait.</summary>
+    /// <exception cref="ArgumentException">A ray is not finite or its length is negative; those before it were cast, and none waits any more.</exception>
+    public void Flush()
+    {
+        var count = rays.Count;
+        rays.Count = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            var waiting = rays.Span[i];
+            simulation.RayCast(waiting.Ray.Origin, waiting.Ray.Direction, waiting.MaximumT, pool, ref HitHandler, waiting.Ray.Id);
+        }
+    }
+
+    /// <summary>Returns the memory to the pool; rays that wait are forgotten.</summary>
+    public void Dispose() => rays.Dispose(pool);
+}

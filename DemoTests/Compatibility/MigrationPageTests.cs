@@ -1,0 +1,124 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
+using BepuPhysics;
+using BepuUtilities;
+using DemoTests.Quality;
+using Xunit;
+
+namespace DemoTests.Compatibility;
+
+/// <summary>Docs/Migration.md says nothing that is not so: each of its rows has a test, and each of its names exists, or does not.</summary>
+public partial class MigrationPageTests
+{
+    const string Page = "Docs/Migration.md";
+
+    // What shows that a row is true, by the words that the row begins with.
+    static readonly Dictionary<string, string> tests = new()
+    {
+        ["set.DynamicsState[i]"] = "SmallNamesTests.Dynamics_of_a_set_are_read_and_written_as_where_they_lie_in_one_place",
+        ["ref var dynamics"] = "BodyReferenceTests.Dynamics_are_the_bodys_own",
+        ["profiler"] = "MigrationTests.Stages_are_timed",
+        ["constraint descriptions"] = "SmallNamesTests.A_description_need_not_check_itself_and_is_not_boxed",
+        ["four type processors"] = "DocSamplesTests.Code_of_a_page_is_among_the_samples",
+        ["pair testers"] = "DocSamplesTests.Code_of_a_page_is_among_the_samples",
+        ["narrow phase callbacks"] = "MigrationTests.Ready_made_callbacks_do_not_collide_with_those_of_games",
+        ["a body of Solver.Constrained"] = "MigrationTests.Kinematic_bodies_with_constraints_are_found",
+        ["batcher.CacheShapeB"] = "SmallNamesTests.A_cached_shape_is_added_directly",
+        ["rays of a"] = "SmallNamesTests.Batched_rays_hit_what_single_ones_hit",
+        ["default(SpringSettings)"] = "MigrationTests.Springs_without_a_frequency_are_rigid",
+        ["a frequency above"] = "MigrationTests.Frequencies_are_capped",
+        ["bounces"] = "SurfaceCallbacksTests.Surfaces_bounce_pair_by_pair",
+        ["friction of a patch"] = "SlopeTests.C1c_EffectiveFriction",
+        ["Simulation.Deterministic"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
+        ["AllowSubsteps"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
+        ["Simulation.Clear, Dispose"] = "MigrationTests.Shared_shapes_are_left_alone",
+        ["a step of another length"] = "VariableTimestepTests.The_load_of_a_joint_follows_the_length_of_the_substep",
+        ["ConvexHull"] = "ConvexHullCreationTests.CopiesAreTransformed",
+        ["hulls of coplanar"] = "ConvexHullCreationTests.PointsWithoutVolumeAreRefusedWithAReason",
+        ["Triangle"] = "MigrationTests.Triangles_have_one_side_unless_they_ask_for_two",
+        ["deep overlaps"] = "DepthSearchAccuracyTests",
+        ["a pair of shapes"] = "BatchingTests.UnregisteredPairIsRefusedByName",
+        ["bad numbers"] = "BadInputTests.X13_IsRefused",
+    };
+
+    [Fact]
+    public void Every_row_has_a_test()
+    {
+        var known = typeof(MigrationPageTests).Assembly.GetTypes()
+            .SelectMany(type => type.GetMethods().Where(method => method.IsDefined(typeof(FactAttribute), true)))
+            .SelectMany(test => new[] { $"{test.DeclaringType!.Name}.{test.Name}", test.DeclaringType.Name }).ToHashSet();
+        var used = new HashSet<string>();
+        foreach (var row in Rows())
+        {
+            var key = tests.Keys.SingleOrDefault(start => row[0].StartsWith(start, StringComparison.Ordinal));
+            Assert.True(key is not null, $"{Page} has a row without a test: {row[0]}");
+            Assert.True(known.Contains(tests[key]), $"There is no test {tests[key]}.");
+            used.Add(key);
+        }
+        Assert.Equal(tests.Keys.Order(), used.Order());
+    }
+
+    static IEnumerable<string[]> Rows() => DocPages.TableRows(Page).Where(row =>
+        !row[0].StartsWith("---", StringComparison.Ordinal) && row[0] is not ("there" or "what"));
+
+    // The last cell of a row speaks of this library.
+    [Fact]
+    public void Names_of_this_library_exist()
+    {
+        var names = RepositoryFiles.Read(Page).Split('\n').Where(line => line.StartsWith('|'))
+            .Select(line => line.Trim().Trim('|').Split('|')[^1]).SelectMany(QualifiedNames).Distinct().ToArray();
+        Assert.True(names.Length > 10);
+        Assert.All(names, name => Assert.True(Exists(name, membersToo: true), $"There is no {name}."));
+    }
+
+    [Fact]
+    public void Names_that_are_not_there_yet_are_not_there()
+    {
+        var section = RepositoryFiles.Read(Page).Split("## Not there yet")[1].Split("##")[0];
+        var present = new List<string>();
+        foreach (var line in section.Split("\n- ", StringSplitOptions.RemoveEmptyEntries))
+        {
+            // A line that is about what there is says so.
+            if (!line.Contains("other than", StringComparison.Ordinal) && !line.Contains("behaves as", StringComparison.Ordinal))
+                present.AddRange(QualifiedNames(line).Where(name => Exists(name, membersToo: false)));
+        }
+        // Read only, as the page says.
+        Assert.Equal(["BodyReference.Awake"], present);
+        Assert.False(typeof(BodyReference).GetProperty(nameof(BodyReference.Awake))!.CanWrite);
+        Assert.Null(typeof(Simulation).GetProperty("Awakener"));
+    }
+
+    [Fact]
+    public void Joints_are_those_of_the_page()
+    {
+        var line = RepositoryFiles.Read(Page).Split('\n').Single(line => line.StartsWith("- Joints other than", StringComparison.Ordinal));
+        var joints = typeof(Simulation).Assembly.GetExportedTypes().Where(type => type.IsValueType && type.GetInterfaces()
+            .Any(contract => contract.Name.StartsWith("IConstraintDescription", StringComparison.Ordinal))).Select(type => type.Name);
+        Assert.Equal(joints.Order(), BacktickedNames().Matches(line).Select(match => match.Groups["name"].Value).Order());
+    }
+
+    static IEnumerable<string> QualifiedNames(string cell) => BacktickedNames().Matches(cell).Select(match => match.Groups["name"].Value)
+        .Where(name => char.IsUpper(name[0]));
+
+    // A name by itself is a type, or a member of what the row is about.
+    static bool Exists(string name, bool membersToo)
+    {
+        var types = typeof(Simulation).Assembly.GetExportedTypes().Concat(typeof(BoundingBox).Assembly.GetExportedTypes())
+            .Append(typeof(ArgumentException)).ToArray();
+        var parts = name.Split('.');
+        return parts.Length == 1
+            ? types.Any(type => Bare(type) == name || (membersToo && HasMember(type, name)))
+            : types.Any(type => Bare(type) == parts[^2] && HasMember(type, parts[^1]));
+    }
+
+    static bool HasMember(Type type, string name) =>
+        type.GetMember(name, BindingFlags.Public | BindingFlags.Instance | BindingFlags.Static).Length > 0;
+
+    static string Bare(Type type) => type.Name.Split('`')[0];
+
+    [GeneratedRegex(@"`(?<name>[\w.]+)(?:<[^`]*>)?`")]
+    private static partial Regex BacktickedNames();
+}
