@@ -68,12 +68,12 @@ public sealed partial class Simulation
     {
         if (collidable.Mobility == CollidableMobility.Static)
         {
-            ref var target = ref Statics[Statics.HandleToIndex[collidable.RawHandleValue]];
+            ref var target = ref Statics.StaticsBuffer[Statics.Indices[collidable.Slot]];
             pose = target.Pose;
             shape = target.Shape;
             return;
         }
-        var location = Bodies.HandleToLocation[collidable.RawHandleValue];
+        var location = Bodies.Locations[collidable.Slot];
         ref var set = ref Bodies.Sets[location.SetIndex];
         pose = set.MotionStates[location.Index].Pose;
         shape = set.Collidables[location.Index].Shape;

@@ -24,16 +24,16 @@ public sealed partial class Simulation
         NarrowPhase.Validate();
     }
 
-    /// <summary>Hash of the bits of all poses and velocities, in the order of the handles.</summary>
+    /// <summary>Hash of the bits of all poses and velocities, in the order of the slots of handles.</summary>
     /// <remarks>Equal on all machines, for any number of threads and any width of vectors, after the same calls on the same build.</remarks>
     public ulong StateHash()
     {
         ObjectDisposedException.ThrowIf(disposed, this);
         StateHash hash = default;
         Span<float> numbers = stackalloc float[13];
-        for (int value = 0; value <= Bodies.HandlePool.HighestPossiblyClaimedId; ++value)
+        for (int slot = 0; slot <= Bodies.HandlePool.HighestPossiblyClaimedId; ++slot)
         {
-            var location = Bodies.HandleToLocation[value];
+            var location = Bodies.Locations[slot];
             if (location.SetIndex < 0)
                 continue;
             ref var motion = ref Bodies.Sets[location.SetIndex].MotionStates[location.Index];

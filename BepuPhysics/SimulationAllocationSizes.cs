@@ -39,5 +39,8 @@ public struct SimulationAllocationSizes(
         ArgumentOutOfRangeException.ThrowIfNegative(Constraints);
         ArgumentOutOfRangeException.ThrowIfNegative(ConstraintsPerTypeBatch);
         ArgumentOutOfRangeException.ThrowIfNegative(ConstraintCountPerBodyEstimate);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(Bodies, BepuPhysics.Bodies.MaximumCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(Statics, BepuPhysics.Statics.MaximumCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(Constraints, Solver.MaximumCount);
     }
 }

@@ -18,16 +18,18 @@ public sealed partial class Bodies
             {
                 var handle = set.IndexToHandle[index];
                 Invariant.Require(BodyExists(handle), "handle of the body at an index", setIndex, index);
-                var location = HandleToLocation[handle.Value];
-                Invariant.Require(location.SetIndex == setIndex && location.Index == index, "location of body", handle.Value);
-                ValidateNumbers(ref set, index, handle.Value);
-                ValidateCollidable(ref set, index, handle.Value, ref leafCount);
+                var location = Locations[handle.Slot];
+                Invariant.Require(location.SetIndex == setIndex && location.Index == index, "location of body", handle.Slot);
+                ValidateNumbers(ref set, index, handle.Slot);
+                ValidateCollidable(ref set, index, handle.Slot, ref leafCount);
                 ValidateConstraints(ref set, index, handle);
             }
             Invariant.Require(IsZeroBehindLast(ref set), "rows behind the last body of set", setIndex);
         }
         Invariant.Require(leafCount == broadPhase.ActiveTree.LeafCount, "number of active leaves, bodies have", leafCount);
-        Invariant.Ids(HandlePool, HandleToLocation.Length, "bodies", id => HandleToLocation[id].SetIndex >= 0);
+        Invariant.Ids(HandlePool, Locations.Length, "bodies", id => Locations[id].SetIndex >= 0);
+        for (int slot = 0; slot < owners.Capacity; ++slot)
+            Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);
     }
 
     static void ValidateNumbers(ref BodySet set, int index, int handle)
@@ -64,8 +66,8 @@ public sealed partial class Bodies
         ref var constraints = ref set.Constraints[index];
         for (int i = 0; i < constraints.Count; ++i)
         {
-            Invariant.Require(solver.ConstraintExists(constraints[i].ConnectingConstraintHandle), "listed constraint of body", handle.Value, i);
-            Invariant.Require(solver.IsBodyOf(constraints[i], index), "body of a listed constraint of body", handle.Value, i);
+            Invariant.Require(solver.ConstraintExists(constraints[i].ConnectingConstraintHandle), "listed constraint of body", handle.Slot, i);
+            Invariant.Require(solver.IsBodyOf(constraints[i], index), "body of a listed constraint of body", handle.Slot, i);
         }
     }
 

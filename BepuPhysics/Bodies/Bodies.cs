@@ -11,22 +11,31 @@ namespace BepuPhysics;
 /// <summary>All bodies of a simulation.</summary>
 public sealed unsafe partial class Bodies
 {
-    const int InitialConstraintCapacity = 4;
+    // Every body takes as much: what is beyond is a mistake.
+    const int MaximumConstraintCapacity = 1_000_000;
+
+    int minimumConstraintCapacity = 4;
 
     Solver solver = null!;
     BroadPhase broadPhase = null!;
     Shapes shapes = null!;
 
-    /// <summary>Where each body is, by handle value.</summary>
-    public Buffer<BodyMemoryLocation> HandleToLocation;
-    /// <summary>Hands out the values of body handles.</summary>
-    public IdPool HandlePool;
     /// <summary>Sets of bodies; set 0 is the active one.</summary>
     public Buffer<BodySet> Sets;
     /// <summary>Memory of the bodies.</summary>
     public BufferPool Pool { get; }
-    /// <summary>Least number of constraints for which the list of a body has room.</summary>
-    public int MinimumConstraintCapacityPerBody { get; set; } = InitialConstraintCapacity;
+    /// <summary>Least number of constraints for which the list of a body has room; from 0 to a million.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than a million; nothing was changed.</exception>
+    public int MinimumConstraintCapacityPerBody
+    {
+        get => minimumConstraintCapacity;
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(value, nameof(MinimumConstraintCapacityPerBody));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(value, MaximumConstraintCapacity, nameof(MinimumConstraintCapacityPerBody));
+            minimumConstraintCapacity = value;
+        }
+    }
 
     /// <summary>Bodies that are awake.</summary>
     public ref BodySet ActiveSet => ref Sets[0];
@@ -39,9 +48,8 @@ public sealed unsafe partial class Bodies
         Sets[0] = default;
         Sets[0].Resize(initialCapacity, pool);
         HandlePool = new IdPool(initialCapacity, pool);
-        pool.Take(initialCapacity, out HandleToLocation);
-        for (int i = 0; i < initialCapacity; ++i)
-            HandleToLocation[i].SetIndex = -1;
+        owners = new HandleOwners(HandleLayout.SlotBits, HandleLayout.ValueBits, initialCapacity, pool);
+        EnsureSlots(initialCapacity);
     }
 
     internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes)
@@ -50,22 +58,6 @@ public sealed unsafe partial class Bodies
         this.broadPhase = broadPhase;
         this.shapes = shapes;
     }
-
-    /// <summary>A body by its handle.</summary>
-    /// <exception cref="ArgumentException">There is no such body.</exception>
-    public BodyReference this[BodyHandle handle] => GetBodyReference(handle);
-
-    /// <summary>A body by its handle.</summary>
-    /// <exception cref="ArgumentException">There is no such body.</exception>
-    public BodyReference GetBodyReference(BodyHandle handle)
-    {
-        CheckHandle(handle);
-        return new(handle, this);
-    }
-
-    /// <summary>Whether a handle names a body.</summary>
-    public bool BodyExists(BodyHandle handle) =>
-        (uint)handle.Value < (uint)HandleToLocation.Length && HandleToLocation[handle.Value].SetIndex >= 0;
 
     /// <summary>Number of bodies in all sets.</summary>
     public int CountBodies()
@@ -85,27 +77,21 @@ public sealed unsafe partial class Bodies
 
     /// <summary>Adds a body.</summary>
     /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> bodies already.</exception>
     public BodyHandle Add(in BodyDescription description)
     {
         Validate(description);
-        var handle = new BodyHandle(HandlePool.Take());
-        if (handle.Value >= HandleToLocation.Length)
-        {
-            var previous = HandleToLocation.Length;
-            Pool.ResizeToAtLeast(ref HandleToLocation, handle.Value + 1, previous);
-            for (int i = previous; i < HandleToLocation.Length; ++i)
-                HandleToLocation[i].SetIndex = -1;
-        }
+        MakeRoom(description);
+        var constraints = new QuickList<BodyConstraintReference>(MinimumConstraintCapacityPerBody, Pool);
+        // All memory has been taken: from here on nothing fails.
+        var handle = new BodyHandle(owners.Claim(HandlePool.Take()));
         ref var set = ref ActiveSet;
-        if (set.Count == set.Capacity)
-            set.Resize(set.Capacity * 2, Pool);
         var index = set.Count++;
-        HandleToLocation[handle.Value] = new() { SetIndex = 0, Index = index };
+        Locations[handle.Slot] = new() { SetIndex = 0, Index = index };
         set.IndexToHandle[index] = handle;
         set.MotionStates[index] = new() { Pose = description.Pose, Velocity = description.Velocity };
         set.LocalInertias[index] = description.LocalInertia;
-        set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
-        set.Constraints[index] = new QuickList<BodyConstraintReference>(MinimumConstraintCapacityPerBody, Pool);
+        set.Constraints[index] = constraints;
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };
         WriteSettings(index, description);
         if (description.Collidable.Shape.Exists)
@@ -118,7 +104,7 @@ public sealed unsafe partial class Bodies
     public void Remove(BodyHandle handle)
     {
         CheckHandle(handle);
-        RemoveAt(HandleToLocation[handle.Value].Index);
+        RemoveAt(Locations[handle.Slot].Index);
     }
 
     /// <summary>Removes a body of the active set and all of its constraints.</summary>
@@ -137,11 +123,12 @@ public sealed unsafe partial class Bodies
         set.RemoveAt(activeBodyIndex);
         if (activeBodyIndex < set.Count)
         {
-            HandleToLocation[set.IndexToHandle[activeBodyIndex].Value].Index = activeBodyIndex;
+            Locations[set.IndexToHandle[activeBodyIndex].Slot].Index = activeBodyIndex;
             solver.UpdateBodyIndex(activeBodyIndex);
         }
-        HandleToLocation[handle.Value].SetIndex = -1;
-        HandlePool.Return(handle.Value, Pool);
+        Locations[handle.Slot].SetIndex = -1;
+        owners.Release(handle.Slot);
+        HandlePool.Return(handle.Slot, Pool);
     }
 
     /// <summary>Describes a body as it is now.</summary>
@@ -149,7 +136,7 @@ public sealed unsafe partial class Bodies
     public void GetDescription(BodyHandle handle, out BodyDescription description)
     {
         CheckHandle(handle);
-        var index = HandleToLocation[handle.Value].Index;
+        var index = Locations[handle.Slot].Index;
         ref var set = ref ActiveSet;
         ref var collidable = ref set.Collidables[index];
         description.Pose = set.MotionStates[index].Pose;
@@ -173,7 +160,7 @@ public sealed unsafe partial class Bodies
     {
         CheckHandle(handle);
         Validate(description);
-        var index = HandleToLocation[handle.Value].Index;
+        var index = Locations[handle.Slot].Index;
         ref var motion = ref ActiveSet.MotionStates[index];
         motion.Pose = description.Pose;
         motion.Velocity = description.Velocity;
@@ -193,7 +180,7 @@ public sealed unsafe partial class Bodies
     {
         CheckHandle(handle);
         CheckShape(shape);
-        var index = HandleToLocation[handle.Value].Index;
+        var index = Locations[handle.Slot].Index;
         ref var collidable = ref ActiveSet.Collidables[index];
         if (collidable.Shape == shape)
             return;
@@ -217,7 +204,7 @@ public sealed unsafe partial class Bodies
     public void UpdateBounds(BodyHandle handle)
     {
         CheckHandle(handle);
-        UpdateBoundsAt(HandleToLocation[handle.Value].Index);
+        UpdateBoundsAt(Locations[handle.Slot].Index);
     }
 
     /// <summary>Visits each body that shares a constraint with a body, once per constraint.</summary>
@@ -225,20 +212,23 @@ public sealed unsafe partial class Bodies
     public void EnumerateConnectedBodies<TEnumerator>(BodyHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
     {
         CheckHandle(handle);
-        ref var constraints = ref ActiveSet.Constraints[HandleToLocation[handle.Value].Index];
+        ref var constraints = ref ActiveSet.Constraints[Locations[handle.Slot].Index];
         for (int i = 0; i < constraints.Count; ++i)
             solver.EnumerateOtherBodies(constraints[i], ref enumerator);
     }
 
     /// <summary>Makes room for bodies.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than <see cref="MaximumCount"/>; nothing was changed.</exception>
     public void EnsureCapacity(int capacity)
     {
+        ArgumentOutOfRangeException.ThrowIfNegative(capacity);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(capacity, MaximumCount);
         if (capacity > ActiveSet.Capacity)
             ActiveSet.Resize(capacity, Pool);
     }
 
     internal void AddConstraint(BodyHandle body, ConstraintHandle constraint, int bodyIndexInConstraint) =>
-        ActiveSet.Constraints[HandleToLocation[body.Value].Index].Add(
+        ActiveSet.Constraints[Locations[body.Slot].Index].Add(
             new() { ConnectingConstraintHandle = constraint, BodyIndexInConstraint = bodyIndexInConstraint }, Pool);
 
     internal void RemoveConstraint(int bodyIndex, ConstraintHandle constraint)
@@ -254,10 +244,21 @@ public sealed unsafe partial class Bodies
         }
     }
 
-    internal void CheckHandle(BodyHandle handle)
+    void MakeRoom(in BodyDescription description)
     {
-        if (!BodyExists(handle))
-            throw new ArgumentException($"There is no {handle}.", nameof(handle));
+        ref var set = ref ActiveSet;
+        if (HandlePool.AvailableIdCount == 0)
+        {
+            var slot = HandlePool.HighestPossiblyClaimedId + 1;
+            if (slot >= MaximumCount)
+                throw new InvalidOperationException($"There are {MaximumCount} bodies, as many as a simulation holds.");
+            EnsureSlots(slot + 1);
+        }
+        if (set.Count == set.Capacity)
+            set.Resize(set.Capacity * 2, Pool);
+        set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
+        if (description.Collidable.Shape.Exists)
+            broadPhase.EnsureCapacity(broadPhase.ActiveTree.LeafCount + 1, 0);
     }
 
     internal void CheckShape(TypedIndex shape)
@@ -278,7 +279,7 @@ public sealed unsafe partial class Bodies
 
     void ChangeInertia(BodyHandle handle, in BodyInertia localInertia)
     {
-        var index = HandleToLocation[handle.Value].Index;
+        var index = Locations[handle.Slot].Index;
         ref var current = ref ActiveSet.LocalInertias[index];
         var changesKind = IsKinematic(current) != IsKinematic(localInertia);
         current = localInertia;
@@ -331,7 +332,7 @@ public sealed unsafe partial class Bodies
         if (leaf < 0)
             return;
         if (broadPhase.RemoveActiveAt(leaf, out var moved))
-            ActiveSet.Collidables[HandleToLocation[moved.BodyHandle.Value].Index].BroadPhaseIndex = leaf;
+            ActiveSet.Collidables[Locations[moved.BodyHandle.Slot].Index].BroadPhaseIndex = leaf;
         leaf = -1;
     }
 
@@ -345,14 +346,20 @@ public sealed unsafe partial class Bodies
         broadPhase.UpdateActiveBounds(collidable.BroadPhaseIndex, bounds.Min, bounds.Max);
     }
 
-    internal void GetBoundsPointers(int index, out Vector3* min, out Vector3* max) =>
-        broadPhase.GetActiveBoundsPointers(ActiveSet.Collidables[index].BroadPhaseIndex, out min, out max);
+    internal void GetBoundsPointers(int index, out Vector3* min, out Vector3* max)
+    {
+        var leaf = ActiveSet.Collidables[index].BroadPhaseIndex;
+        if (leaf < 0)
+            throw new InvalidOperationException($"There are no bounds of {ActiveSet.IndexToHandle[index]}: it has no shape.");
+        broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
+    }
 
     internal void Clear()
     {
         ref var set = ref ActiveSet;
         for (int i = 0; i < set.Count; ++i)
-            HandleToLocation[set.IndexToHandle[i].Value].SetIndex = -1;
+            Locations[set.IndexToHandle[i].Slot].SetIndex = -1;
+        owners.ReleaseAll();
         set.Clear(Pool);
         HandlePool.Clear();
     }
@@ -361,7 +368,8 @@ public sealed unsafe partial class Bodies
     {
         ActiveSet.Dispose(Pool);
         Pool.Return(ref Sets);
-        Pool.Return(ref HandleToLocation);
+        Pool.Return(ref Locations);
+        owners.Dispose(Pool);
         HandlePool.Dispose(Pool);
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -6,7 +7,11 @@ using BepuUtilities.Collections;
 namespace BepuPhysics;
 
 /// <summary>A body, for reading and changing it. Cheap to make; its refs are valid until bodies are added or removed.</summary>
-/// <remarks>Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does.</remarks>
+/// <remarks>
+/// Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does. Everything but
+/// <see cref="Exists"/> throws an <see cref="ArgumentException"/> once the body was removed, and an
+/// <see cref="InvalidOperationException"/> for the default value.
+/// </remarks>
 public struct BodyReference(BodyHandle handle, Bodies bodies)
 {
     /// <summary>Handle of the body.</summary>
@@ -17,26 +22,32 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Whether there still is such a body.</summary>
     public readonly bool Exists => Bodies is not null && Bodies.BodyExists(Handle);
     /// <summary>Where the body is stored.</summary>
-    public readonly ref BodyMemoryLocation MemoryLocation => ref Bodies.HandleToLocation[Handle.Value];
+    public readonly ref BodyMemoryLocation MemoryLocation => ref Owner.GetLocation(Handle);
     /// <summary>Whether the body is simulated.</summary>
     public readonly bool Awake => MemoryLocation.SetIndex == 0;
     /// <summary>Pose and velocity.</summary>
-    public readonly ref MotionState MotionState => ref Set.MotionStates[MemoryLocation.Index];
+    public readonly ref MotionState MotionState => ref Find(out var index).MotionStates[index];
     /// <summary>Where the body is.</summary>
     public readonly ref RigidPose Pose => ref MotionState.Pose;
     /// <summary>How the body moves.</summary>
     public readonly ref BodyVelocity Velocity => ref MotionState.Velocity;
     /// <summary>Inverse mass and inertia in the body's frame. To make the body kinematic or dynamic, use <see cref="SetLocalInertia"/>.</summary>
-    public readonly ref BodyInertia LocalInertia => ref Set.LocalInertias[MemoryLocation.Index];
+    public readonly ref BodyInertia LocalInertia => ref Find(out var index).LocalInertias[index];
     /// <summary>Motion and inertia in one view.</summary>
-    public readonly BodyDynamicsReference Dynamics =>
-        new(ref MotionState, ref LocalInertia, ref Set.WorldInertias[MemoryLocation.Index]);
+    public readonly BodyDynamicsReference Dynamics
+    {
+        get
+        {
+            ref var set = ref Find(out var index);
+            return new(ref set.MotionStates[index], ref set.LocalInertias[index], ref set.WorldInertias[index]);
+        }
+    }
     /// <summary>Shape and collision state.</summary>
-    public readonly ref Collidable Collidable => ref Set.Collidables[MemoryLocation.Index];
+    public readonly ref Collidable Collidable => ref Find(out var index).Collidables[index];
     /// <summary>Progress towards sleep.</summary>
-    public readonly ref BodyActivity Activity => ref Set.Activity[MemoryLocation.Index];
+    public readonly ref BodyActivity Activity => ref Find(out var index).Activity[index];
     /// <summary>Constraints of the body.</summary>
-    public readonly ref QuickList<BodyConstraintReference> Constraints => ref Set.Constraints[MemoryLocation.Index];
+    public readonly ref QuickList<BodyConstraintReference> Constraints => ref Find(out var index).Constraints[index];
     /// <summary>The body as the collision detection names it.</summary>
     public readonly CollidableReference CollidableReference => new(Kinematic ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, Handle);
     /// <summary>Whether nothing moves the body.</summary>
@@ -53,23 +64,31 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         }
     }
 
-    readonly ref BodySet Set => ref Bodies.Sets[MemoryLocation.SetIndex];
+    readonly Bodies Owner => Bodies ?? throw new InvalidOperationException("The default body reference refers to no body.");
+
+    readonly ref BodySet Find(out int index)
+    {
+        ref var location = ref MemoryLocation;
+        index = location.Index;
+        return ref Bodies.Sets[location.SetIndex];
+    }
 
     /// <summary>Makes the body kinematic: it keeps its velocity and nothing pushes it.</summary>
     public readonly void BecomeKinematic() => SetLocalInertia(default);
     /// <summary>Gives the body another inertia.</summary>
-    public readonly void SetLocalInertia(in BodyInertia localInertia) => Bodies.SetLocalInertia(Handle, localInertia);
+    public readonly void SetLocalInertia(in BodyInertia localInertia) => Owner.SetLocalInertia(Handle, localInertia);
     /// <summary>Gives the body another shape.</summary>
-    public readonly void SetShape(TypedIndex shape) => Bodies.SetShape(Handle, shape);
+    public readonly void SetShape(TypedIndex shape) => Owner.SetShape(Handle, shape);
     /// <summary>Describes the body as it is now.</summary>
-    public readonly void GetDescription(out BodyDescription description) => Bodies.GetDescription(Handle, out description);
+    public readonly void GetDescription(out BodyDescription description) => Owner.GetDescription(Handle, out description);
     /// <summary>Makes the body what a description says.</summary>
-    public readonly void ApplyDescription(in BodyDescription description) => Bodies.ApplyDescription(Handle, description);
+    public readonly void ApplyDescription(in BodyDescription description) => Owner.ApplyDescription(Handle, description);
     /// <summary>Moves the bounds of the body in the broad phase to where its pose says.</summary>
-    public readonly void UpdateBounds() => Bodies.UpdateBounds(Handle);
+    public readonly void UpdateBounds() => Owner.UpdateBounds(Handle);
     /// <summary>Pointers to the bounds of the body in the broad phase; valid until collidables are added or removed.</summary>
+    /// <exception cref="InvalidOperationException">The body has no shape, hence no bounds.</exception>
     public readonly unsafe void GetBoundsReferencesFromBroadPhase(out Vector3* min, out Vector3* max) =>
-        Bodies.GetBoundsPointers(MemoryLocation.Index, out min, out max);
+        Owner.GetBoundsPointers(MemoryLocation.Index, out min, out max);
 
     /// <summary>Inverse inertia tensor in world axes.</summary>
     public readonly void ComputeInverseInertia(out Symmetric3x3 inverseInertia) =>
@@ -84,7 +103,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Applies an impulse at a point.</summary>
     /// <param name="impulse">N s, world axes.</param>
     /// <param name="impulseOffset">From the centre of mass, world axes.</param>
-    /// <exception cref="System.ArgumentException">A value is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">A value is not finite; nothing was changed.</exception>
     public readonly void ApplyImpulse(Vector3 impulse, Vector3 impulseOffset)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
@@ -93,7 +112,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     }
 
     /// <summary>Applies an impulse at the centre of mass, N s.</summary>
-    /// <exception cref="System.ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">The impulse is not finite; nothing was changed.</exception>
     public readonly void ApplyLinearImpulse(Vector3 impulse)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
@@ -101,7 +120,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     }
 
     /// <summary>Applies an angular impulse, N m s.</summary>
-    /// <exception cref="System.ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">The impulse is not finite; nothing was changed.</exception>
     public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
     {
         BodyChecks.Vector(angularImpulse, nameof(angularImpulse));

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -41,6 +42,10 @@ public struct StaticDescription(RigidPose pose, TypedIndex shape, ContinuousDete
 }
 
 /// <summary>A static, for reading and changing it. Cheap to make; its refs are valid until statics are added or removed.</summary>
+/// <remarks>
+/// Everything but <see cref="Exists"/> throws an <see cref="ArgumentException"/> once the static was removed, and an
+/// <see cref="InvalidOperationException"/> for the default value.
+/// </remarks>
 public struct StaticReference(StaticHandle handle, Statics statics)
 {
     /// <summary>Handle of the static.</summary>
@@ -51,9 +56,9 @@ public struct StaticReference(StaticHandle handle, Statics statics)
     /// <summary>Whether there still is such a static.</summary>
     public readonly bool Exists => Statics is not null && Statics.StaticExists(Handle);
     /// <summary>Index of the static.</summary>
-    public readonly int Index => Statics.HandleToIndex[Handle.Value];
+    public readonly int Index => Owner.GetIndex(Handle);
     /// <summary>The static in place.</summary>
-    public readonly ref Static Static => ref Statics.GetDirectReference(Handle);
+    public readonly ref Static Static => ref Owner.GetDirectReference(Handle);
     /// <summary>Where it is; call <see cref="UpdateBounds"/> after writing.</summary>
     public readonly ref RigidPose Pose => ref Static.Pose;
     /// <summary>Continuous detection of bodies against it.</summary>
@@ -67,17 +72,19 @@ public struct StaticReference(StaticHandle handle, Statics statics)
     {
         get
         {
-            Statics.GetBoundsPointers(Handle, out var min, out var max);
+            Owner.GetBoundsPointers(Handle, out var min, out var max);
             return new(*min, *max);
         }
     }
 
+    readonly Statics Owner => Statics ?? throw new InvalidOperationException("The default static reference refers to no static.");
+
     /// <summary>Gives the static another shape.</summary>
-    public readonly void SetShape(TypedIndex shape) => Statics.SetShape(Handle, shape);
+    public readonly void SetShape(TypedIndex shape) => Owner.SetShape(Handle, shape);
     /// <summary>Describes the static as it is now.</summary>
-    public readonly void GetDescription(out StaticDescription description) => Statics.GetDescription(Handle, out description);
+    public readonly void GetDescription(out StaticDescription description) => Owner.GetDescription(Handle, out description);
     /// <summary>Makes the static what a description says.</summary>
-    public readonly void ApplyDescription(in StaticDescription description) => Statics.ApplyDescription(Handle, description);
+    public readonly void ApplyDescription(in StaticDescription description) => Owner.ApplyDescription(Handle, description);
     /// <summary>Moves the bounds of the static to where its pose says.</summary>
-    public readonly void UpdateBounds() => Statics.UpdateBounds(Handle);
+    public readonly void UpdateBounds() => Owner.UpdateBounds(Handle);
 }

@@ -3,10 +3,23 @@ using System;
 namespace BepuPhysics;
 
 /// <summary>Name of a static for as long as it exists. Never changes, unlike the place of the static in memory.</summary>
+/// <remarks>
+/// No other static gets the same name later: a handle that outlived its static is refused. This holds for the next 255 statics in the same slot;
+/// after those the value begins anew.
+/// </remarks>
 public struct StaticHandle(int value) : IEquatable<StaticHandle>
 {
-    /// <summary>Value that identifies the static; not negative for a static that exists.</summary>
+    internal const int SlotMask = HandleLayout.SlotMask;
+    internal const int MaximumValue = (1 << HandleLayout.ValueBits) - 1;
+
+    /// <summary>Value that identifies the static, to be stored and compared; not negative for a static that exists. No index: see <see cref="Slot"/>.</summary>
     public int Value = value;
+
+    /// <summary>
+    /// Number that no other static has at the same time, as index into arrays of a game's own. Small: the slot of a static that was removed is the
+    /// first to be given out again.
+    /// </summary>
+    public readonly int Slot => Value & SlotMask;
 
     /// <inheritdoc/>
     public readonly bool Equals(StaticHandle other) => Value == other.Value;
@@ -15,7 +28,7 @@ public struct StaticHandle(int value) : IEquatable<StaticHandle>
     /// <inheritdoc/>
     public override readonly int GetHashCode() => Value;
     /// <inheritdoc/>
-    public override readonly string ToString() => $"static {Value}";
+    public override readonly string ToString() => HandleLayout.Describe("static", Value);
     /// <summary>Whether both name the same static.</summary>
     public static bool operator ==(StaticHandle a, StaticHandle b) => a.Value == b.Value;
     /// <summary>Whether the two name different statics.</summary>

@@ -10,16 +10,18 @@ public sealed partial class Statics
         {
             var handle = IndexToHandle[index];
             Invariant.Require(StaticExists(handle), "handle of the static at index", index);
-            Invariant.Require(HandleToIndex[handle.Value] == index, "index of static", handle.Value);
+            Invariant.Require(Indices[handle.Slot] == index, "index of static", handle.Slot);
             ref var target = ref StaticsBuffer[index];
-            Invariant.Finite(target.Pose.Position, "position of static", handle.Value);
-            Invariant.Finite(target.Pose.Orientation, "orientation of static", handle.Value);
-            Invariant.Require(shapes.Exists(target.Shape), "shape of static", handle.Value);
-            Invariant.Require((uint)target.BroadPhaseIndex < (uint)broadPhase.StaticTree.LeafCount, "leaf of static", handle.Value);
+            Invariant.Finite(target.Pose.Position, "position of static", handle.Slot);
+            Invariant.Finite(target.Pose.Orientation, "orientation of static", handle.Slot);
+            Invariant.Require(shapes.Exists(target.Shape), "shape of static", handle.Slot);
+            Invariant.Require((uint)target.BroadPhaseIndex < (uint)broadPhase.StaticTree.LeafCount, "leaf of static", handle.Slot);
             Invariant.Require(broadPhase.StaticLeaves[target.BroadPhaseIndex] == new Collidables.CollidableReference(handle),
-                "collidable of the leaf of static", handle.Value);
+                "collidable of the leaf of static", handle.Slot);
         }
         Invariant.Require(Count == broadPhase.StaticTree.LeafCount, "number of static leaves, statics have", Count);
-        Invariant.Ids(HandlePool, HandleToIndex.Length, "statics", id => HandleToIndex[id] >= 0);
+        Invariant.Ids(HandlePool, Indices.Length, "statics", id => Indices[id] >= 0);
+        for (int slot = 0; slot < owners.Capacity; ++slot)
+            Invariant.Require(owners.IsTaken(slot) == (slot < Indices.Length && Indices[slot] >= 0), "owner of slot", slot);
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
@@ -12,13 +13,20 @@ public sealed unsafe partial class Statics
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
 
-    /// <summary>Index of each static by handle value; -1 where there is none.</summary>
-    public Buffer<int> HandleToIndex;
+    /// <summary>Greatest number of statics.</summary>
+    public const int MaximumCount = 1 << HandleLayout.SlotBits;
+
+    /// <summary>Index of each static by slot; -1 where there is none.</summary>
+    internal Buffer<int> Indices;
+    HandleOwners owners;
+
+    /// <summary>Index of each static by handle value or slot; -1 where there is none.</summary>
+    public HandleTable<int> HandleToIndex => new(Indices, StaticHandle.SlotMask);
     /// <summary>Handle of each static.</summary>
     public Buffer<StaticHandle> IndexToHandle;
     /// <summary>The statics.</summary>
     public Buffer<Static> StaticsBuffer;
-    /// <summary>Hands out the values of static handles.</summary>
+    /// <summary>Hands out the slots of static handles.</summary>
     public IdPool HandlePool;
     /// <summary>Number of statics.</summary>
     public int Count { get; private set; }
@@ -32,9 +40,8 @@ public sealed unsafe partial class Statics
         HandlePool = new IdPool(initialCapacity, pool);
         pool.Take(initialCapacity, out IndexToHandle);
         pool.Take(initialCapacity, out StaticsBuffer);
-        pool.Take(initialCapacity, out HandleToIndex);
-        for (int i = 0; i < initialCapacity; ++i)
-            HandleToIndex[i] = -1;
+        owners = new HandleOwners(HandleLayout.SlotBits, HandleLayout.ValueBits, initialCapacity, pool);
+        EnsureSlots(initialCapacity);
     }
 
     /// <summary>A static by its handle.</summary>
@@ -42,10 +49,32 @@ public sealed unsafe partial class Statics
     public StaticReference this[StaticHandle handle] => GetStaticReference(handle);
 
     /// <summary>A static by its index.</summary>
-    public ref Static this[int index] => ref StaticsBuffer[index];
+    /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
+    public ref Static this[int index]
+    {
+        get
+        {
+            CheckIndex(index);
+            return ref StaticsBuffer[index];
+        }
+    }
 
     /// <summary>Whether a handle names a static.</summary>
-    public bool StaticExists(StaticHandle handle) => (uint)handle.Value < (uint)HandleToIndex.Length && HandleToIndex[handle.Value] >= 0;
+    public bool StaticExists(StaticHandle handle) => owners.Has(handle.Value, handle.Slot);
+
+    /// <summary>Finds the static that has a slot now, as when walking through an array by slots.</summary>
+    /// <param name="slot">Any number.</param>
+    /// <param name="handle">Handle of the static.</param>
+    /// <returns>Whether there is one.</returns>
+    public bool TryGetHandle(int slot, out StaticHandle handle)
+    {
+        var exists = owners.IsTaken(slot);
+        handle = new(exists ? owners.ValueAt(slot) : -1);
+        return exists;
+    }
+
+    /// <summary>Whether a handle is that of a static that was removed.</summary>
+    internal bool IsStale(StaticHandle handle) => owners.IsStale(handle.Value, handle.Slot);
 
     /// <summary>A static by its handle.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
@@ -60,26 +89,20 @@ public sealed unsafe partial class Statics
     public ref Static GetDirectReference(StaticHandle handle)
     {
         CheckHandle(handle);
-        return ref StaticsBuffer[HandleToIndex[handle.Value]];
+        return ref StaticsBuffer[Indices[handle.Slot]];
     }
 
     /// <summary>Adds a static.</summary>
     /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
     public StaticHandle Add(in StaticDescription description)
     {
         Validate(description);
-        var handle = new StaticHandle(HandlePool.Take());
-        if (handle.Value >= HandleToIndex.Length)
-        {
-            var previous = HandleToIndex.Length;
-            pool.ResizeToAtLeast(ref HandleToIndex, handle.Value + 1, previous);
-            for (int i = previous; i < HandleToIndex.Length; ++i)
-                HandleToIndex[i] = -1;
-        }
-        if (Count == Capacity)
-            EnsureCapacity(Count * 2);
+        MakeRoom();
+        // All memory has been taken: from here on nothing fails.
+        var handle = new StaticHandle(owners.Claim(HandlePool.Take()));
         var index = Count++;
-        HandleToIndex[handle.Value] = index;
+        Indices[handle.Slot] = index;
         IndexToHandle[index] = handle;
         StaticsBuffer[index] = new() { Pose = description.Pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
         AddToBroadPhase(index);
@@ -91,15 +114,14 @@ public sealed unsafe partial class Statics
     public void Remove(StaticHandle handle)
     {
         CheckHandle(handle);
-        RemoveAt(HandleToIndex[handle.Value]);
+        RemoveAt(Indices[handle.Slot]);
     }
 
     /// <summary>Removes a static by its index; the last one takes its place.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
     public void RemoveAt(int index)
     {
-        if ((uint)index >= (uint)Count)
-            throw new ArgumentOutOfRangeException(nameof(index), index, $"There are {Count} statics.");
+        CheckIndex(index);
         RemoveFromBroadPhase(index);
         var handle = IndexToHandle[index];
         var last = --Count;
@@ -107,10 +129,11 @@ public sealed unsafe partial class Statics
         {
             StaticsBuffer[index] = StaticsBuffer[last];
             IndexToHandle[index] = IndexToHandle[last];
-            HandleToIndex[IndexToHandle[index].Value] = index;
+            Indices[IndexToHandle[index].Slot] = index;
         }
-        HandleToIndex[handle.Value] = -1;
-        HandlePool.Return(handle.Value, pool);
+        Indices[handle.Slot] = -1;
+        owners.Release(handle.Slot);
+        HandlePool.Return(handle.Slot, pool);
     }
 
     /// <summary>Gives a static another shape.</summary>
@@ -119,7 +142,7 @@ public sealed unsafe partial class Statics
     {
         CheckHandle(handle);
         shapes.CheckExists(shape, nameof(shape));
-        var index = HandleToIndex[handle.Value];
+        var index = Indices[handle.Slot];
         StaticsBuffer[index].Shape = shape;
         UpdateBoundsAt(index);
     }
@@ -130,7 +153,7 @@ public sealed unsafe partial class Statics
     {
         CheckHandle(handle);
         Validate(description);
-        var index = HandleToIndex[handle.Value];
+        var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
         target.Pose = description.Pose;
         target.Shape = description.Shape;
@@ -159,15 +182,18 @@ public sealed unsafe partial class Statics
     public void UpdateBounds(StaticHandle handle)
     {
         CheckHandle(handle);
-        UpdateBoundsAt(HandleToIndex[handle.Value]);
+        UpdateBoundsAt(Indices[handle.Slot]);
     }
 
     // A pool may lend more than was asked for, and not to both alike.
     int Capacity => Math.Min(StaticsBuffer.Length, IndexToHandle.Length);
 
     /// <summary>Makes room for statics.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than <see cref="MaximumCount"/>; nothing was changed.</exception>
     public void EnsureCapacity(int capacity)
     {
+        ArgumentOutOfRangeException.ThrowIfNegative(capacity);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(capacity, MaximumCount);
         if (capacity <= Capacity)
             return;
         pool.ResizeToAtLeast(ref StaticsBuffer, capacity, Count);
@@ -175,7 +201,7 @@ public sealed unsafe partial class Statics
     }
 
     internal void GetBoundsPointers(StaticHandle handle, out System.Numerics.Vector3* min, out System.Numerics.Vector3* max) =>
-        broadPhase.GetStaticBoundsPointers(StaticsBuffer[HandleToIndex[handle.Value]].BroadPhaseIndex, out min, out max);
+        broadPhase.GetStaticBoundsPointers(StaticsBuffer[GetIndex(handle)].BroadPhaseIndex, out min, out max);
 
     void Validate(in StaticDescription description)
     {
@@ -184,10 +210,58 @@ public sealed unsafe partial class Statics
         shapes.CheckExists(description.Shape, nameof(description.Shape));
     }
 
-    void CheckHandle(StaticHandle handle)
+    /// <summary>Index of a static.</summary>
+    /// <exception cref="ArgumentException">There is no such static.</exception>
+    internal int GetIndex(StaticHandle handle)
+    {
+        CheckHandle(handle);
+        return Indices[handle.Slot];
+    }
+
+    /// <summary>Refuses a handle that is no static's.</summary>
+    /// <exception cref="ArgumentException">There is no such static.</exception>
+    internal void CheckHandle(StaticHandle handle)
     {
         if (!StaticExists(handle))
-            throw new ArgumentException($"There is no {handle}.", nameof(handle));
+            ThrowMissing(handle);
+    }
+
+    [DoesNotReturn]
+    void ThrowMissing(StaticHandle handle) =>
+        throw new ArgumentException(IsStale(handle) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+
+    void CheckIndex(int index)
+    {
+        if ((uint)index >= (uint)Count)
+            throw new ArgumentOutOfRangeException(nameof(index), index, $"There are {Count} statics.");
+    }
+
+    void MakeRoom()
+    {
+        if (HandlePool.AvailableIdCount == 0)
+        {
+            var slot = HandlePool.HighestPossiblyClaimedId + 1;
+            if (slot >= MaximumCount)
+                throw new InvalidOperationException($"There are {MaximumCount} statics, as many as a simulation holds.");
+            EnsureSlots(slot + 1);
+        }
+        if (Count == Capacity)
+            EnsureCapacity(Count * 2);
+        broadPhase.EnsureCapacity(0, broadPhase.StaticTree.LeafCount + 1);
+    }
+
+    // What a removal needs is there from the beginning: it takes no memory.
+    void EnsureSlots(int capacity)
+    {
+        var previous = Indices.Length;
+        if (capacity > previous)
+        {
+            pool.ResizeToAtLeast(ref Indices, capacity, previous);
+            for (int i = previous; i < Indices.Length; ++i)
+                Indices[i] = -1;
+        }
+        owners.EnsureCapacity(Indices.Length, pool);
+        HandlePool.EnsureCapacity(Indices.Length, pool);
     }
 
     void AddToBroadPhase(int index)
@@ -201,7 +275,7 @@ public sealed unsafe partial class Statics
     {
         var leaf = StaticsBuffer[index].BroadPhaseIndex;
         if (broadPhase.RemoveStaticAt(leaf, out var moved))
-            StaticsBuffer[HandleToIndex[moved.StaticHandle.Value]].BroadPhaseIndex = leaf;
+            StaticsBuffer[Indices[moved.StaticHandle.Slot]].BroadPhaseIndex = leaf;
     }
 
     // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew.
@@ -214,14 +288,16 @@ public sealed unsafe partial class Statics
     internal void Clear()
     {
         for (int i = 0; i < Count; ++i)
-            HandleToIndex[IndexToHandle[i].Value] = -1;
+            Indices[IndexToHandle[i].Slot] = -1;
+        owners.ReleaseAll();
         Count = 0;
         HandlePool.Clear();
     }
 
     internal void Dispose()
     {
-        pool.Return(ref HandleToIndex);
+        pool.Return(ref Indices);
+        owners.Dispose(pool);
         pool.Return(ref IndexToHandle);
         pool.Return(ref StaticsBuffer);
         HandlePool.Dispose(pool);

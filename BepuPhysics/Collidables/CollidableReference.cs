@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
 
 namespace BepuPhysics.Collidables;
 
@@ -13,10 +14,12 @@ public struct CollidableReference : IEquatable<CollidableReference>
     /// <summary>Names a body.</summary>
     /// <param name="mobility">Dynamic or kinematic.</param>
     /// <param name="handle">The body.</param>
-    public CollidableReference(CollidableMobility mobility, BodyHandle handle) => Packed = (uint)mobility << MobilityShift | (uint)handle.Value;
+    /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a body can have.</exception>
+    public CollidableReference(CollidableMobility mobility, BodyHandle handle) => Packed = (uint)mobility << MobilityShift | Fitting(handle.Value);
 
     /// <summary>Names a static.</summary>
-    public CollidableReference(StaticHandle handle) => Packed = (uint)CollidableMobility.Static << MobilityShift | (uint)handle.Value;
+    /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a static can have.</exception>
+    public CollidableReference(StaticHandle handle) => Packed = (uint)CollidableMobility.Static << MobilityShift | Fitting(handle.Value);
 
     /// <summary>How the collidable moves.</summary>
     public readonly CollidableMobility Mobility => (CollidableMobility)(Packed >> MobilityShift);
@@ -24,8 +27,24 @@ public struct CollidableReference : IEquatable<CollidableReference>
     public readonly BodyHandle BodyHandle => new(RawHandleValue);
     /// <summary>The static; meaningless for a body.</summary>
     public readonly StaticHandle StaticHandle => new(RawHandleValue);
-    /// <summary>Value of the handle, of whichever kind it is.</summary>
+    /// <summary>Value of the handle, of whichever kind it is. No index: see <see cref="Slot"/>.</summary>
     public readonly int RawHandleValue => (int)(Packed & ((1u << MobilityShift) - 1));
+    /// <summary>Slot of the handle, as index into arrays of a game's own, of which there is one for bodies and one for statics.</summary>
+    public readonly int Slot => (int)Packed & BodyHandle.SlotMask;
+
+    /// <summary>Bits that collidables are put in order by: mobility, then slot. Equal for two of them that never exist at the same time.</summary>
+    internal const uint OrderMask = 3u << MobilityShift | BodyHandle.SlotMask;
+
+    static uint Fitting(int handleValue)
+    {
+        if (handleValue >>> MobilityShift != 0)
+            ThrowUnfitting(handleValue);
+        return (uint)handleValue;
+    }
+
+    [DoesNotReturn]
+    static void ThrowUnfitting(int handleValue) =>
+        throw new ArgumentOutOfRangeException(nameof(handleValue), handleValue, "No body or static has a handle of that value.");
 
     /// <inheritdoc/>
     public readonly bool Equals(CollidableReference other) => Packed == other.Packed;
@@ -34,7 +53,7 @@ public struct CollidableReference : IEquatable<CollidableReference>
     /// <inheritdoc/>
     public override readonly int GetHashCode() => (int)Packed;
     /// <inheritdoc/>
-    public override readonly string ToString() => $"{Mobility} {RawHandleValue}";
+    public override readonly string ToString() => Mobility == CollidableMobility.Static ? StaticHandle.ToString() : $"{Mobility} {BodyHandle}";
     /// <summary>Whether both name the same collidable.</summary>
     public static bool operator ==(CollidableReference a, CollidableReference b) => a.Packed == b.Packed;
     /// <summary>Whether the two name different collidables.</summary>

@@ -32,7 +32,7 @@ unsafe readonly struct ContactConstraint
 
     internal ContactConstraint(Solver solver, ConstraintHandle handle, int contactCount)
     {
-        ref var location = ref solver.HandleToConstraint[handle.Value];
+        ref var location = ref solver.Locations[handle.Slot];
         ref var batch = ref solver.TypeBatchAt(location);
         var processor = solver.Processor(location.TypeId);
         prestep = (float*)Unsafe.AsPointer(ref processor.PrestepFloat(ref batch, location.IndexInTypeBatch, 0));

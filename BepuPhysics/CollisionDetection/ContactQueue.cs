@@ -49,7 +49,7 @@ struct ContactQueue
         update.Handle = constraint;
         update.Manifold = manifold;
         update.Material = material;
-        Prefetch.Read(solver.HandleToConstraint.Memory + constraint.Value);
+        Prefetch.Read(solver.Locations.Memory + constraint.Slot);
         Prefetch.Read(cache.Pairs.Values.Memory + cacheIndex);
         if (added - located > StageLength)
             Locate(solver);

@@ -58,9 +58,12 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         public int Index;
     }
 
+    // By slots alone: whether these were others' before must not change the order.
     struct ByKey : IComparerRef<PairKey>
     {
-        public readonly int Compare(ref PairKey a, ref PairKey b) => a.Key.CompareTo(b.Key);
+        const ulong Ordering = (ulong)CollidableReference.OrderMask << 32 | CollidableReference.OrderMask;
+
+        public readonly int Compare(ref PairKey a, ref PairKey b) => (a.Key & Ordering).CompareTo(b.Key & Ordering);
     }
 
     // Receives the manifolds of one worker's batcher.
@@ -154,8 +157,8 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         var a = pair.A;
         var b = pair.B;
         ref var set = ref Simulation.Bodies.ActiveSet;
-        var handleToLocation = Simulation.Bodies.HandleToLocation;
-        var indexA = handleToLocation[a.RawHandleValue].Index;
+        var locations = Simulation.Bodies.Locations;
+        var indexA = locations[a.Slot].Index;
         ref var collidableA = ref set.Collidables[indexA];
         ref var poseA = ref set.MotionStates[indexA].Pose;
         var margin = collidableA.SpeculativeMargin;
@@ -163,13 +166,13 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         ref var poseB = ref Unsafe.NullRef<RigidPose>();
         if (b.Mobility == CollidableMobility.Static)
         {
-            ref var other = ref Simulation.Statics[Simulation.Statics.HandleToIndex[b.RawHandleValue]];
+            ref var other = ref Simulation.Statics.StaticsBuffer[Simulation.Statics.Indices[b.Slot]];
             shapeB = other.Shape;
             poseB = ref other.Pose;
         }
         else
         {
-            var indexB = handleToLocation[b.RawHandleValue].Index;
+            var indexB = locations[b.Slot].Index;
             shapeB = set.Collidables[indexB].Shape;
             margin += set.Collidables[indexB].SpeculativeMargin;
             poseB = ref set.MotionStates[indexB].Pose;

@@ -23,12 +23,12 @@ public abstract partial class NarrowPhase
             if (!cached.HasConstraint)
                 continue;
             ++contactPairCount;
-            Invariant.Require(solver.ConstraintExists(cached.Constraint), "constraint of pair", i, cached.Constraint.Value);
-            var location = solver.HandleToConstraint[cached.Constraint.Value];
+            Invariant.Require(solver.ConstraintExists(cached.Constraint), "constraint of pair", i, cached.Constraint.Slot);
+            var location = solver.Locations[cached.Constraint.Slot];
             Invariant.Require(location.TypeId == cached.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount,
                 "type of the constraint of pair", i, location.TypeId);
-            var known = pairOfConstraint[cached.Constraint.Value];
-            Invariant.Require(known.A == pair.A && known.B == pair.B, "pair of constraint", cached.Constraint.Value);
+            var known = pairOfConstraint[cached.Constraint.Slot];
+            Invariant.Require(known.A == pair.A && known.B == pair.B, "pair of constraint", cached.Constraint.Slot);
             var processor = solver.Processor(location.TypeId);
             Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2),
                 "number of bodies of the constraint of pair", i);

@@ -37,7 +37,7 @@ public abstract partial class NarrowPhase
     public int PairCount { get; private set; }
 
     /// <summary>The order in which the two collidables of a pair are named in manifolds and constraints, which does not change from step to step.</summary>
-    /// <remarks>Statics come second, then kinematics, then the larger handle.</remarks>
+    /// <remarks>Statics come second, then kinematics, then the larger slot.</remarks>
     /// <param name="a">One collidable.</param>
     /// <param name="b">The other.</param>
     /// <param name="aMobility">How the first collidable of the pair moves.</param>
@@ -54,7 +54,7 @@ public abstract partial class NarrowPhase
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private protected static bool ComesSecond(CollidableReference a, CollidableReference b) =>
-        a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.RawHandleValue > b.RawHandleValue);
+        a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.Slot > b.Slot);
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
@@ -102,9 +102,9 @@ public abstract partial class NarrowPhase
     {
         Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
         var handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
-        if (handle.Value >= pairOfConstraint.Length)
-            Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Value * 2), pairOfConstraint.Length);
-        pairOfConstraint[handle.Value] = pair;
+        if (handle.Slot >= pairOfConstraint.Length)
+            Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Slot * 2), pairOfConstraint.Length);
+        pairOfConstraint[handle.Slot] = pair;
         cached.Constraint = handle;
         cached.ConstraintTypeId = typeId;
         ++PairCount;
@@ -113,7 +113,7 @@ public abstract partial class NarrowPhase
     /// <summary>Forgets the pair of a contact constraint that is removed from outside, as with one of its bodies.</summary>
     internal void Forget(ConstraintHandle handle)
     {
-        var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Value]);
+        var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Slot]);
         if (index >= 0 && Pairs.Pairs.Values[index].HasConstraint && Pairs.Pairs.Values[index].Constraint == handle)
         {
             Pairs.RemoveAt(index, Pool);

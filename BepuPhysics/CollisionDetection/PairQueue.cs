@@ -65,7 +65,7 @@ unsafe struct PairQueue
     {
         if (collidable.Mobility == CollidableMobility.Static)
             return;
-        var index = bodies.HandleToLocation[collidable.RawHandleValue].Index;
+        var index = bodies.Locations[collidable.Slot].Index;
         ref var set = ref bodies.ActiveSet;
         Prefetch.Read(set.MotionStates.Memory + index);
         Prefetch.Read(set.Collidables.Memory + index);

@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
@@ -7,9 +8,9 @@ namespace BepuPhysics;
 /// <summary>A value of a game's own for each body and static, found by handle: friction, team, name of a sound.</summary>
 /// <typeparam name="T">Type of the values.</typeparam>
 /// <remarks>
-/// Two arrays indexed by handle, so that a callback finds a value by one read. They grow only when asked to: allocate or ensure capacity
-/// when a body or static is added, then read and write from any number of threads. A handle that is given out again finds the value of
-/// its predecessor until it is allocated anew.
+/// Two arrays indexed by slot, so that a callback finds a value by one read. They grow only when asked to: allocate or ensure capacity
+/// when a body or static is added, then read and write from any number of threads. A body in the slot of one that was removed finds the value
+/// of its predecessor until it is allocated anew. Handles of what was removed are refused.
 /// </remarks>
 public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
 {
@@ -42,25 +43,29 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
 
     /// <summary>Value of a body.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
+    /// <exception cref="ArgumentException">The body was removed.</exception>
     public ref T this[BodyHandle bodyHandle]
     {
         get
         {
-            if ((uint)bodyHandle.Value >= (uint)bodyData.Length)
-                throw NoValue(nameof(bodyHandle), bodyHandle.Value);
-            return ref bodyData[bodyHandle.Value];
+            CheckNotStale(bodyHandle);
+            if ((uint)bodyHandle.Value > BodyHandle.MaximumValue || (uint)bodyHandle.Slot >= (uint)bodyData.Length)
+                ThrowNoValue(nameof(bodyHandle), bodyHandle.Value);
+            return ref bodyData[bodyHandle.Slot];
         }
     }
 
     /// <summary>Value of a static.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no room for the handle: nothing was allocated for it.</exception>
+    /// <exception cref="ArgumentException">The static was removed.</exception>
     public ref T this[StaticHandle staticHandle]
     {
         get
         {
-            if ((uint)staticHandle.Value >= (uint)staticData.Length)
-                throw NoValue(nameof(staticHandle), staticHandle.Value);
-            return ref staticData[staticHandle.Value];
+            CheckNotStale(staticHandle);
+            if ((uint)staticHandle.Value > StaticHandle.MaximumValue || (uint)staticHandle.Slot >= (uint)staticData.Length)
+                ThrowNoValue(nameof(staticHandle), staticHandle.Value);
+            return ref staticData[staticHandle.Slot];
         }
     }
 
@@ -72,10 +77,22 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
             : ref this[new BodyHandle(collidable.RawHandleValue)];
 
     /// <summary>Makes room for a body's value, sets it to its default and returns it; valid until room is made again.</summary>
-    public ref T Allocate(BodyHandle handle) => ref Allocate(ref bodyData, handle.Value);
+    /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a body can have.</exception>
+    /// <exception cref="ArgumentException">The body was removed.</exception>
+    public ref T Allocate(BodyHandle handle)
+    {
+        CheckNotStale(handle);
+        return ref Allocate(ref bodyData, handle.Value, handle.Slot);
+    }
 
     /// <summary>Makes room for a static's value, sets it to its default and returns it; valid until room is made again.</summary>
-    public ref T Allocate(StaticHandle handle) => ref Allocate(ref staticData, handle.Value);
+    /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a static can have.</exception>
+    /// <exception cref="ArgumentException">The static was removed.</exception>
+    public ref T Allocate(StaticHandle handle)
+    {
+        CheckNotStale(handle);
+        return ref Allocate(ref staticData, handle.Value, handle.Slot);
+    }
 
     /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
     public ref T Allocate(CollidableReference collidable) =>
@@ -83,14 +100,14 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
             ? ref Allocate(new StaticHandle(collidable.RawHandleValue))
             : ref Allocate(new BodyHandle(collidable.RawHandleValue));
 
-    /// <summary>Makes room for the bodies whose handle values are below a number.</summary>
+    /// <summary>Makes room for the bodies whose slots are below a number.</summary>
     public void EnsureBodyCapacity(int capacity)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(capacity);
         Resize(ref bodyData, Math.Max(capacity, bodyData.Length));
     }
 
-    /// <summary>Makes room for the statics whose handle values are below a number.</summary>
+    /// <summary>Makes room for the statics whose slots are below a number.</summary>
     public void EnsureStaticCapacity(int capacity)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(capacity);
@@ -114,12 +131,13 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
 
     Simulation CheckedSimulation => simulation ?? throw new InvalidOperationException("Call Initialize first: the properties belong to no simulation yet.");
 
-    ref T Allocate(ref Buffer<T> data, int handle)
+    ref T Allocate(ref Buffer<T> data, int handle, int slot)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(handle);
-        if (handle >= data.Length)
-            Resize(ref data, Math.Max(handle + 1, (int)Math.Min(data.Length * 2L, int.MaxValue)));
-        ref var value = ref data[handle];
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(handle, BodyHandle.MaximumValue);
+        if (slot >= data.Length)
+            Resize(ref data, Math.Max(slot + 1, (int)Math.Min(data.Length * 2L, int.MaxValue)));
+        ref var value = ref data[slot];
         value = default;
         return ref value;
     }
@@ -136,6 +154,19 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
         data.Clear(kept, data.Length - kept);
     }
 
-    static ArgumentOutOfRangeException NoValue(string name, int handle) =>
-        new(name, handle, "Nothing was allocated for this handle.");
+    void CheckNotStale(BodyHandle handle)
+    {
+        if (simulation is not null && simulation.Bodies.IsStale(handle))
+            simulation.Bodies.CheckHandle(handle);
+    }
+
+    void CheckNotStale(StaticHandle handle)
+    {
+        if (simulation is not null && simulation.Statics.IsStale(handle))
+            simulation.Statics.CheckHandle(handle);
+    }
+
+    [DoesNotReturn]
+    static void ThrowNoValue(string name, int handle) =>
+        throw new ArgumentOutOfRangeException(name, handle, "Nothing was allocated for this handle.");
 }

@@ -25,7 +25,7 @@ public struct ConstraintBatch
 {
     /// <summary>The constraints, by type.</summary>
     public QuickList<TypeBatch> TypeBatches;
-    /// <summary>Handles of the dynamic bodies that occur in the batch; not kept for the fallback batch.</summary>
+    /// <summary>Slots of the dynamic bodies that occur in the batch; not kept for the fallback batch.</summary>
     public IndexSet DynamicBodies;
 
     /// <summary>Number of constraints of all types.</summary>

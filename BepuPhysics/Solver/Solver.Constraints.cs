@@ -45,7 +45,7 @@ public sealed unsafe partial class Solver
         Register<TDescription>();
         TDescription.Validate(description);
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
-        WriteDescription(HandleToConstraint[handle.Value], description);
+        WriteDescription(Locations[handle.Slot], description);
         return handle;
     }
 
@@ -54,7 +54,7 @@ public sealed unsafe partial class Solver
     public void Remove(ConstraintHandle handle)
     {
         CheckHandle(handle);
-        if (HandleToConstraint[handle.Value].TypeId < ConstraintTypeIds.ContactTypeCount)
+        if (Locations[handle.Slot].TypeId < ConstraintTypeIds.ContactTypeCount)
             contactRemoved(handle);
         RemoveWithoutNotice(handle);
     }
@@ -63,9 +63,10 @@ public sealed unsafe partial class Solver
     internal void RemoveWithoutNotice(ConstraintHandle handle)
     {
         RemoveFromBodies(handle);
-        RemoveFromBatch(HandleToConstraint[handle.Value]);
-        HandleToConstraint[handle.Value].SetIndex = -1;
-        HandlePool.Return(handle.Value, pool);
+        RemoveFromBatch(Locations[handle.Slot]);
+        Locations[handle.Slot].SetIndex = -1;
+        owners.Release(handle.Slot);
+        HandlePool.Return(handle.Slot, pool);
     }
 
     /// <summary>Changes the description of a constraint; its accumulated impulses stay.</summary>
@@ -80,7 +81,7 @@ public sealed unsafe partial class Solver
     {
         CheckType<TDescription>(handle);
         TDescription.Validate(description);
-        WriteDescription(HandleToConstraint[handle.Value], description);
+        WriteDescription(Locations[handle.Slot], description);
     }
 
     /// <summary>Reads the description of a constraint.</summary>
@@ -89,7 +90,7 @@ public sealed unsafe partial class Solver
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         CheckType<TDescription>(handle);
-        ref var location = ref HandleToConstraint[handle.Value];
+        ref var location = ref Locations[handle.Slot];
         ref var batch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
         Unsafe.SkipInit(out description);
@@ -103,7 +104,7 @@ public sealed unsafe partial class Solver
     public void EnumerateAccumulatedImpulses<TEnumerator>(ConstraintHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<float>
     {
         CheckHandle(handle);
-        ref var location = ref HandleToConstraint[handle.Value];
+        ref var location = ref Locations[handle.Slot];
         ref var batch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
         for (int i = 0; i < processor.ImpulseFloats; ++i)
@@ -130,7 +131,7 @@ public sealed unsafe partial class Solver
 
     internal void EnumerateOtherBodies<TEnumerator>(in BodyConstraintReference constraint, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
     {
-        ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+        ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
         var processor = Processor(location.TypeId);
         for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
         {
@@ -144,15 +145,15 @@ public sealed unsafe partial class Solver
     /// <summary>Adds a constraint of a registered type; the caller writes its description.</summary>
     internal ConstraintHandle AddUnwritten(ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
     {
-        var handle = new ConstraintHandle(HandlePool.Take());
-        if (handle.Value >= HandleToConstraint.Length)
+        if (HandlePool.AvailableIdCount == 0)
         {
-            var previous = HandleToConstraint.Length;
-            pool.ResizeToAtLeast(ref HandleToConstraint, handle.Value + 1, previous);
-            for (int i = previous; i < HandleToConstraint.Length; ++i)
-                HandleToConstraint[i].SetIndex = -1;
+            var slot = HandlePool.HighestPossiblyClaimedId + 1;
+            if (slot >= MaximumCount)
+                throw new InvalidOperationException($"There are {MaximumCount} constraints, as many as a simulation holds.");
+            EnsureSlots(slot + 1);
         }
-        HandleToConstraint[handle.Value] = Allocate(handle, bodyHandles, typeId);
+        var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
+        Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
         if (Processor(typeId).CarriesPointLoad)
             bodies.ActiveSet.EnsureStiffness(pool);
         for (int i = 0; i < bodyHandles.Length; ++i)
@@ -167,11 +168,11 @@ public sealed unsafe partial class Solver
         int dynamicCount = 0;
         for (int i = 0; i < bodyHandles.Length; ++i)
         {
-            var bodyIndex = bodies.HandleToLocation[bodyHandles[i].Value].Index;
+            var bodyIndex = bodies.Locations[bodyHandles[i].Slot].Index;
             var kinematic = Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]);
             encoded[i] = kinematic ? bodyIndex | EncodedBody.KinematicFlag : bodyIndex;
             if (!kinematic)
-                dynamics[dynamicCount++] = bodyHandles[i].Value;
+                dynamics[dynamicCount++] = bodyHandles[i].Slot;
         }
         var batchIndex = FindBatch(dynamics[..dynamicCount]);
         ref var batch = ref ActiveSet.Batches[batchIndex];
@@ -217,18 +218,18 @@ public sealed unsafe partial class Solver
             {
                 var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
                 if ((reference & EncodedBody.KinematicFlag) == 0)
-                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference].Value);
+                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference].Slot);
             }
         }
         var index = location.IndexInTypeBatch;
         var moved = processor.Remove(ref typeBatch, index);
         if (moved.Value >= 0)
-            HandleToConstraint[moved.Value].IndexInTypeBatch = index;
+            Locations[moved.Slot].IndexInTypeBatch = index;
     }
 
     void RemoveFromBodies(ConstraintHandle handle)
     {
-        ref var location = ref HandleToConstraint[handle.Value];
+        ref var location = ref Locations[handle.Slot];
         ref var typeBatch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
         for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
@@ -244,13 +245,13 @@ public sealed unsafe partial class Solver
     /// </summary>
     internal void Recolor(BodyHandle body)
     {
-        ref var constraints = ref bodies.ActiveSet.Constraints[bodies.HandleToLocation[body.Value].Index];
+        ref var constraints = ref bodies.ActiveSet.Constraints[bodies.Locations[body.Slot].Index];
         Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
         for (int i = constraints.Count - 1; i >= 0; --i)
         {
             var handle = constraints[i].ConnectingConstraintHandle;
-            var old = HandleToConstraint[handle.Value];
+            var old = Locations[handle.Slot];
             var processor = Processor(old.TypeId);
             ref var typeBatch = ref TypeBatchAt(old);
             bool anyDynamic = false;
@@ -268,7 +269,7 @@ public sealed unsafe partial class Solver
             processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
             RemoveFromBatch(old);
             var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
-            HandleToConstraint[handle.Value] = location;
+            Locations[handle.Slot] = location;
             processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
         }
     }
@@ -280,7 +281,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < constraints.Count; ++i)
         {
             ref var constraint = ref constraints[i];
-            ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+            ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
             ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
                 constraint.BodyIndexInConstraint);
             reference = reference & ~EncodedBody.IndexMask | newIndex;
@@ -299,7 +300,7 @@ public sealed unsafe partial class Solver
     void CheckType<TDescription>(ConstraintHandle handle) where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         CheckHandle(handle);
-        if (HandleToConstraint[handle.Value].TypeId != TDescription.ConstraintTypeId || !IsRegistered<TDescription>())
+        if (Locations[handle.Slot].TypeId != TDescription.ConstraintTypeId || !IsRegistered<TDescription>())
             throw new ArgumentException($"{handle} is no {typeof(TDescription).Name}.", nameof(handle));
     }
 
@@ -309,7 +310,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < handles.Length; ++i)
         {
             bodies.CheckHandle(handles[i]);
-            anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodies.HandleToLocation[handles[i].Value].Index]);
+            anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodies.Locations[handles[i].Slot].Index]);
             for (int j = 0; j < i; ++j)
             {
                 if (handles[i] == handles[j])

@@ -8,7 +8,7 @@ public sealed partial class Solver
     /// <summary>Whether a constraint has, in the slot that a body's list names, the body at an index of the active set.</summary>
     internal bool IsBodyOf(in BodyConstraintReference constraint, int bodyIndex)
     {
-        ref var location = ref HandleToConstraint[constraint.ConnectingConstraintHandle.Value];
+        ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
         var processor = Processor(location.TypeId);
         return (uint)constraint.BodyIndexInConstraint < (uint)processor.BodiesPerConstraint &&
             (processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint) &
@@ -30,13 +30,15 @@ public sealed partial class Solver
         for (int i = 0; i < bodies.ActiveSet.Count; ++i)
             listedCount += bodies.ActiveSet.Constraints[i].Count;
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
-        Invariant.Ids(HandlePool, HandleToConstraint.Length, "constraints", id => HandleToConstraint[id].SetIndex >= 0);
+        Invariant.Ids(HandlePool, Locations.Length, "constraints", id => Locations[id].SetIndex >= 0);
+        for (int slot = 0; slot < owners.Capacity; ++slot)
+            Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);
     }
 
     void ValidateBatch(int setIndex, int batchIndex, ref int referenceCount)
     {
         ref var batch = ref Sets[setIndex].Batches[batchIndex];
-        // Handles of dynamic bodies that were found; managed memory, so that a failure leaves no pool with a debt.
+        // Slots of dynamic bodies that were found; managed memory, so that a failure leaves no pool with a debt.
         var found = new bool[bodies.HandlePool.HighestPossiblyClaimedId + 1];
         for (int typeBatchIndex = 0; typeBatchIndex < batch.TypeBatches.Count; ++typeBatchIndex)
         {
@@ -77,36 +79,36 @@ public sealed partial class Solver
     {
         var handle = typeBatch.IndexToHandle[location.IndexInTypeBatch];
         Invariant.Require(ConstraintExists(handle), "handle of a constraint of type", location.TypeId, location.IndexInTypeBatch);
-        ref var known = ref HandleToConstraint[handle.Value];
+        ref var known = ref Locations[handle.Slot];
         Invariant.Require(
             known.SetIndex == location.SetIndex && known.BatchIndex == location.BatchIndex && known.TypeBatchIndex == location.TypeBatchIndex &&
-            known.IndexInTypeBatch == location.IndexInTypeBatch && known.TypeId == location.TypeId, "location of constraint", handle.Value);
+            known.IndexInTypeBatch == location.IndexInTypeBatch && known.TypeId == location.TypeId, "location of constraint", handle.Slot);
         var processor = Processor(location.TypeId);
         bool anyDynamic = false;
         for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
         {
             var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
             var bodyIndex = reference & EncodedBody.IndexMask;
-            Invariant.Require(reference >= 0 && bodyIndex < bodies.ActiveSet.Count, "body of constraint", handle.Value, slot);
+            Invariant.Require(reference >= 0 && bodyIndex < bodies.ActiveSet.Count, "body of constraint", handle.Slot, slot);
             var kinematic = (reference & EncodedBody.KinematicFlag) != 0;
-            Invariant.Require(kinematic == Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]), "kinematic flag of constraint", handle.Value, slot);
-            Invariant.Require(IsListed(bodyIndex, handle, slot), "list of the body of constraint", handle.Value, slot);
+            Invariant.Require(kinematic == Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]), "kinematic flag of constraint", handle.Slot, slot);
+            Invariant.Require(IsListed(bodyIndex, handle, slot), "list of the body of constraint", handle.Slot, slot);
             for (int other = 0; other < slot; ++other)
             {
                 var otherReference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, other);
-                Invariant.Require((otherReference & EncodedBody.IndexMask) != bodyIndex, "second mention of a body by constraint", handle.Value, slot);
+                Invariant.Require((otherReference & EncodedBody.IndexMask) != bodyIndex, "second mention of a body by constraint", handle.Slot, slot);
             }
             if (kinematic)
                 continue;
             anyDynamic = true;
-            ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Value];
+            ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Slot];
             Invariant.Require(!isFound || location.BatchIndex == FallbackBatchThreshold,
-                "second constraint in its batch of the body of constraint", handle.Value, slot);
+                "second constraint in its batch of the body of constraint", handle.Slot, slot);
             isFound = true;
         }
-        Invariant.Require(anyDynamic, "constraint without dynamic bodies", handle.Value);
+        Invariant.Require(anyDynamic, "constraint without dynamic bodies", handle.Slot);
         for (int i = 0; i < processor.ImpulseFloats; ++i)
-            Invariant.Require(float.IsFinite(processor.Impulse(ref typeBatch, location.IndexInTypeBatch, i)), "impulse of constraint", handle.Value, i);
+            Invariant.Require(float.IsFinite(processor.Impulse(ref typeBatch, location.IndexInTypeBatch, i)), "impulse of constraint", handle.Slot, i);
     }
 
     bool IsListed(int bodyIndex, ConstraintHandle handle, int slot)

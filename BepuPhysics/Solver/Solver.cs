@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
@@ -34,9 +35,16 @@ public sealed unsafe partial class Solver
 
     /// <summary>Sets of constraints; set 0 is the active one.</summary>
     public Buffer<ConstraintSet> Sets;
-    /// <summary>Location of each constraint by handle value.</summary>
-    public Buffer<ConstraintLocation> HandleToConstraint;
-    /// <summary>Hands out the values of constraint handles.</summary>
+    /// <summary>Greatest number of constraints, contacts included.</summary>
+    public const int MaximumCount = 1 << ConstraintHandle.SlotBits;
+
+    /// <summary>Location of each constraint by slot.</summary>
+    internal Buffer<ConstraintLocation> Locations;
+    HandleOwners owners;
+
+    /// <summary>Location of each constraint by handle value or slot.</summary>
+    public HandleTable<ConstraintLocation> HandleToConstraint => new(Locations, ConstraintHandle.SlotMask);
+    /// <summary>Hands out the slots of constraint handles.</summary>
     public IdPool HandlePool;
     /// <summary>Processor of each constraint type by id; null where the type is not registered.</summary>
     public IReadOnlyList<TypeProcessor?> TypeProcessors => processors;
@@ -100,10 +108,10 @@ public sealed unsafe partial class Solver
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(1, out Sets);
         Sets[0] = new ConstraintSet { Batches = new QuickList<ConstraintBatch>(16, pool) };
-        pool.Take(Math.Max(16, initialCapacity), out HandleToConstraint);
-        for (int i = 0; i < HandleToConstraint.Length; ++i)
-            HandleToConstraint[i].SetIndex = -1;
-        HandlePool = new IdPool(Math.Max(16, initialCapacity), pool);
+        initialCapacity = Math.Max(16, initialCapacity);
+        HandlePool = new IdPool(initialCapacity, pool);
+        owners = new HandleOwners(ConstraintHandle.SlotBits, ConstraintHandle.ValueBits, initialCapacity, pool);
+        EnsureSlots(initialCapacity);
     }
 
     /// <summary>Chooses who is told when a contact constraint is removed by anyone but the narrow phase.</summary>
@@ -119,15 +127,14 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>Whether a handle names a constraint.</summary>
-    public bool ConstraintExists(ConstraintHandle handle) =>
-        (uint)handle.Value < (uint)HandleToConstraint.Length && HandleToConstraint[handle.Value].SetIndex >= 0;
+    public bool ConstraintExists(ConstraintHandle handle) => owners.Has(handle.Value, handle.Slot);
 
     /// <summary>Where a constraint is; valid until constraints are added or removed.</summary>
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public ConstraintReference GetConstraintReference(ConstraintHandle handle)
     {
         CheckHandle(handle);
-        ref var location = ref HandleToConstraint[handle.Value];
+        ref var location = ref Locations[handle.Slot];
         return new((TypeBatch*)Unsafe.AsPointer(ref TypeBatchAt(location)), location.IndexInTypeBatch);
     }
 
@@ -139,7 +146,25 @@ public sealed unsafe partial class Solver
     void CheckHandle(ConstraintHandle handle)
     {
         if (!ConstraintExists(handle))
-            throw new ArgumentException($"There is no {handle}.", nameof(handle));
+            ThrowMissing(handle);
+    }
+
+    [DoesNotReturn]
+    void ThrowMissing(ConstraintHandle handle) => throw new ArgumentException(
+        owners.IsStale(handle.Value, handle.Slot) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+
+    // What a removal needs is there from the beginning: it takes no memory.
+    void EnsureSlots(int capacity)
+    {
+        var previous = Locations.Length;
+        if (capacity > previous)
+        {
+            pool.ResizeToAtLeast(ref Locations, capacity, previous);
+            for (int i = previous; i < Locations.Length; ++i)
+                Locations[i].SetIndex = -1;
+        }
+        owners.EnsureCapacity(Locations.Length, pool);
+        HandlePool.EnsureCapacity(Locations.Length, pool);
     }
 
     internal void Clear()
@@ -151,8 +176,9 @@ public sealed unsafe partial class Solver
                 DisposeBatch(ref batches[j]);
             batches.Count = 0;
         }
-        for (int i = 0; i < HandleToConstraint.Length; ++i)
-            HandleToConstraint[i].SetIndex = -1;
+        for (int i = 0; i < Locations.Length; ++i)
+            Locations[i].SetIndex = -1;
+        owners.ReleaseAll();
         HandlePool.Clear();
         previousSubstepDt = 0;
         steadySubstepDt = 0;
@@ -174,7 +200,8 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < Sets.Length; ++i)
             Sets[i].Batches.Dispose(pool);
         pool.Return(ref Sets);
-        pool.Return(ref HandleToConstraint);
+        pool.Return(ref Locations);
+        owners.Dispose(pool);
         HandlePool.Dispose(pool);
     }
 }

@@ -127,7 +127,7 @@ struct IceCallbacks : INarrowPhaseCallbacks
         int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        var onIce = pair.B.Mobility == CollidableMobility.Static && pair.B.StaticHandle.Value == Ice.Value;
+        var onIce = pair.B.Mobility == CollidableMobility.Static && pair.B.StaticHandle == Ice;
         pairMaterial = new PairMaterialProperties(onIce ? 0 : 0.5f, 2, SpringSettings.Rigid);
         return true;
     }

@@ -27,10 +27,9 @@ sealed class BuiltScene
         this.joints = joints;
         var found = new List<BodyHandle>();
         int highest = simulation.Bodies.HandlePool.HighestPossiblyClaimedId;
-        for (int value = 0; value <= highest; ++value)
+        for (int slot = 0; slot <= highest; ++slot)
         {
-            var handle = new BodyHandle(value);
-            if (simulation.Bodies.BodyExists(handle))
+            if (simulation.Bodies.TryGetHandle(slot, out BodyHandle handle))
                 found.Add(handle);
         }
         handles = [.. found];

@@ -48,8 +48,8 @@ struct SceneNarrowPhaseCallbacks(ContactRecorder recorder, PairMaterialPropertie
     static bool MayCollide(int groupA, int groupB) => groupA >= 0 && groupB >= 0 && (groupA == 0 || groupA != groupB);
 
     readonly int GroupOf(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static
-        ? recorder.StaticGroups[collidable.StaticHandle.Value]
-        : recorder.BodyGroups[collidable.BodyHandle.Value];
+        ? recorder.StaticGroups[collidable.Slot]
+        : recorder.BodyGroups[collidable.Slot];
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     readonly void Record<TManifold>(int workerIndex, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>

@@ -24,7 +24,7 @@ unsafe readonly ref struct ContactRows
 
     internal ContactRows(Solver solver, Bodies bodies, ConstraintHandle constraint, int contactCount)
     {
-        ref var location = ref solver.HandleToConstraint[constraint.Value];
+        ref var location = ref solver.Locations[constraint.Slot];
         batch = ref solver.TypeBatchAt(location);
         processor = solver.Processor(location.TypeId);
         index = location.IndexInTypeBatch;

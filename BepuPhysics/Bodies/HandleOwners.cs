@@ -1,0 +1,81 @@
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Which handle each slot belongs to, so that the handles of those that had it before are known.</summary>
+/// <remarks>
+/// The bits of a value above the slot begin with zero and count how often the slot was given up, until they overflow and begin with zero again.
+/// </remarks>
+struct HandleOwners
+{
+    readonly int slotBits;
+    readonly int valueMask;
+    // Value of the handle that has the slot; of a free slot the complement of the value that comes next, which equals no value.
+    Buffer<int> values;
+
+    internal HandleOwners(int slotBits, int valueBits, int capacity, BufferPool pool)
+    {
+        this.slotBits = slotBits;
+        valueMask = (int)((1u << valueBits) - 1);
+        EnsureCapacity(capacity, pool);
+    }
+
+    /// <summary>Number of slots that are known.</summary>
+    internal readonly int Capacity => values.Length;
+
+    /// <summary>Whether a value is that of a handle that has its slot now. Any value may be asked.</summary>
+    /// <param name="value">Value of a handle.</param>
+    /// <param name="slot">Its slot.</param>
+    internal readonly bool Has(int value, int slot) => (uint)slot < (uint)values.Length && values[slot] == value;
+
+    /// <summary>Whether a value is that of a handle that had its slot before. False for those that have it, or never had.</summary>
+    internal readonly bool IsStale(int value, int slot) => (uint)slot < (uint)values.Length && values[slot] != value && values[slot] != ~value;
+
+    /// <summary>Whether a slot is taken.</summary>
+    internal readonly bool IsTaken(int slot) => (uint)slot < (uint)values.Length && values[slot] >= 0;
+
+    /// <summary>Value of the handle that has a slot, which is taken.</summary>
+    internal readonly int ValueAt(int slot)
+    {
+        Check.That(IsTaken(slot));
+        return values[slot];
+    }
+
+    /// <summary>Gives a free slot to a new handle and returns its value.</summary>
+    internal readonly int Claim(int slot)
+    {
+        Check.That(!IsTaken(slot));
+        return values[slot] = ~values[slot];
+    }
+
+    /// <summary>Makes a slot free; from now on its handle is stale.</summary>
+    internal readonly void Release(int slot)
+    {
+        Check.That(IsTaken(slot));
+        values[slot] = ~(int)(((uint)values[slot] + (1u << slotBits)) & (uint)valueMask);
+    }
+
+    /// <summary>Makes all slots free.</summary>
+    internal readonly void ReleaseAll()
+    {
+        for (int slot = 0; slot < values.Length; ++slot)
+        {
+            if (values[slot] >= 0)
+                Release(slot);
+        }
+    }
+
+    /// <summary>Makes room for a number of slots.</summary>
+    internal void EnsureCapacity(int capacity, BufferPool pool)
+    {
+        if (capacity <= values.Length)
+            return;
+        var previous = values.Length;
+        pool.ResizeToAtLeast(ref values, capacity, previous);
+        for (int slot = previous; slot < values.Length; ++slot)
+            values[slot] = ~slot;
+    }
+
+    internal void Dispose(BufferPool pool) => pool.Return(ref values);
+}
