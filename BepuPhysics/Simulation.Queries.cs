@@ -25,14 +25,14 @@ public sealed partial class Simulation
     public void RayCast<THitHandler>(
         Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref THitHandler hitHandler, int id = 0) where THitHandler : IRayHitHandler
     {
-        ObjectDisposedException.ThrowIf(disposed, this);
+        using var reading = world.Read("Simulation.RayCast");
         BodyChecks.Position(origin, nameof(origin));
         BodyChecks.Vector(direction, nameof(direction));
         if (!(maximumT >= 0))
             throw new ArgumentOutOfRangeException(nameof(maximumT), maximumT, "The length of a ray must be zero or more.");
         ArgumentNullException.ThrowIfNull(pool);
         var tester = new CollidableRayTester<THitHandler> { Simulation = this, Hits = new() { Handler = hitHandler } };
-        BroadPhase.RayCast(origin, direction, maximumT, pool, ref tester, id);
+        BroadPhase.CastRay(origin, direction, maximumT, pool, ref tester, id);
         hitHandler = tester.Hits.Handler;
     }
 

@@ -16,8 +16,8 @@ public sealed partial class Simulation
     /// <exception cref="ArgumentOutOfRangeException">The time is not finite or not above 0.</exception>
     public void Timestep(float dt, IThreadDispatcher? threadDispatcher = null)
     {
-        ObjectDisposedException.ThrowIf(disposed, this);
         CheckDt(dt);
+        using var step = world.Step("Simulation.Timestep");
         using (Profiler.Time(this))
             Timestepper.Timestep(this, dt, threadDispatcher);
     }
@@ -26,6 +26,8 @@ public sealed partial class Simulation
     public void PredictBoundingBoxes(float dt, IThreadDispatcher? threadDispatcher = null)
     {
         CheckDt(dt);
+        using var stage = world.Stage(operation: "Simulation.PredictBoundingBoxes");
+        Shapes.CheckAlive();
         using var timer = Profiler.Time(PoseIntegrator);
         PoseIntegrator.Prepare(dt);
         var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
@@ -36,8 +38,10 @@ public sealed partial class Simulation
     public void CollisionDetection(float dt, IThreadDispatcher? threadDispatcher = null)
     {
         CheckDt(dt);
+        using var stage = world.Stage(allowsQueries: true, "Simulation.CollisionDetection");
+        Shapes.CheckAlive();
         using (Profiler.Time(BroadPhase))
-            BroadPhase.Update(threadDispatcher);
+            BroadPhase.UpdateTrees();
         using (Profiler.Time(NarrowPhase))
             NarrowPhase.FindContacts(dt, threadDispatcher);
         using (Profiler.Time(SimulationProfiler.Flush))
@@ -48,6 +52,7 @@ public sealed partial class Simulation
     public void Solve(float dt, IThreadDispatcher? threadDispatcher = null)
     {
         CheckDt(dt);
+        using var stage = world.Stage(operation: "Simulation.Solve");
         using var timer = Profiler.Time(Solver);
         Solver.Step(dt, PoseIntegrator, threadDispatcher);
     }

@@ -16,7 +16,7 @@ public sealed partial class Simulation
     /// <exception cref="PhysicsInvariantException">Something does not hold; the message says what and where.</exception>
     public void Validate()
     {
-        ObjectDisposedException.ThrowIf(disposed, this);
+        using var reading = world.Read("Simulation.Validate");
         BroadPhase.Validate();
         Bodies.Validate();
         Statics.Validate();
@@ -28,7 +28,7 @@ public sealed partial class Simulation
     /// <remarks>Equal on all machines, for any number of threads and any width of vectors, after the same calls on the same build.</remarks>
     public ulong StateHash()
     {
-        ObjectDisposedException.ThrowIf(disposed, this);
+        using var reading = world.Read("Simulation.StateHash");
         StateHash hash = default;
         Span<float> numbers = stackalloc float[13];
         for (int slot = 0; slot <= Bodies.HandlePool.HighestPossiblyClaimedId; ++slot)

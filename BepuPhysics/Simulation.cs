@@ -7,13 +7,17 @@ namespace BepuPhysics;
 
 /// <summary>A world of rigid bodies.</summary>
 /// <remarks>
-/// Not thread safe: one thread at a time adds, removes, reads and steps. A step uses the threads of the dispatcher that it is given.
+/// One thread at a time adds, removes, writes and steps; any number may ask queries while none does. What comes at the wrong time, from another thread
+/// or from a callback, is refused by an <see cref="InvalidOperationException"/>. A step uses the threads of the dispatcher that it is given.
 /// The same calls give the same bits whatever the number of threads, the width of vectors and the CPU.
 /// </remarks>
-public sealed partial class Simulation : IDisposable
+public sealed partial class Simulation : IDisposable, IBufferPoolUser
 {
-    bool ownsShapes;
-    bool disposed;
+    readonly WorldLock world = new();
+    readonly bool ownsShapes;
+
+    /// <summary>Who may do what now.</summary>
+    internal WorldLock World => world;
 
     /// <summary>All bodies.</summary>
     public Bodies Bodies { get; }
@@ -47,14 +51,16 @@ public sealed partial class Simulation : IDisposable
         Timestepper = timestepper;
         ownsShapes = shapes is null;
         Shapes = shapes ?? new Shapes(bufferPool, sizes.ShapesPerType);
-        BroadPhase = new BroadPhase(bufferPool, Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics));
-        Bodies = new Bodies(bufferPool, sizes.Bodies);
-        Statics = new Statics(bufferPool, BroadPhase, Shapes, sizes.Statics);
-        Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints)
+        Shapes.Attach(world);
+        BroadPhase = new BroadPhase(bufferPool, Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics), world);
+        Bodies = new Bodies(bufferPool, sizes.Bodies, world);
+        Statics = new Statics(bufferPool, BroadPhase, Shapes, sizes.Statics, world);
+        Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
             { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
         Bodies.Connect(Solver, BroadPhase, Shapes);
         DefaultTypes.RegisterDefaults(Solver);
+        bufferPool.AddUser(this);
     }
 
     /// <summary>Creates a simulation.</summary>
@@ -78,49 +84,110 @@ public sealed partial class Simulation : IDisposable
         var simulation = new Simulation(
             bufferPool, new PoseIntegrator<TPoseIntegratorCallbacks>(poseIntegratorCallbacks), solveDescription,
             timestepper ?? new DefaultTimestepper(), sizes, shapes);
-        simulation.NarrowPhase = new NarrowPhase<TNarrowPhaseCallbacks>(
-            simulation, narrowPhaseCallbacks, DefaultTypes.CreateDefaultCollisionTaskRegistry(), sizes.Constraints / 4);
-        simulation.Solver.OnContactRemoved(simulation.NarrowPhase.Forget);
-        simulation.PoseIntegrator.Initialize(simulation);
-        simulation.NarrowPhase.Initialize();
+        try
+        {
+            simulation.Initialize(narrowPhaseCallbacks, sizes.Constraints / 4);
+        }
+        catch
+        {
+            // The callbacks are the game's and may throw.
+            simulation.ReturnMemory();
+            throw;
+        }
         return simulation;
     }
 
+    void Initialize<TNarrowPhaseCallbacks>(in TNarrowPhaseCallbacks narrowPhaseCallbacks, int initialPairCapacity)
+        where TNarrowPhaseCallbacks : struct, INarrowPhaseCallbacks
+    {
+        NarrowPhase = new NarrowPhase<TNarrowPhaseCallbacks>(
+            this, narrowPhaseCallbacks, DefaultTypes.CreateDefaultCollisionTaskRegistry(), initialPairCapacity);
+        Solver.OnContactRemoved(NarrowPhase.Forget);
+        PoseIntegrator.Initialize(this);
+        NarrowPhase.Initialize();
+    }
+
     /// <summary>Removes all bodies, statics and constraints, and the shapes unless they are shared.</summary>
+    /// <exception cref="InvalidOperationException">A stage or a query is in progress, or another simulation uses the shapes; nothing was changed.</exception>
     public void Clear()
     {
+        using var change = world.Change("Simulation.Clear");
+        CheckShapesNotLent("cleared");
         NarrowPhase.Clear();
         Solver.Clear();
         Bodies.Clear();
         Statics.Clear();
-        BroadPhase.Clear();
+        BroadPhase.RemoveAllLeaves();
         if (ownsShapes)
-            Shapes.Clear();
+            Shapes.ClearUnlocked();
     }
 
     /// <summary>Makes room ahead of time.</summary>
     public void EnsureCapacity(SimulationAllocationSizes sizes)
     {
         sizes.Validate();
-        Bodies.EnsureCapacity(sizes.Bodies);
-        Statics.EnsureCapacity(sizes.Statics);
-        BroadPhase.EnsureCapacity(Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics));
+        using var change = world.Change("Simulation.EnsureCapacity");
+        Bodies.MakeRoomFor(sizes.Bodies);
+        Statics.MakeRoomFor(sizes.Statics);
+        BroadPhase.MakeRoomFor(Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics));
         if (ownsShapes)
-            Shapes.EnsureBatchCapacities(sizes.ShapesPerType);
+            Shapes.MakeRoomFor(sizes.ShapesPerType);
     }
 
-    /// <summary>Returns all memory to the pool.</summary>
+    /// <summary>Returns all memory to the pool. From then on everything but a second call is refused.</summary>
+    /// <exception cref="InvalidOperationException">A step or a query is in progress, or another simulation uses the shapes; nothing was changed.</exception>
     public void Dispose()
     {
-        if (disposed)
+        if (world.HasEnded)
             return;
-        disposed = true;
-        NarrowPhase.Dispose();
+        using var change = world.ChangeOutsideOfSteps("Simulation.Dispose");
+        CheckShapesNotLent("disposed");
+        try
+        {
+            // The callbacks are the game's and may throw.
+            NarrowPhase.DisposeCallbacks();
+        }
+        finally
+        {
+            ReturnMemory();
+        }
+    }
+
+    void ReturnMemory()
+    {
+        NarrowPhase?.Dispose();
         Solver.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
-        BroadPhase.Dispose();
+        BroadPhase.ReturnMemory();
         if (ownsShapes)
-            Shapes.Dispose();
+            Shapes.EndWithSimulation();
+        else
+            Shapes.Detach(world);
+        BufferPool.RemoveUser(this);
+        world.End("The simulation was disposed.");
+    }
+
+    void CheckShapesNotLent(string operation)
+    {
+        if (ownsShapes && Shapes.IsUsedByOthers(world))
+            throw new InvalidOperationException($"The simulation cannot be {operation}: another one uses its shapes.");
+    }
+
+    void IBufferPoolUser.CheckNotBusy()
+    {
+        using var change = world.ChangeOutsideOfSteps("BufferPool.Clear");
+    }
+
+    void IBufferPoolUser.ForgetMemory()
+    {
+        NarrowPhase.Abandon();
+        Solver.Abandon();
+        Bodies.Abandon();
+        Statics.Abandon();
+        BroadPhase.Abandon();
+        if (!ownsShapes)
+            Shapes.Detach(world);
+        world.End("The pool of the simulation was cleared, and with it all of its memory.");
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using BepuPhysics.Collidables;
 
 namespace BepuPhysics;
 
@@ -42,5 +43,8 @@ public struct SimulationAllocationSizes(
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Bodies, BepuPhysics.Bodies.MaximumCount);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Statics, BepuPhysics.Statics.MaximumCount);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Constraints, Solver.MaximumCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(ShapesPerType, TypedIndex.MaximumIndexCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(ConstraintsPerTypeBatch, Solver.MaximumCapacityPerTypeBatch);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(ConstraintCountPerBodyEstimate, BepuPhysics.Bodies.MaximumConstraintCapacity);
     }
 }

@@ -64,8 +64,14 @@ public sealed partial class Bodies
     }
 
     [DoesNotReturn]
-    void ThrowMissing(BodyHandle handle) =>
+    void ThrowMissing(BodyHandle handle)
+    {
+        world.CheckAlive();
         throw new ArgumentException(IsStale(handle) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+    }
+
+    /// <summary>Refuses a change of values while a step reads or writes them.</summary>
+    internal void CheckWritable(string operation) => world.CheckWritable(operation);
 
     // What a removal needs is there from the beginning: it takes no memory.
     void EnsureSlots(int capacity)

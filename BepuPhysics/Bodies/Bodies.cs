@@ -1,5 +1,4 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
@@ -12,10 +11,11 @@ namespace BepuPhysics;
 public sealed unsafe partial class Bodies
 {
     // Every body takes as much: what is beyond is a mistake.
-    const int MaximumConstraintCapacity = 1_000_000;
+    internal const int MaximumConstraintCapacity = 1_000_000;
 
     int minimumConstraintCapacity = 4;
 
+    readonly WorldLock world;
     Solver solver = null!;
     BroadPhase broadPhase = null!;
     Shapes shapes = null!;
@@ -33,15 +33,26 @@ public sealed unsafe partial class Bodies
         {
             ArgumentOutOfRangeException.ThrowIfNegative(value, nameof(MinimumConstraintCapacityPerBody));
             ArgumentOutOfRangeException.ThrowIfGreaterThan(value, MaximumConstraintCapacity, nameof(MinimumConstraintCapacityPerBody));
+            world.CheckWritable(nameof(MinimumConstraintCapacityPerBody));
             minimumConstraintCapacity = value;
         }
     }
 
     /// <summary>Bodies that are awake.</summary>
-    public ref BodySet ActiveSet => ref Sets[0];
-
-    internal Bodies(BufferPool pool, int initialCapacity)
+    /// <exception cref="ObjectDisposedException">The simulation was disposed, or its pool cleared.</exception>
+    public ref BodySet ActiveSet
     {
+        get
+        {
+            if (!Sets.Allocated)
+                world.CheckAlive();
+            return ref Sets[0];
+        }
+    }
+
+    internal Bodies(BufferPool pool, int initialCapacity, WorldLock world)
+    {
+        this.world = world;
         Pool = pool;
         initialCapacity = Math.Max(16, initialCapacity);
         pool.Take(1, out Sets);
@@ -80,8 +91,12 @@ public sealed unsafe partial class Bodies
     /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> bodies already.</exception>
     public BodyHandle Add(in BodyDescription description)
     {
+        using var change = world.Change("Bodies.Add");
         Validate(description);
         MakeRoom(description);
+        BoundingBox bounds = default;
+        if (description.Collidable.Shape.Exists)
+            shapes.UpdateBounds(description.Pose, description.Collidable.Shape, out bounds);
         var constraints = new QuickList<BodyConstraintReference>(MinimumConstraintCapacityPerBody, Pool);
         // All memory has been taken: from here on nothing fails.
         var handle = new BodyHandle(owners.Claim(HandlePool.Take()));
@@ -94,8 +109,8 @@ public sealed unsafe partial class Bodies
         set.Constraints[index] = constraints;
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };
         WriteSettings(index, description);
-        if (description.Collidable.Shape.Exists)
-            AddToBroadPhase(index);
+        shapes.BeginUse(description.Collidable.Shape);
+        PlaceInBroadPhase(index, bounds);
         return handle;
     }
 
@@ -103,22 +118,30 @@ public sealed unsafe partial class Bodies
     /// <exception cref="ArgumentException">There is no such body.</exception>
     public void Remove(BodyHandle handle)
     {
+        using var change = world.Change("Bodies.Remove");
         CheckHandle(handle);
-        RemoveAt(Locations[handle.Slot].Index);
+        RemoveBodyAt(Locations[handle.Slot].Index);
     }
 
     /// <summary>Removes a body of the active set and all of its constraints.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such body.</exception>
     public void RemoveAt(int activeBodyIndex)
     {
+        using var change = world.Change("Bodies.RemoveAt");
         if ((uint)activeBodyIndex >= (uint)ActiveSet.Count)
             throw new ArgumentOutOfRangeException(nameof(activeBodyIndex), activeBodyIndex, $"There are {ActiveSet.Count} active bodies.");
+        RemoveBodyAt(activeBodyIndex);
+    }
+
+    void RemoveBodyAt(int activeBodyIndex)
+    {
         ref var set = ref ActiveSet;
         ref var constraints = ref set.Constraints[activeBodyIndex];
         while (constraints.Count > 0)
-            solver.Remove(constraints[constraints.Count - 1].ConnectingConstraintHandle);
+            solver.RemoveConstraint(constraints[constraints.Count - 1].ConnectingConstraintHandle);
         constraints.Dispose(Pool);
         RemoveFromBroadPhase(activeBodyIndex);
+        shapes.EndUse(set.Collidables[activeBodyIndex].Shape);
         var handle = set.IndexToHandle[activeBodyIndex];
         set.RemoveAt(activeBodyIndex);
         if (activeBodyIndex < set.Count)
@@ -154,63 +177,11 @@ public sealed unsafe partial class Bodies
         return description;
     }
 
-    /// <summary>Makes a body what a description says; its constraints stay.</summary>
-    /// <exception cref="ArgumentException">There is no such body, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
-    public void ApplyDescription(BodyHandle handle, in BodyDescription description)
-    {
-        CheckHandle(handle);
-        Validate(description);
-        var index = Locations[handle.Slot].Index;
-        ref var motion = ref ActiveSet.MotionStates[index];
-        motion.Pose = description.Pose;
-        motion.Velocity = description.Velocity;
-        ChangeInertia(handle, description.LocalInertia);
-        var changesShape = ActiveSet.Collidables[index].Shape != description.Collidable.Shape;
-        if (changesShape)
-            RemoveFromBroadPhase(index);
-        WriteSettings(index, description);
-        if (changesShape && description.Collidable.Shape.Exists)
-            AddToBroadPhase(index);
-        UpdateBoundsAt(index);
-    }
-
-    /// <summary>Gives a body another shape; its inertia stays.</summary>
-    /// <exception cref="ArgumentException">There is no such body or no such shape; nothing was changed.</exception>
-    public void SetShape(BodyHandle handle, TypedIndex shape)
-    {
-        CheckHandle(handle);
-        CheckShape(shape);
-        var index = Locations[handle.Slot].Index;
-        ref var collidable = ref ActiveSet.Collidables[index];
-        if (collidable.Shape == shape)
-            return;
-        RemoveFromBroadPhase(index);
-        collidable.Shape = shape;
-        if (shape.Exists)
-            AddToBroadPhase(index);
-    }
-
-    /// <summary>Gives a body another inertia. All zero makes it kinematic, which removes its constraints to other kinematic bodies.</summary>
-    /// <exception cref="ArgumentException">There is no such body or the inertia cannot be simulated; nothing was changed.</exception>
-    public void SetLocalInertia(BodyHandle handle, in BodyInertia localInertia)
-    {
-        CheckHandle(handle);
-        BodyChecks.Inertia(localInertia);
-        ChangeInertia(handle, localInertia);
-    }
-
-    /// <summary>Moves the bounds of a body in the broad phase to where its pose says, as for queries between steps.</summary>
-    /// <exception cref="ArgumentException">There is no such body.</exception>
-    public void UpdateBounds(BodyHandle handle)
-    {
-        CheckHandle(handle);
-        UpdateBoundsAt(Locations[handle.Slot].Index);
-    }
-
     /// <summary>Visits each body that shares a constraint with a body, once per constraint.</summary>
     /// <exception cref="ArgumentException">There is no such body.</exception>
     public void EnumerateConnectedBodies<TEnumerator>(BodyHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
     {
+        using var reading = world.Read("Bodies.EnumerateConnectedBodies");
         CheckHandle(handle);
         ref var constraints = ref ActiveSet.Constraints[Locations[handle.Slot].Index];
         for (int i = 0; i < constraints.Count; ++i)
@@ -223,6 +194,12 @@ public sealed unsafe partial class Bodies
     {
         ArgumentOutOfRangeException.ThrowIfNegative(capacity);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(capacity, MaximumCount);
+        using var change = world.Change("Bodies.EnsureCapacity");
+        MakeRoomFor(capacity);
+    }
+
+    internal void MakeRoomFor(int capacity)
+    {
         if (capacity > ActiveSet.Capacity)
             ActiveSet.Resize(capacity, Pool);
     }
@@ -258,7 +235,7 @@ public sealed unsafe partial class Bodies
             set.Resize(set.Capacity * 2, Pool);
         set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
         if (description.Collidable.Shape.Exists)
-            broadPhase.EnsureCapacity(broadPhase.ActiveTree.LeafCount + 1, 0);
+            broadPhase.MakeRoomFor(broadPhase.ActiveTree.LeafCount + 1, 0);
     }
 
     internal void CheckShape(TypedIndex shape)
@@ -275,24 +252,6 @@ public sealed unsafe partial class Bodies
         BodyChecks.Activity(description.Activity);
         description.Collidable.Validate();
         CheckShape(description.Collidable.Shape);
-    }
-
-    void ChangeInertia(BodyHandle handle, in BodyInertia localInertia)
-    {
-        var index = Locations[handle.Slot].Index;
-        ref var current = ref ActiveSet.LocalInertias[index];
-        var changesKind = IsKinematic(current) != IsKinematic(localInertia);
-        current = localInertia;
-        ActiveSet.EnsurePrincipalFrames(localInertia.InverseInertiaTensor, Pool);
-        if (!changesKind)
-            return;
-        solver.Recolor(handle);
-        // The broad phase knows the kind of each collidable.
-        if (ActiveSet.Collidables[index].BroadPhaseIndex >= 0)
-        {
-            RemoveFromBroadPhase(index);
-            AddToBroadPhase(index);
-        }
     }
 
     void WriteSettings(int index, in BodyDescription description)
@@ -319,46 +278,14 @@ public sealed unsafe partial class Bodies
     internal CollidableReference ReferenceAt(int index) => new(
         IsKinematic(ActiveSet.LocalInertias[index]) ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, ActiveSet.IndexToHandle[index]);
 
-    void AddToBroadPhase(int index)
-    {
-        ref var collidable = ref ActiveSet.Collidables[index];
-        shapes.UpdateBounds(ActiveSet.MotionStates[index].Pose, collidable.Shape, out var bounds);
-        collidable.BroadPhaseIndex = broadPhase.AddActive(ReferenceAt(index), ref bounds);
-    }
-
-    void RemoveFromBroadPhase(int index)
-    {
-        ref var leaf = ref ActiveSet.Collidables[index].BroadPhaseIndex;
-        if (leaf < 0)
-            return;
-        if (broadPhase.RemoveActiveAt(leaf, out var moved))
-            ActiveSet.Collidables[Locations[moved.BodyHandle.Slot].Index].BroadPhaseIndex = leaf;
-        leaf = -1;
-    }
-
-    internal void UpdateBoundsAt(int index)
-    {
-        ref var collidable = ref ActiveSet.Collidables[index];
-        if (collidable.BroadPhaseIndex < 0)
-            return;
-        shapes.UpdateBounds(ActiveSet.MotionStates[index].Pose, collidable.Shape, out var bounds);
-        // The whole tree at once: a query may come before the next step fits it.
-        broadPhase.UpdateActiveBounds(collidable.BroadPhaseIndex, bounds.Min, bounds.Max);
-    }
-
-    internal void GetBoundsPointers(int index, out Vector3* min, out Vector3* max)
-    {
-        var leaf = ActiveSet.Collidables[index].BroadPhaseIndex;
-        if (leaf < 0)
-            throw new InvalidOperationException($"There are no bounds of {ActiveSet.IndexToHandle[index]}: it has no shape.");
-        broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
-    }
-
     internal void Clear()
     {
         ref var set = ref ActiveSet;
         for (int i = 0; i < set.Count; ++i)
+        {
+            shapes.EndUse(set.Collidables[i].Shape);
             Locations[set.IndexToHandle[i].Slot].SetIndex = -1;
+        }
         owners.ReleaseAll();
         set.Clear(Pool);
         HandlePool.Clear();
@@ -366,10 +293,28 @@ public sealed unsafe partial class Bodies
 
     internal void Dispose()
     {
+        EndUses();
         ActiveSet.Dispose(Pool);
         Pool.Return(ref Sets);
         Pool.Return(ref Locations);
         owners.Dispose(Pool);
         HandlePool.Dispose(Pool);
+    }
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        EndUses();
+        Sets = default;
+        Locations = default;
+        owners = default;
+        HandlePool = default;
+    }
+
+    void EndUses()
+    {
+        ref var set = ref Sets[0];
+        for (int i = 0; i < set.Count; ++i)
+            shapes.EndUse(set.Collidables[i].Shape);
     }
 }

@@ -108,6 +108,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
         BodyChecks.Vector(impulseOffset, nameof(impulseOffset));
+        Owner.CheckWritable(nameof(ApplyImpulse));
         ApplyImpulse(impulse, impulseOffset, ref LocalInertia, ref Pose, ref Velocity);
     }
 
@@ -116,6 +117,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly void ApplyLinearImpulse(Vector3 impulse)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
+        Owner.CheckWritable(nameof(ApplyLinearImpulse));
         ApplyLinearImpulse(impulse, LocalInertia.InverseMass, ref Velocity.Linear);
     }
 
@@ -124,6 +126,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
     {
         BodyChecks.Vector(angularImpulse, nameof(angularImpulse));
+        Owner.CheckWritable(nameof(ApplyAngularImpulse));
         ComputeInverseInertia(out var inverseInertia);
         ApplyAngularImpulse(angularImpulse, inverseInertia, ref Velocity.Angular);
     }

@@ -12,8 +12,8 @@ public struct Static
     public RigidPose Pose;
     /// <summary>Continuous detection of bodies against it.</summary>
     public ContinuousDetection Continuity;
-    /// <summary>Its shape.</summary>
-    public TypedIndex Shape;
+    /// <summary>Its shape. To be changed by <see cref="StaticReference.SetShape"/>.</summary>
+    public TypedIndex Shape { readonly get; internal set; }
     /// <summary>Index of its leaf in the broad phase.</summary>
     public int BroadPhaseIndex;
 }

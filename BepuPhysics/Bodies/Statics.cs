@@ -2,6 +2,8 @@ using System;
 using System.Diagnostics.CodeAnalysis;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
+using BepuPhysics.Trees;
+using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics;
@@ -9,6 +11,7 @@ namespace BepuPhysics;
 /// <summary>All statics of a simulation: collidables that never move by themselves.</summary>
 public sealed unsafe partial class Statics
 {
+    readonly WorldLock world;
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
@@ -31,8 +34,9 @@ public sealed unsafe partial class Statics
     /// <summary>Number of statics.</summary>
     public int Count { get; private set; }
 
-    internal Statics(BufferPool pool, BroadPhase broadPhase, Shapes shapes, int initialCapacity)
+    internal Statics(BufferPool pool, BroadPhase broadPhase, Shapes shapes, int initialCapacity, WorldLock world)
     {
+        this.world = world;
         this.pool = pool;
         this.broadPhase = broadPhase;
         this.shapes = shapes;
@@ -97,15 +101,18 @@ public sealed unsafe partial class Statics
     /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
     public StaticHandle Add(in StaticDescription description)
     {
+        using var change = world.Change("Statics.Add");
         Validate(description);
         MakeRoom();
+        var bounds = BoundsOf(description.Pose, description.Shape);
         // All memory has been taken: from here on nothing fails.
         var handle = new StaticHandle(owners.Claim(HandlePool.Take()));
         var index = Count++;
         Indices[handle.Slot] = index;
         IndexToHandle[index] = handle;
         StaticsBuffer[index] = new() { Pose = description.Pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
-        AddToBroadPhase(index);
+        shapes.BeginUse(description.Shape);
+        AddToBroadPhase(index, bounds);
         return handle;
     }
 
@@ -113,16 +120,24 @@ public sealed unsafe partial class Statics
     /// <exception cref="ArgumentException">There is no such static.</exception>
     public void Remove(StaticHandle handle)
     {
+        using var change = world.Change("Statics.Remove");
         CheckHandle(handle);
-        RemoveAt(Indices[handle.Slot]);
+        RemoveStaticAt(Indices[handle.Slot]);
     }
 
     /// <summary>Removes a static by its index; the last one takes its place.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
     public void RemoveAt(int index)
     {
+        using var change = world.Change("Statics.RemoveAt");
         CheckIndex(index);
+        RemoveStaticAt(index);
+    }
+
+    void RemoveStaticAt(int index)
+    {
         RemoveFromBroadPhase(index);
+        shapes.EndUse(StaticsBuffer[index].Shape);
         var handle = IndexToHandle[index];
         var last = --Count;
         if (index != last)
@@ -140,25 +155,32 @@ public sealed unsafe partial class Statics
     /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
     public void SetShape(StaticHandle handle, TypedIndex shape)
     {
+        using var change = world.Change("Statics.SetShape");
         CheckHandle(handle);
         shapes.CheckExists(shape, nameof(shape));
         var index = Indices[handle.Slot];
-        StaticsBuffer[index].Shape = shape;
-        UpdateBoundsAt(index);
+        ref var target = ref StaticsBuffer[index];
+        var bounds = CheckedBounds(index, target.Pose, shape);
+        shapes.ChangeUse(target.Shape, shape);
+        target.Shape = shape;
+        Replace(index, bounds);
     }
 
     /// <summary>Makes a static what a description says.</summary>
     /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
     public void ApplyDescription(StaticHandle handle, in StaticDescription description)
     {
+        using var change = world.Change("Statics.ApplyDescription");
         CheckHandle(handle);
         Validate(description);
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
+        var bounds = CheckedBounds(index, description.Pose, description.Shape);
+        shapes.ChangeUse(target.Shape, description.Shape);
         target.Pose = description.Pose;
         target.Shape = description.Shape;
         target.Continuity = description.Continuity;
-        UpdateBoundsAt(index);
+        Replace(index, bounds);
     }
 
     /// <summary>Describes a static as it is now.</summary>
@@ -179,10 +201,14 @@ public sealed unsafe partial class Statics
 
     /// <summary>Moves the bounds of a static to where its pose says.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
+    /// <exception cref="InvalidOperationException">Its pose is not finite; nothing was changed.</exception>
     public void UpdateBounds(StaticHandle handle)
     {
+        using var change = world.Change("Statics.UpdateBounds");
         CheckHandle(handle);
-        UpdateBoundsAt(Indices[handle.Slot]);
+        var index = Indices[handle.Slot];
+        ref var target = ref StaticsBuffer[index];
+        Replace(index, CheckedBounds(index, target.Pose, target.Shape));
     }
 
     // A pool may lend more than was asked for, and not to both alike.
@@ -194,6 +220,12 @@ public sealed unsafe partial class Statics
     {
         ArgumentOutOfRangeException.ThrowIfNegative(capacity);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(capacity, MaximumCount);
+        using var change = world.Change("Statics.EnsureCapacity");
+        MakeRoomFor(capacity);
+    }
+
+    internal void MakeRoomFor(int capacity)
+    {
         if (capacity <= Capacity)
             return;
         pool.ResizeToAtLeast(ref StaticsBuffer, capacity, Count);
@@ -227,13 +259,23 @@ public sealed unsafe partial class Statics
     }
 
     [DoesNotReturn]
-    void ThrowMissing(StaticHandle handle) =>
+    void ThrowMissing(StaticHandle handle)
+    {
+        world.CheckAlive();
         throw new ArgumentException(IsStale(handle) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+    }
 
     void CheckIndex(int index)
     {
         if ((uint)index >= (uint)Count)
-            throw new ArgumentOutOfRangeException(nameof(index), index, $"There are {Count} statics.");
+            ThrowMissing(index);
+    }
+
+    [DoesNotReturn]
+    void ThrowMissing(int index)
+    {
+        world.CheckAlive();
+        throw new ArgumentOutOfRangeException(nameof(index), index, $"There are {Count} statics.");
     }
 
     void MakeRoom()
@@ -246,8 +288,8 @@ public sealed unsafe partial class Statics
             EnsureSlots(slot + 1);
         }
         if (Count == Capacity)
-            EnsureCapacity(Count * 2);
-        broadPhase.EnsureCapacity(0, broadPhase.StaticTree.LeafCount + 1);
+            MakeRoomFor(Count * 2);
+        broadPhase.MakeRoomFor(0, broadPhase.StaticTree.LeafCount + 1);
     }
 
     // What a removal needs is there from the beginning: it takes no memory.
@@ -264,31 +306,44 @@ public sealed unsafe partial class Statics
         HandlePool.EnsureCapacity(Indices.Length, pool);
     }
 
-    void AddToBroadPhase(int index)
+    BoundingBox BoundsOf(in RigidPose pose, TypedIndex shape)
     {
-        ref var target = ref StaticsBuffer[index];
-        shapes.UpdateBounds(target.Pose, target.Shape, out var bounds);
-        target.BroadPhaseIndex = broadPhase.AddStatic(new CollidableReference(IndexToHandle[index]), ref bounds);
+        shapes.UpdateBounds(pose, shape, out var bounds);
+        return bounds;
     }
+
+    BoundingBox CheckedBounds(int index, in RigidPose pose, TypedIndex shape)
+    {
+        var bounds = BoundsOf(pose, shape);
+        if (!BoxMath.IsValid(bounds.Min, bounds.Max))
+            throw new InvalidOperationException($"There are no finite bounds of {IndexToHandle[index]}: its pose is {pose}.");
+        return bounds;
+    }
+
+    void AddToBroadPhase(int index, BoundingBox bounds) =>
+        StaticsBuffer[index].BroadPhaseIndex = broadPhase.AddStaticLeaf(new CollidableReference(IndexToHandle[index]), bounds);
 
     void RemoveFromBroadPhase(int index)
     {
         var leaf = StaticsBuffer[index].BroadPhaseIndex;
-        if (broadPhase.RemoveStaticAt(leaf, out var moved))
+        if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
             StaticsBuffer[Indices[moved.StaticHandle.Slot]].BroadPhaseIndex = leaf;
     }
 
     // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew.
-    void UpdateBoundsAt(int index)
+    void Replace(int index, BoundingBox bounds)
     {
         RemoveFromBroadPhase(index);
-        AddToBroadPhase(index);
+        AddToBroadPhase(index, bounds);
     }
 
     internal void Clear()
     {
         for (int i = 0; i < Count; ++i)
+        {
             Indices[IndexToHandle[i].Slot] = -1;
+            shapes.EndUse(StaticsBuffer[i].Shape);
+        }
         owners.ReleaseAll();
         Count = 0;
         HandlePool.Clear();
@@ -296,10 +351,29 @@ public sealed unsafe partial class Statics
 
     internal void Dispose()
     {
+        EndUses();
         pool.Return(ref Indices);
         owners.Dispose(pool);
         pool.Return(ref IndexToHandle);
         pool.Return(ref StaticsBuffer);
         HandlePool.Dispose(pool);
+    }
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        EndUses();
+        Indices = default;
+        IndexToHandle = default;
+        StaticsBuffer = default;
+        owners = default;
+        HandlePool = default;
+    }
+
+    void EndUses()
+    {
+        for (int i = 0; i < Count; ++i)
+            shapes.EndUse(StaticsBuffer[i].Shape);
+        Count = 0;
     }
 }

@@ -20,6 +20,14 @@ public sealed unsafe partial class BroadPhase
         Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id = 0)
         where TRayTester : IBroadPhaseRayTester
     {
+        using var reading = world.Read("BroadPhase.RayCast");
+        CastRay(origin, direction, maximumT, pool, ref rayTester, id);
+    }
+
+    internal void CastRay<TRayTester>(
+        Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id)
+        where TRayTester : IBroadPhaseRayTester
+    {
         var leafTester = new RayLeafTester<TRayTester> { RayTester = rayTester, Leaves = ActiveLeaves };
         ActiveTree.RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
         leafTester.Leaves = StaticLeaves;
@@ -38,6 +46,7 @@ public sealed unsafe partial class BroadPhase
         Vector3 min, Vector3 max, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
         where TSweepTester : IBroadPhaseSweepTester
     {
+        using var reading = world.Read("BroadPhase.Sweep");
         var leafTester = new SweepLeafTester<TSweepTester> { SweepTester = sweepTester, Leaves = ActiveLeaves };
         ActiveTree.Sweep(min, max, direction, ref maximumT, pool, ref leafTester);
         leafTester.Leaves = StaticLeaves;
@@ -59,6 +68,7 @@ public sealed unsafe partial class BroadPhase
     public void GetOverlaps<TOverlapEnumerator>(Vector3 min, Vector3 max, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
         where TOverlapEnumerator : IBreakableForEach<CollidableReference>
     {
+        using var reading = world.Read("BroadPhase.GetOverlaps");
         var leafEnumerator = new OverlapLeafEnumerator<TOverlapEnumerator> { Enumerator = overlapEnumerator, Leaves = ActiveLeaves };
         ActiveTree.GetOverlaps(min, max, pool, ref leafEnumerator);
         if (!leafEnumerator.Stopped)

@@ -29,6 +29,10 @@ public sealed unsafe partial class BroadPhase : IDisposable
     /// <summary>Collidable of each leaf of the static tree.</summary>
     public Buffer<CollidableReference> StaticLeaves;
 
+    readonly WorldLock world;
+    // Whether the leaves are the bodies and statics of a simulation, which alone may add and remove them.
+    readonly bool isOwned;
+
     // Leaves that came or went since the last build of a tree, or (active) since the last update.
     int activeAdditions;
     int staticChanges;
@@ -41,16 +45,29 @@ public sealed unsafe partial class BroadPhase : IDisposable
     /// <param name="initialActiveLeafCapacity">Active collidables that fit before memory is taken again.</param>
     /// <param name="initialStaticLeafCapacity">Static collidables that fit before memory is taken again.</param>
     public BroadPhase(BufferPool pool, int initialActiveLeafCapacity = 4096, int initialStaticLeafCapacity = 8192)
+        : this(pool, initialActiveLeafCapacity, initialStaticLeafCapacity, new WorldLock()) => isOwned = false;
+
+    internal BroadPhase(BufferPool pool, int initialActiveLeafCapacity, int initialStaticLeafCapacity, WorldLock world)
     {
+        isOwned = true;
+        this.world = world;
         ArgumentNullException.ThrowIfNull(pool);
         ArgumentOutOfRangeException.ThrowIfLessThan(initialActiveLeafCapacity, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(initialStaticLeafCapacity, 1);
         Pool = pool;
-        EnsureCapacity(initialActiveLeafCapacity, initialStaticLeafCapacity);
+        MakeRoomFor(initialActiveLeafCapacity, initialStaticLeafCapacity);
     }
 
     /// <summary>Adds a collidable to the active tree and returns its index there.</summary>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's, whose bodies alone are its leaves.</exception>
     public int AddActive(CollidableReference collidable, ref BoundingBox bounds)
+    {
+        CheckNotOwned(nameof(AddActive));
+        using var change = world.Change("BroadPhase.AddActive");
+        return AddActiveLeaf(collidable, bounds);
+    }
+
+    internal int AddActiveLeaf(CollidableReference collidable, BoundingBox bounds)
     {
         var index = Add(collidable, bounds, ref ActiveTree, ref ActiveLeaves);
         ++activeAdditions;
@@ -58,7 +75,15 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Adds a collidable to the static tree and returns its index there.</summary>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's, whose statics alone are its leaves.</exception>
     public int AddStatic(CollidableReference collidable, ref BoundingBox bounds)
+    {
+        CheckNotOwned(nameof(AddStatic));
+        using var change = world.Change("BroadPhase.AddStatic");
+        return AddStaticLeaf(collidable, bounds);
+    }
+
+    internal int AddStaticLeaf(CollidableReference collidable, BoundingBox bounds)
     {
         var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves);
         ++staticChanges;
@@ -75,11 +100,27 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Removes a collidable from the active tree. Returns whether another one has taken over its index, and which.</summary>
-    public bool RemoveActiveAt(int index, out CollidableReference movedLeaf) =>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's.</exception>
+    public bool RemoveActiveAt(int index, out CollidableReference movedLeaf)
+    {
+        CheckNotOwned(nameof(RemoveActiveAt));
+        using var change = world.Change("BroadPhase.RemoveActiveAt");
+        return RemoveActiveLeafAt(index, out movedLeaf);
+    }
+
+    internal bool RemoveActiveLeafAt(int index, out CollidableReference movedLeaf) =>
         RemoveAt(index, ref ActiveTree, ref ActiveLeaves, out movedLeaf);
 
     /// <summary>Removes a collidable from the static tree. Returns whether another one has taken over its index, and which.</summary>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's.</exception>
     public bool RemoveStaticAt(int index, out CollidableReference movedLeaf)
+    {
+        CheckNotOwned(nameof(RemoveStaticAt));
+        using var change = world.Change("BroadPhase.RemoveStaticAt");
+        return RemoveStaticLeafAt(index, out movedLeaf);
+    }
+
+    internal bool RemoveStaticLeafAt(int index, out CollidableReference movedLeaf)
     {
         var moved = RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
         ++staticChanges;
@@ -111,11 +152,16 @@ public sealed unsafe partial class BroadPhase : IDisposable
         StaticTree.GetBoundsPointers(index, out minPointer, out maxPointer);
 
     /// <summary>Changes the bounds of an active leaf at once.</summary>
-    public void UpdateActiveBounds(int broadPhaseIndex, Vector3 min, Vector3 max) => ActiveTree.UpdateBounds(broadPhaseIndex, min, max);
+    public void UpdateActiveBounds(int broadPhaseIndex, Vector3 min, Vector3 max)
+    {
+        using var change = world.Change("BroadPhase.UpdateActiveBounds");
+        ActiveTree.UpdateBounds(broadPhaseIndex, min, max);
+    }
 
     /// <summary>Changes the bounds of a static leaf at once.</summary>
     public void UpdateStaticBounds(int broadPhaseIndex, Vector3 min, Vector3 max)
     {
+        using var change = world.Change("BroadPhase.UpdateStaticBounds");
         StaticTree.UpdateBounds(broadPhaseIndex, min, max);
         ++staticChanges;
     }
@@ -124,6 +170,12 @@ public sealed unsafe partial class BroadPhase : IDisposable
     /// overlaps are looked for.</summary>
     /// <remarks>What the trees look like afterwards does not depend on the dispatcher.</remarks>
     public void Update(IThreadDispatcher? threadDispatcher = null)
+    {
+        using var change = world.Change("BroadPhase.Update");
+        UpdateTrees();
+    }
+
+    internal void UpdateTrees()
     {
         // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
         if (IsWorthBuilding(activeAdditions, ActiveTree.LeafCount))
@@ -154,14 +206,27 @@ public sealed unsafe partial class BroadPhase : IDisposable
     public void FindOverlaps<THandler>(ref THandler handler, IThreadDispatcher? threadDispatcher = null)
         where THandler : struct, IBroadPhaseOverlapHandler
     {
+        using var stage = world.Stage(allowsQueries: true, "BroadPhase.FindOverlaps");
+        FindOverlapsOfLeaves(ref handler, threadDispatcher);
+    }
+
+    internal void FindOverlapsOfLeaves<THandler>(ref THandler handler, IThreadDispatcher? threadDispatcher)
+        where THandler : struct, IBroadPhaseOverlapHandler
+    {
         // Only after changes that no update followed.
         if (!ActiveTree.IsDepthFirst)
             ActiveTree.Refit(Pool);
-        OverlapFinder.Find(ActiveTree, StaticTree, Pool, ref handler, threadDispatcher);
+        OverlapFinder.Find(ActiveTree, StaticTree, Pool, ref handler, threadDispatcher, world);
     }
 
     /// <summary>Makes room for numbers of leaves.</summary>
     public void EnsureCapacity(int activeCapacity, int staticCapacity)
+    {
+        using var change = world.Change("BroadPhase.EnsureCapacity");
+        MakeRoomFor(activeCapacity, staticCapacity);
+    }
+
+    internal void MakeRoomFor(int activeCapacity, int staticCapacity)
     {
         ActiveTree.EnsureCapacity(activeCapacity, Pool);
         StaticTree.EnsureCapacity(staticCapacity, Pool);
@@ -178,6 +243,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     /// <summary>Changes the room for leaves to about these numbers, never below what is in use.</summary>
     public void Resize(int activeCapacity, int staticCapacity)
     {
+        using var change = world.Change("BroadPhase.Resize");
         ActiveTree.Resize(Pool, activeCapacity);
         StaticTree.Resize(Pool, staticCapacity);
         Pool.ResizeToAtLeast(ref ActiveLeaves, ActiveTree.Leaves.Length, ActiveTree.LeafCount);
@@ -185,7 +251,15 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Removes all leaves and keeps the memory.</summary>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's.</exception>
     public void Clear()
+    {
+        CheckNotOwned(nameof(Clear));
+        using var change = world.Change("BroadPhase.Clear");
+        RemoveAllLeaves();
+    }
+
+    internal void RemoveAllLeaves()
     {
         ActiveTree.Clear();
         StaticTree.Clear();
@@ -194,7 +268,31 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Gives all memory back to the pool. Calling it twice does no harm.</summary>
+    /// <exception cref="InvalidOperationException">The broad phase is a simulation's, which disposes it.</exception>
     public void Dispose()
+    {
+        CheckNotOwned(nameof(Dispose));
+        using var change = world.Change("BroadPhase.Dispose");
+        ReturnMemory();
+    }
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        ActiveTree = default;
+        StaticTree = default;
+        ActiveLeaves = default;
+        StaticLeaves = default;
+    }
+
+    void CheckNotOwned(string operation)
+    {
+        world.CheckAlive();
+        if (isOwned)
+            throw new InvalidOperationException($"{operation}: the leaves of a simulation's broad phase are its bodies and statics; add and remove these.");
+    }
+
+    internal void ReturnMemory()
     {
         ActiveTree.Dispose(Pool);
         StaticTree.Dispose(Pool);

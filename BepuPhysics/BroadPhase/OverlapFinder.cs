@@ -20,7 +20,8 @@ static unsafe class OverlapFinder
     const int MinimumLeafCountForThreads = 256;
 
     public static void Find<THandler>(
-        in Tree activeTree, in Tree staticTree, BufferPool pool, ref THandler handler, IThreadDispatcher? dispatcher)
+        in Tree activeTree, in Tree staticTree, BufferPool pool, ref THandler handler, IThreadDispatcher? dispatcher,
+        WorldLock world)
         where THandler : struct, IBroadPhaseOverlapHandler
     {
         if (activeTree.LeafCount == 0)
@@ -32,7 +33,7 @@ static unsafe class OverlapFinder
             if (dispatcher is null || dispatcher.ThreadCount <= 1 || activeTree.LeafCount < MinimumLeafCountForThreads)
                 FindOnCaller(activeTree, staticTree, runs, ref handler);
             else
-                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher);
+                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher, world);
         }
         finally
         {
@@ -50,13 +51,14 @@ static unsafe class OverlapFinder
     }
 
     static void FindOnWorkers<THandler>(
-        in Tree activeTree, in Tree staticTree, in LeafRuns runs, BufferPool pool, ref THandler handler, IThreadDispatcher dispatcher)
+        in Tree activeTree, in Tree staticTree, in LeafRuns runs, BufferPool pool, ref THandler handler, IThreadDispatcher dispatcher,
+        WorldLock world)
         where THandler : struct, IBroadPhaseOverlapHandler
     {
         var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
         var work = new FindWork<THandler>
         {
-            Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces
+            World = world, Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces
         };
         try
         {
@@ -71,6 +73,7 @@ static unsafe class OverlapFinder
 
     struct FindWork<THandler> : IStagedWork where THandler : struct, IBroadPhaseOverlapHandler
     {
+        public WorldLock World;
         public THandler Handler;
         public Tree ActiveTree, StaticTree;
         public LeafRuns Runs;
@@ -83,6 +86,7 @@ static unsafe class OverlapFinder
 
         public void Execute(int stage, int block, int workerIndex)
         {
+            World.MarkWorker();
             if (block >= Pieces.Pairs.Count)
             {
                 Pieces.GetRange(block - Pieces.Pairs.Count, out var firstNode, out var endNode);

@@ -3,8 +3,8 @@ namespace BepuPhysics.Collidables;
 /// <summary>Shape and collision state of a body.</summary>
 public struct Collidable
 {
-    /// <summary>Shape of the body, if it has one.</summary>
-    public TypedIndex Shape;
+    /// <summary>Shape of the body, if it has one. To be changed by <see cref="BodyReference.SetShape"/>.</summary>
+    public TypedIndex Shape { readonly get; internal set; }
     /// <summary>Continuous detection.</summary>
     public ContinuousDetection Continuity;
     /// <summary>Least speculative margin, m.</summary>

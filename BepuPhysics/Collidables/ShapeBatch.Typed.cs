@@ -40,6 +40,12 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
     /// <exception cref="ArgumentException">The shape is not valid.</exception>
     public int Add(in TShape shape)
     {
+        using var change = BeginChange("ShapeBatch.Add");
+        return AddUnlocked(shape);
+    }
+
+    internal int AddUnlocked(in TShape shape)
+    {
         // A copy, because the argument may be a slot of this batch that is about to move.
         var copy = shape;
         copy.Validate();
@@ -48,12 +54,7 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
         return index;
     }
 
-    /// <inheritdoc/>
-    public override void Dispose()
-    {
-        base.Dispose();
-        pool.Return(ref shapes);
-    }
+    private protected sealed override void ReturnShapes() => pool.Return(ref shapes);
 
     /// <summary>A shape that is known to exist, for inner loops.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Threading;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
@@ -23,6 +24,10 @@ public abstract unsafe class ShapeBatch
     // What number each slot's shape has among all that were ever added.
     Buffer<int> generations;
     int lastGeneration;
+    // Number of bodies and statics of each slot's shape.
+    Buffer<int> uses;
+    // The collection that the batch belongs to; null for one that stands alone.
+    Shapes? owner;
 
     private protected ShapeBatch(BufferPool pool, int typeId, int shapeDataSize, int initialCapacity)
     {
@@ -114,9 +119,16 @@ public abstract unsafe class ShapeBatch
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Index of the shape.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
     public void Remove(int shapeIndex)
     {
-        CheckExists(shapeIndex);
+        using var change = BeginChange("ShapeBatch.Remove");
+        RemoveUnlocked(shapeIndex);
+    }
+
+    internal void RemoveUnlocked(int shapeIndex)
+    {
+        CheckUnused(shapeIndex);
         ids.Return(shapeIndex, pool);
         taken[shapeIndex] = 0;
         --Count;
@@ -126,12 +138,19 @@ public abstract unsafe class ShapeBatch
     /// <param name="shapeIndex">Index of the shape.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
     public void RemoveAndDispose(int shapeIndex, BufferPool pool)
     {
-        CheckExists(shapeIndex);
+        using var change = BeginChange("ShapeBatch.RemoveAndDispose");
+        RemoveAndDisposeUnlocked(shapeIndex, pool);
+    }
+
+    internal void RemoveAndDisposeUnlocked(int shapeIndex, BufferPool pool)
+    {
+        CheckUnused(shapeIndex);
         ArgumentNullException.ThrowIfNull(pool);
         DisposeShape(shapeIndex, pool);
-        Remove(shapeIndex);
+        RemoveUnlocked(shapeIndex);
     }
 
     /// <summary>Removes a shape and its children, and returns the memory that they own.</summary>
@@ -139,17 +158,32 @@ public abstract unsafe class ShapeBatch
     /// <param name="shapes">Collection that holds the children.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
     public void RecursivelyRemoveAndDispose(int shapeIndex, Shapes shapes, BufferPool pool)
     {
-        CheckExists(shapeIndex);
+        using var change = BeginChange("ShapeBatch.RecursivelyRemoveAndDispose");
+        RecursivelyRemoveAndDisposeUnlocked(shapeIndex, shapes, pool);
+    }
+
+    internal void RecursivelyRemoveAndDisposeUnlocked(int shapeIndex, Shapes shapes, BufferPool pool)
+    {
+        CheckUnused(shapeIndex);
         ArgumentNullException.ThrowIfNull(shapes);
         ArgumentNullException.ThrowIfNull(pool);
         RemoveAndDisposeChildren(shapeIndex, shapes, pool);
-        RemoveAndDispose(shapeIndex, pool);
+        RemoveAndDisposeUnlocked(shapeIndex, pool);
     }
 
     /// <summary>Removes all shapes; what they own themselves stays their owners'.</summary>
+    /// <exception cref="InvalidOperationException">A body or static uses one of them; nothing was changed.</exception>
     public void Clear()
+    {
+        using var change = BeginChange("ShapeBatch.Clear");
+        CheckAllUnused();
+        ClearUnlocked();
+    }
+
+    internal void ClearUnlocked()
     {
         ids.Clear();
         taken.Clear(0, taken.Length);
@@ -162,6 +196,12 @@ public abstract unsafe class ShapeBatch
     public void EnsureCapacity(int shapeCapacity)
     {
         CheckCapacity(shapeCapacity);
+        using var change = BeginChange("ShapeBatch.EnsureCapacity");
+        EnsureCapacityUnlocked(shapeCapacity);
+    }
+
+    internal void EnsureCapacityUnlocked(int shapeCapacity)
+    {
         if (shapeCapacity > Capacity)
             ResizeShapes(shapeCapacity);
     }
@@ -172,20 +212,77 @@ public abstract unsafe class ShapeBatch
     public void Resize(int shapeCapacity)
     {
         CheckCapacity(shapeCapacity);
-        ResizeShapes(Math.Max(shapeCapacity, UsedSlotCount));
+        using var change = BeginChange("ShapeBatch.Resize");
+        ResizeUnlocked(shapeCapacity);
     }
+
+    internal void ResizeUnlocked(int shapeCapacity) => ResizeShapes(Math.Max(shapeCapacity, UsedSlotCount));
 
     /// <summary>Changes how many free indices can be remembered without taking memory; none is lost.</summary>
     /// <param name="targetIdCapacity">Number of indices.</param>
-    public void ResizeIdPool(int targetIdCapacity) => ids.Resize(targetIdCapacity, pool);
-
-    /// <summary>Returns all memory of the batch, which must not be used any more.</summary>
-    public virtual void Dispose()
+    public void ResizeIdPool(int targetIdCapacity)
     {
+        using var change = BeginChange("ShapeBatch.ResizeIdPool");
+        ids.Resize(targetIdCapacity, pool);
+    }
+
+    /// <summary>Returns all memory of the batch, which must not be used any more. Not of a batch of a collection, which disposes it.</summary>
+    /// <exception cref="InvalidOperationException">The batch is part of a <see cref="Shapes"/>; nothing was changed.</exception>
+    public void Dispose()
+    {
+        if (owner is not null)
+            throw new InvalidOperationException("A batch of a collection is disposed with the collection, by Shapes.Dispose.");
+        ReturnMemory();
+    }
+
+    internal void ReturnMemory()
+    {
+        if (!taken.Allocated)
+            return;
+        ReturnShapes();
         pool.Return(ref taken);
         pool.Return(ref generations);
+        pool.Return(ref uses);
         ids.Dispose(pool);
         Count = 0;
+    }
+
+    private protected abstract void ReturnShapes();
+
+    /// <summary>Makes the batch part of a collection.</summary>
+    internal void BelongTo(Shapes shapes) => owner = shapes;
+
+    /// <summary>Begins a change of the batch, and of the collection that it belongs to.</summary>
+    private protected Shapes.ChangeScope BeginChange(string operation) => owner is null ? default : owner.Change(operation);
+
+    // Bodies of several simulations, on a thread each, may share the shapes.
+    internal void BeginUse(int shapeIndex) => Interlocked.Increment(ref uses[shapeIndex]);
+
+    internal void EndUse(int shapeIndex)
+    {
+        var left = Interlocked.Decrement(ref uses[shapeIndex]);
+        Check.That(left >= 0);
+    }
+
+    /// <summary>Number of bodies and statics that use a shape, which exists.</summary>
+    internal int CountUses(int shapeIndex) => uses[shapeIndex];
+
+    /// <summary>Refuses a shape that does not exist, or that something uses.</summary>
+    internal void CheckUnused(int shapeIndex)
+    {
+        CheckExists(shapeIndex);
+        if (uses[shapeIndex] != 0)
+            throw new InvalidOperationException(
+                $"Shape {shapeIndex} of type {TypeId} is in use by {uses[shapeIndex]} bodies and statics: remove these first, or give them another shape.");
+    }
+
+    internal void CheckAllUnused()
+    {
+        for (int i = 0; i < UsedSlotCount; ++i)
+        {
+            if (Exists(i))
+                CheckUnused(i);
+        }
     }
 
     /// <summary>Returns the memory that a shape owns.</summary>
@@ -230,6 +327,7 @@ public abstract unsafe class ShapeBatch
     {
         pool.ResizeToAtLeast(ref taken, slotCapacity, UsedSlotCount);
         pool.ResizeToAtLeast(ref generations, slotCapacity, UsedSlotCount);
+        pool.ResizeToAtLeast(ref uses, slotCapacity, UsedSlotCount);
         taken.Clear(UsedSlotCount, taken.Length - UsedSlotCount);
     }
 
@@ -250,6 +348,7 @@ public abstract unsafe class ShapeBatch
         Check.That(!Exists(index));
         taken[index] = 1;
         generations[index] = ++lastGeneration;
+        uses[index] = 0;
         ++Count;
         return index;
     }
@@ -260,7 +359,7 @@ public abstract unsafe class ShapeBatch
             throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
     }
 
-    private protected static void CheckCapacity(int shapeCapacity)
+    internal static void CheckCapacity(int shapeCapacity)
     {
         if ((uint)shapeCapacity > TypedIndex.MaximumIndexCount)
             throw new ArgumentOutOfRangeException(nameof(shapeCapacity), shapeCapacity, "A capacity is from 0 to 2^24 shapes.");

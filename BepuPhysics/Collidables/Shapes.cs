@@ -8,12 +8,19 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.Collidables;
 
 /// <summary>All shapes that collidables refer to, in one batch per type; may be shared by several simulations.</summary>
-/// <remarks>Any number of threads may read at once; adding, removing and resizing needs the collection alone, outside of a step.</remarks>
-public sealed class Shapes
+/// <remarks>
+/// Any number of threads may read at once; adding, removing and resizing needs the collection alone, outside of a step: during a stage or a
+/// query of a simulation that uses the shapes it is refused. A shape that a body or static uses is not removed.
+/// </remarks>
+public sealed partial class Shapes
 {
     readonly BufferPool pool;
     // Managed, because batches are objects; it grows only when a new type of shape is added.
     ShapeBatch?[] batches = [];
+    // Changes of this collection by different threads.
+    readonly WorldLock world = new();
+    // The simulations that use it.
+    WorldLock[] users = [];
 
     /// <summary>Creates an empty collection.</summary>
     /// <param name="pool">Source of the memory of all batches.</param>
@@ -39,6 +46,7 @@ public sealed class Shapes
     {
         get
         {
+            world.CheckAlive();
             if ((uint)typeIndex >= (uint)batches.Length)
                 throw new ArgumentOutOfRangeException(nameof(typeIndex), typeIndex, $"No type id from {batches.Length} on has a batch.");
             return batches[typeIndex];
@@ -53,7 +61,8 @@ public sealed class Shapes
     {
         // Before a batch is made for the type, so that a refused shape leaves no trace.
         shape.Validate();
-        return new(TShape.TypeId, GetOrCreateBatch<TShape>().Add(shape));
+        using var change = Change("Shapes.Add");
+        return new(TShape.TypeId, GetOrCreateBatch<TShape>().AddUnlocked(shape));
     }
 
     /// <summary>A shape by its index among those of its type; valid until a shape of the type is added or batches are resized.</summary>
@@ -63,7 +72,10 @@ public sealed class Shapes
     public ref TShape GetShape<TShape>(int shapeIndex) where TShape : unmanaged, IShape
     {
         if ((uint)TShape.TypeId >= (uint)batches.Length || batches[TShape.TypeId] is not ShapeBatch<TShape> batch)
+        {
+            world.CheckAlive();
             throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There are no shapes of type {typeof(TShape).Name}.");
+        }
         return ref batch[shapeIndex];
     }
 
@@ -73,21 +85,34 @@ public sealed class Shapes
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    public void Remove(TypedIndex shapeIndex) => GetCheckedBatch(shapeIndex).Remove(shapeIndex.Index);
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    public void Remove(TypedIndex shapeIndex)
+    {
+        using var change = Change("Shapes.Remove");
+        GetCheckedBatch(shapeIndex).RemoveUnlocked(shapeIndex.Index);
+    }
 
     /// <summary>Removes a shape and returns the memory that it owns.</summary>
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool) =>
-        GetCheckedBatch(shapeIndex).RemoveAndDispose(shapeIndex.Index, pool);
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
+    {
+        using var change = Change("Shapes.RemoveAndDispose");
+        GetCheckedBatch(shapeIndex).RemoveAndDisposeUnlocked(shapeIndex.Index, pool);
+    }
 
     /// <summary>Removes a shape and all its children, and returns the memory that they own.</summary>
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    public void RecursivelyRemoveAndDispose(TypedIndex shapeIndex, BufferPool pool) =>
-        GetCheckedBatch(shapeIndex).RecursivelyRemoveAndDispose(shapeIndex.Index, this, pool);
+    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    public void RecursivelyRemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
+    {
+        using var change = Change("Shapes.RecursivelyRemoveAndDispose");
+        GetCheckedBatch(shapeIndex).RecursivelyRemoveAndDisposeUnlocked(shapeIndex.Index, this, pool);
+    }
 
     /// <summary>Box around a shape in the world, m.</summary>
     /// <param name="pose">Pose of the shape.</param>
@@ -107,34 +132,64 @@ public sealed class Shapes
         UpdateBounds(new RigidPose(position, orientation), shapeIndex, out bounds);
 
     /// <summary>Removes all shapes; what they own themselves stays their owners'. Batches keep their room.</summary>
+    /// <exception cref="InvalidOperationException">A body or static uses one of them; nothing was changed.</exception>
     public void Clear()
     {
+        using var change = Change("Shapes.Clear");
+        ClearUnlocked();
+    }
+
+    internal void ClearUnlocked()
+    {
+        CheckAllUnused();
         foreach (var batch in batches)
-            batch?.Clear();
+            batch?.ClearUnlocked();
     }
 
     /// <summary>Makes room for a number of shapes in every batch that there is.</summary>
     /// <param name="shapeCapacity">Number of shapes of each type that must fit.</param>
     public void EnsureBatchCapacities(int shapeCapacity)
     {
+        ShapeBatch.CheckCapacity(shapeCapacity);
+        using var change = Change("Shapes.EnsureBatchCapacities");
+        MakeRoomFor(shapeCapacity);
+    }
+
+    internal void MakeRoomFor(int shapeCapacity)
+    {
         foreach (var batch in batches)
-            batch?.EnsureCapacity(shapeCapacity);
+            batch?.EnsureCapacityUnlocked(shapeCapacity);
     }
 
     /// <summary>Makes room for a number of shapes in every batch that there is, or gives room back; no shape is lost.</summary>
     /// <param name="shapeCapacity">Number of shapes of each type that should fit.</param>
     public void ResizeBatches(int shapeCapacity)
     {
+        ShapeBatch.CheckCapacity(shapeCapacity);
+        using var change = Change("Shapes.ResizeBatches");
         foreach (var batch in batches)
-            batch?.Resize(shapeCapacity);
+            batch?.ResizeUnlocked(shapeCapacity);
     }
 
-    /// <summary>Returns all memory to the pool. The collection is then empty and may be used again.</summary>
+    /// <summary>Returns all memory to the pool. The collection is then empty and may be used again, unless it was part of a simulation that was
+    /// disposed.</summary>
+    /// <exception cref="InvalidOperationException">A body or static uses one of the shapes; nothing was changed.</exception>
     public void Dispose()
     {
+        if (world.HasEnded)
+            return;
+        using var change = Change("Shapes.Dispose");
+        CheckAllUnused();
+        ReturnMemory();
+    }
+
+    /// <summary>Returns all memory to the pool.</summary>
+    internal void ReturnMemory()
+    {
         foreach (var batch in batches)
-            batch?.Dispose();
+            batch?.ReturnMemory();
         batches = [];
+        pool.RemoveUser(this);
     }
 
     /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
@@ -151,8 +206,10 @@ public sealed class Shapes
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     internal void CheckExists(TypedIndex shape, string name)
     {
-        if (!Exists(shape))
-            ThrowMissing(shape, name);
+        if (Exists(shape))
+            return;
+        world.CheckAlive();
+        ThrowMissing(shape, name);
     }
 
     /// <summary>Refuses a name that no shape has.</summary>
@@ -179,7 +236,14 @@ public sealed class Shapes
             throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}; ids are from 0 to 127.");
         if (typeId >= batches.Length)
             Array.Resize(ref batches, typeId + 1);
-        var batch = batches[typeId] ??= TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
+        if (batches[typeId] is not { } batch)
+        {
+            if (Array.TrueForAll(batches, other => other is null))
+                pool.AddUser(this);
+            batch = TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
+            batch.BelongTo(this);
+            batches[typeId] = batch;
+        }
         return batch as ShapeBatch<TShape> ??
             throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}, which another type of shape already has.");
     }

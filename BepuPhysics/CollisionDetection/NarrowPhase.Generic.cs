@@ -99,6 +99,8 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
             ref var worker = ref workers[i];
             worker.Queue = default;
             worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
+            if (worker.Pool != Pool)
+                worker.Pool.AddUser(this);
             worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
                 Pairs.Histories.Memory);
             worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
@@ -109,7 +111,7 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         try
         {
             var handler = new Overlaps(this, Simulation.BroadPhase);
-            Simulation.BroadPhase.FindOverlaps(ref handler, dispatcher);
+            Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
             var flush = new FlushWork { NarrowPhase = this, WorkerCount = count };
             StagedWork.Run(ref flush, dispatcher);
         }
@@ -132,6 +134,7 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         // A batcher may be emptied by another worker than filled it: one batcher is one block, so no two touch it at once.
         public readonly void Execute(int stage, int block, int workerIndex)
         {
+            NarrowPhase.World.MarkWorker();
             while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
                 NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
             NarrowPhase.workers[block].Batcher.Flush();
@@ -384,10 +387,11 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         target.WriteImpulses(impulses, pending.Manifold, ref cached.Features);
     }
 
-    static void Release(ref Worker worker)
+    void Release(ref Worker worker)
     {
         if (worker.Pool is null)
             return;
+        worker.Pool.RemoveUser(this);
         worker.Batcher.Dispose();
         worker.TestedPairs.Dispose(worker.Pool);
         worker.Pending.Dispose(worker.Pool);

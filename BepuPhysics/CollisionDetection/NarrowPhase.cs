@@ -12,10 +12,11 @@ namespace BepuPhysics.CollisionDetection;
 // worker finds it: that is most pairs of a scene at rest, and the order does not matter. All other changes (new pairs, pairs whose number
 // of contacts changed, pairs that parted) are noted, sorted by the handles of the pair, and made on one thread after the workers have
 // ended, so that handles, batches and with them every bit of the result do not depend on threads.
-public abstract partial class NarrowPhase
+public abstract partial class NarrowPhase : IBufferPoolUser
 {
     private protected readonly Simulation Simulation;
     private protected readonly BufferPool Pool;
+    private protected readonly WorldLock World;
     private protected PairCache Pairs;
     private protected readonly Restitution Restitution;
     Buffer<CollidablePair> pairOfConstraint;
@@ -27,6 +28,7 @@ public abstract partial class NarrowPhase
     {
         Simulation = simulation;
         Pool = simulation.BufferPool;
+        World = simulation.World;
         CollisionTaskRegistry = collisionTaskRegistry;
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
@@ -68,14 +70,28 @@ public abstract partial class NarrowPhase
         Restitution.BeginStep();
     }
 
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        Pairs = default;
+        pairOfConstraint = default;
+        PairCount = 0;
+        Restitution.Abandon();
+    }
+
     internal void Dispose()
     {
-        DisposeCallbacks();
         Pairs.Dispose(Pool);
         Restitution.Dispose();
         if (pairOfConstraint.Allocated)
             Pool.Return(ref pairOfConstraint);
     }
+
+    // Of the pools of workers, which hold memory for no longer than a step.
+    void IBufferPoolUser.CheckNotBusy() =>
+        throw new InvalidOperationException("BufferPool.Clear was called while a step is in progress that has memory in the pool; nothing was changed.");
+
+    void IBufferPoolUser.ForgetMemory() { }
 
     /// <summary>Removes every pair that was not seen in this step.</summary>
     private protected void RemoveUnseenPairs()

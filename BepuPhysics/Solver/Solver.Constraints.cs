@@ -38,11 +38,12 @@ public sealed unsafe partial class Solver
     public ConstraintHandle Add<TDescription>(Span<BodyHandle> bodyHandles, in TDescription description)
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
+        using var change = world.Change("Solver.Add");
         if (bodyHandles.Length != TDescription.BodyCount)
             throw new ArgumentException($"{typeof(TDescription).Name} connects {TDescription.BodyCount} bodies, not {bodyHandles.Length}.",
                 nameof(bodyHandles));
         CheckBodies(bodyHandles);
-        Register<TDescription>();
+        EnsureRegistered<TDescription>();
         TDescription.Validate(description);
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
         WriteDescription(Locations[handle.Slot], description);
@@ -53,7 +54,14 @@ public sealed unsafe partial class Solver
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public void Remove(ConstraintHandle handle)
     {
+        using var change = world.Change("Solver.Remove");
         CheckHandle(handle);
+        RemoveConstraint(handle);
+    }
+
+    /// <summary>Removes a constraint that exists.</summary>
+    internal void RemoveConstraint(ConstraintHandle handle)
+    {
         if (Locations[handle.Slot].TypeId < ConstraintTypeIds.ContactTypeCount)
             contactRemoved(handle);
         RemoveWithoutNotice(handle);
@@ -79,6 +87,7 @@ public sealed unsafe partial class Solver
     public void ApplyDescriptionWithoutWaking<TDescription>(ConstraintHandle handle, in TDescription description)
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
+        world.CheckWritable("Solver.ApplyDescription");
         CheckType<TDescription>(handle);
         TDescription.Validate(description);
         WriteDescription(Locations[handle.Slot], description);
@@ -103,6 +112,7 @@ public sealed unsafe partial class Solver
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public void EnumerateAccumulatedImpulses<TEnumerator>(ConstraintHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<float>
     {
+        using var reading = world.Read("Solver.EnumerateAccumulatedImpulses");
         CheckHandle(handle);
         ref var location = ref Locations[handle.Slot];
         ref var batch = ref TypeBatchAt(location);
@@ -263,7 +273,7 @@ public sealed unsafe partial class Solver
             }
             if (!anyDynamic)
             {
-                Remove(handle);
+                RemoveConstraint(handle);
                 continue;
             }
             processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);

@@ -123,6 +123,20 @@ public sealed unsafe partial class Solver
         }
     }
 
+    // The event is alone with the bodies: it may write to them and ask queries.
+    void Raise(SubstepEvent substepEvent, int substep)
+    {
+        world.BeginEvent();
+        try
+        {
+            substepEvent(substep);
+        }
+        finally
+        {
+            world.EndEvent();
+        }
+    }
+
     void Release(ref SolveWork work)
     {
         if (work.Blocks.Span.Allocated)
@@ -274,10 +288,10 @@ public sealed unsafe partial class Solver
                     Solver.OptionalStages[stage.Optional].Execute(stage.Point, SubstepOf(stage), blockIndex);
                     break;
                 case StageKind.SubstepStarted:
-                    Solver.SubstepStarted!(stage.Substep);
+                    Solver.Raise(Solver.SubstepStarted!, stage.Substep);
                     break;
                 case StageKind.SubstepEnded:
-                    Solver.SubstepEnded!(stage.Substep);
+                    Solver.Raise(Solver.SubstepEnded!, stage.Substep);
                     break;
             }
         }

@@ -12,6 +12,12 @@ public sealed unsafe partial class Solver
     /// description has, or more than there is room for; nothing was changed.</exception>
     public void Register<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
+        using var change = world.Change("Solver.Register");
+        EnsureRegistered<TDescription>();
+    }
+
+    void EnsureRegistered<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
         if (IsRegistered<TDescription>())
             return;
         var typeId = TDescription.ConstraintTypeId;

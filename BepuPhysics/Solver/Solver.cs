@@ -23,12 +23,17 @@ public sealed unsafe partial class Solver
 {
     const int MaximumTypeCount = 128;
 
+    readonly WorldLock world;
     readonly Bodies bodies;
     readonly BufferPool pool;
     readonly TypeProcessor?[] processors = new TypeProcessor?[MaximumTypeCount];
     // Who may write into the columns of a type; null for contacts, which have no description.
     readonly Type?[] descriptionTypes = new Type?[MaximumTypeCount];
     Action<ConstraintHandle> contactRemoved = static _ => { };
+    // Every type batch takes as much: what is beyond is a mistake.
+    internal const int MaximumCapacityPerTypeBatch = 1_000_000;
+
+    int minimumCapacityPerTypeBatch = 64;
     int velocityIterationCount;
     int substepCount;
     int relaxationIterationCount;
@@ -50,7 +55,16 @@ public sealed unsafe partial class Solver
     public IReadOnlyList<TypeProcessor?> TypeProcessors => processors;
 
     /// <summary>Constraints that are solved each step.</summary>
-    public ref ConstraintSet ActiveSet => ref Sets[0];
+    /// <exception cref="ObjectDisposedException">The simulation was disposed, or its pool cleared.</exception>
+    public ref ConstraintSet ActiveSet
+    {
+        get
+        {
+            if (!Sets.Allocated)
+                world.CheckAlive();
+            return ref Sets[0];
+        }
+    }
 
     /// <summary>Sweeps over the constraints per substep; at least 1.</summary>
     /// <remarks>At four substeps or more a further substep buys more accuracy than a further iteration.</remarks>
@@ -60,6 +74,7 @@ public sealed unsafe partial class Solver
         set
         {
             ArgumentOutOfRangeException.ThrowIfLessThan(value, 1, nameof(VelocityIterationCount));
+            world.CheckChangeable("Solver.VelocityIterationCount");
             velocityIterationCount = value;
         }
     }
@@ -71,6 +86,7 @@ public sealed unsafe partial class Solver
         set
         {
             ArgumentOutOfRangeException.ThrowIfLessThan(value, 1, nameof(SubstepCount));
+            world.CheckChangeable("Solver.SubstepCount");
             substepCount = value;
         }
     }
@@ -85,6 +101,7 @@ public sealed unsafe partial class Solver
         set
         {
             ArgumentOutOfRangeException.ThrowIfNegative(value, nameof(RelaxationIterationCount));
+            world.CheckChangeable("Solver.RelaxationIterationCount");
             relaxationIterationCount = value;
         }
     }
@@ -93,11 +110,23 @@ public sealed unsafe partial class Solver
     public SubstepVelocityIterationScheduler? VelocityIterationScheduler { get; set; }
     /// <summary>Number of batches before constraints go to the fallback batch.</summary>
     public int FallbackBatchThreshold { get; }
-    /// <summary>Least number of constraints for which a new type batch has room.</summary>
-    public int MinimumCapacityPerTypeBatch { get; set; } = 64;
-
-    internal Solver(Bodies bodies, BufferPool pool, in SolveDescription description, int initialCapacity)
+    /// <summary>Least number of constraints for which a new type batch has room; from 0 to a million.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than a million; nothing was changed.</exception>
+    public int MinimumCapacityPerTypeBatch
     {
+        get => minimumCapacityPerTypeBatch;
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(value, nameof(MinimumCapacityPerTypeBatch));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(value, MaximumCapacityPerTypeBatch, nameof(MinimumCapacityPerTypeBatch));
+            world.CheckChangeable("Solver.MinimumCapacityPerTypeBatch");
+            minimumCapacityPerTypeBatch = value;
+        }
+    }
+
+    internal Solver(Bodies bodies, BufferPool pool, in SolveDescription description, int initialCapacity, WorldLock? world = null)
+    {
+        this.world = world ?? new WorldLock();
         description.Validate();
         this.bodies = bodies;
         this.pool = pool;
@@ -150,8 +179,12 @@ public sealed unsafe partial class Solver
     }
 
     [DoesNotReturn]
-    void ThrowMissing(ConstraintHandle handle) => throw new ArgumentException(
-        owners.IsStale(handle.Value, handle.Slot) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+    void ThrowMissing(ConstraintHandle handle)
+    {
+        world.CheckAlive();
+        throw new ArgumentException(
+            owners.IsStale(handle.Value, handle.Slot) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+    }
 
     // What a removal needs is there from the beginning: it takes no memory.
     void EnsureSlots(int capacity)
@@ -203,5 +236,14 @@ public sealed unsafe partial class Solver
         pool.Return(ref Locations);
         owners.Dispose(pool);
         HandlePool.Dispose(pool);
+    }
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        Sets = default;
+        Locations = default;
+        owners = default;
+        HandlePool = default;
     }
 }

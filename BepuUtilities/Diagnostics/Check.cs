@@ -8,6 +8,20 @@ namespace BepuUtilities.Diagnostics;
 /// <summary>Invariant checks. Compiled in when DEBUG or PHYSICS_VALIDATE is defined, otherwise gone without a trace.</summary>
 public static class Check
 {
+    /// <summary>Whether checks are compiled in.</summary>
+    public static bool IsEnabled
+    {
+        get
+        {
+            bool isEnabled = false;
+            Enable(ref isEnabled);
+            return isEnabled;
+        }
+    }
+
+    [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
+    static void Enable(ref bool isEnabled) => isEnabled = true;
+
     /// <summary>Fails unless the condition holds.</summary>
     [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
     public static void That([DoesNotReturnIf(false)] bool condition, [CallerArgumentExpression(nameof(condition))] string expression = "")

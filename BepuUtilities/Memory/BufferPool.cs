@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Diagnostics;
 using System.Diagnostics.CodeAnalysis;
 using System.Numerics;
 using System.Runtime.CompilerServices;
@@ -33,6 +35,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     readonly PowerPool?[] pools = new PowerPool?[MaximumPower - MinimumPower + 1];
     readonly int blockPower;
     readonly int expectedPooledResourceCount;
+    readonly List<IBufferPoolUser> users = [];
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="minimumBlockAllocationSize">Least number of bytes to ask the system for at a time, rounded up to a power of two; in [1, 2^30].</param>
@@ -55,6 +58,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     public void Take<T>(int count, out Buffer<T> buffer) where T : unmanaged
     {
         TakeBlock(GetPower<T>(count), out var memory, out var id);
+        NoteOwner(id, typeof(T));
         buffer = new Buffer<T>(memory, count, id);
     }
 
@@ -64,6 +68,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         var power = GetPower<T>(count);
         TakeBlock(power, out var memory, out var id);
+        NoteOwner(id, typeof(T));
         buffer = new Buffer<T>(memory, GetCapacity<T>(power), id);
     }
 
@@ -130,6 +135,12 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     /// <exception cref="InvalidOperationException">Something is still lent; the message says how much of what size, and the first ids.</exception>
     public void AssertEmpty()
     {
+        if (DescribeTaken() is { } message)
+            throw new InvalidOperationException(message);
+    }
+
+    string? DescribeTaken()
+    {
         StringBuilder? message = null;
         foreach (var pool in pools)
         {
@@ -138,15 +149,60 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
             message ??= new StringBuilder("Buffers were not returned to the pool:");
             pool.DescribeTaken(message);
         }
-        if (message != null)
-            throw new InvalidOperationException(message.ToString());
+        return message?.ToString();
     }
 
-    /// <summary>Gives all memory back to the system. Buffers still lent must not be used any more; the pool itself may be.</summary>
+    /// <summary>
+    /// In builds with checks, hears of what was not returned to a pool that is cleared or disposed: how many blocks of what size, and of which
+    /// type their elements are. Without subscribers the report goes to the standard error stream. Builds without checks report nothing.
+    /// </summary>
+    public static event Action<string>? LeakFound;
+
+    [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
+    void ReportLeaks()
+    {
+        if (DescribeTaken() is not { } message)
+            return;
+        if (LeakFound is { } report)
+            report(message);
+        else
+            Console.Error.WriteLine(message);
+    }
+
+    // Only where leaks are reported: the types cost managed memory.
+    [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
+    void NoteOwner(int id, Type elementType) => pools[id >> SlotBits]!.NoteOwner(id & ((1 << SlotBits) - 1), elementType);
+
+    /// <summary>Tells somebody when the pool is cleared, until <see cref="RemoveUser"/>.</summary>
+    public void AddUser(IBufferPoolUser user)
+    {
+        ArgumentNullException.ThrowIfNull(user);
+        users.Add(user);
+    }
+
+    /// <summary>No longer tells somebody when the pool is cleared; does nothing if he was not told before.</summary>
+    public void RemoveUser(IBufferPoolUser user) => users.Remove(user);
+
+    /// <summary>
+    /// Gives all memory back to the system. Buffers still lent must not be used any more; the pool itself may be. A simulation that has its memory
+    /// here comes to its end.
+    /// </summary>
+    /// <exception cref="InvalidOperationException">A simulation that has memory here is busy; nothing was changed.</exception>
     public void Clear()
     {
+        CheckNotBusy();
+        foreach (var user in users)
+            user.ForgetMemory();
+        users.Clear();
+        ReportLeaks();
         foreach (var pool in pools)
             pool?.Clear();
+    }
+
+    internal void CheckNotBusy()
+    {
+        foreach (var user in users)
+            user.CheckNotBusy();
     }
 
     /// <summary>The same as <see cref="Clear"/>.</summary>
@@ -162,6 +218,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         if (!buffer.Allocated)
         {
             TakeBlock(power, out var memory, out var id);
+            NoteOwner(id, typeof(T));
             buffer = new Buffer<T>(memory, length, id);
             return;
         }
@@ -172,6 +229,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
             return;
         }
         TakeBlock(power, out var newMemory, out var newId);
+        NoteOwner(newId, typeof(T));
         var resized = new Buffer<T>(newMemory, length, newId);
         buffer.CopyTo(0, resized, 0, copyCount);
         owner.Return(slot);

@@ -20,6 +20,8 @@ sealed unsafe class PowerPool
     nint[] allocations;
     int[] freeSlots;
     ulong[] taken;
+    // Types of the elements of lent slots, in builds with checks.
+    Type?[] owners = [];
     int allocationCount;
     int usedSlotCount;
     int freeSlotCount;
@@ -90,10 +92,20 @@ sealed unsafe class PowerPool
             if (IsTaken(slot))
             {
                 message.Append(CultureInfo.InvariantCulture, $" {((Power - BufferPool.MinimumPower) << BufferPool.SlotBits) | slot}");
+                if (slot < owners.Length && owners[slot] is { } owner)
+                    message.Append(CultureInfo.InvariantCulture, $" of {owner.Name}");
                 ++listed;
             }
         }
         message.Append(TakenCount > listed ? " ...);" : ");");
+    }
+
+    /// <summary>Notes the type of the elements of a lent slot.</summary>
+    public void NoteOwner(int slot, Type elementType)
+    {
+        if (slot >= owners.Length)
+            Array.Resize(ref owners, Math.Max(16, slot * 2));
+        owners[slot] = elementType;
     }
 
     /// <summary>Gives all memory back to the system, lent or not.</summary>

@@ -31,6 +31,7 @@ public sealed class WorkerBufferPools : IDisposable
     public void Resize(int workerCount)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(workerCount);
+        CheckNotBusy();
         for (int i = workerCount; i < pools.Length; ++i)
             pools[i].Clear();
         var oldCount = pools.Length;
@@ -56,9 +57,18 @@ public sealed class WorkerBufferPools : IDisposable
             pool.AssertEmpty();
     }
 
+    /// <summary>Refuses to go on while somebody needs the memory of a pool.</summary>
+    internal void CheckNotBusy()
+    {
+        foreach (var pool in pools)
+            pool.CheckNotBusy();
+    }
+
     /// <summary>Gives all memory of all pools back to the system. The pools may be used again.</summary>
+    /// <exception cref="InvalidOperationException">A step is in progress that has memory in one of them; nothing was changed.</exception>
     public void Clear()
     {
+        CheckNotBusy();
         foreach (var pool in pools)
             pool.Clear();
     }

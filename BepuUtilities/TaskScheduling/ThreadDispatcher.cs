@@ -87,6 +87,15 @@ public sealed unsafe class ThreadDispatcher : IThreadDispatcher, IDisposable
             return;
         if (Interlocked.CompareExchange(ref dispatching, 1, 0) != 0)
             throw new InvalidOperationException("A dispatcher cannot be disposed while it dispatches.");
+        try
+        {
+            WorkerPools.CheckNotBusy();
+        }
+        catch
+        {
+            Volatile.Write(ref dispatching, 0);
+            throw;
+        }
         disposed = true;
         stopping = true;
         foreach (var start in starts)

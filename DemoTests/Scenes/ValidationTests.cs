@@ -26,8 +26,12 @@ public class ValidationTests
             ref world.Bodies[new(1)].LocalInertia.InverseMass, float.NaN, value => world.Bodies[new(1)].LocalInertia.InverseMass = value),
         ["collidable of the leaf of body"] = world => Set(
             ref world.Bodies[new(1)].LocalInertia, default, value => world.Bodies[new(1)].LocalInertia = value),
-        ["shape of body"] = world => Set(ref world.Bodies[new(1)].Collidable.Shape, new TypedIndex(2, 99),
-            value => world.Bodies[new(1)].Collidable.Shape = value),
+        ["shape of body"] = world =>
+        {
+            var old = world.Bodies[new(1)].Collidable.Shape;
+            world.Bodies[new(1)].Collidable.Shape = new TypedIndex(2, 99);
+            return () => world.Bodies[new(1)].Collidable.Shape = old;
+        },
         ["leaf of body"] = world => Set(ref world.Bodies[new(1)].Collidable.BroadPhaseIndex, 99,
             value => world.Bodies[new(1)].Collidable.BroadPhaseIndex = value),
         ["rows behind the last body"] = world => Set(

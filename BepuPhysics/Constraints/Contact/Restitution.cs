@@ -70,6 +70,8 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         queue.Dispose();
     }
 
+    internal void Abandon() => pairs = default;
+
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
         SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration => (pairs.Count + PairsPerBlock - 1) / PairsPerBlock,

@@ -1,0 +1,217 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Runtime.CompilerServices;
+using System.Threading;
+
+namespace BepuPhysics;
+
+/// <summary>Keeps a simulation from being changed while something else goes on in it: by callbacks, by other threads, after its end.</summary>
+/// <remarks>
+/// It never waits: who comes at the wrong time gets an exception that says what is going on. Three kinds of things can go on. One thread may
+/// <i>hold</i> the world, for a stage of a step or for one change. One may be <i>stepping</i>: between its stages it may change the world itself, no
+/// other may. Any number may be <i>reading</i>, which lasts while a query runs, for its handler is the game's.
+/// Each announces itself before it looks at the others, with a fence between, so that of two that exclude each other at least one notices.
+/// </remarks>
+sealed class WorldLock
+{
+    const int StripeCount = 8;
+    // Ints to a cache line.
+    const int StripeLength = 16;
+
+    // Stages of all worlds are numbered, so that a thread's mark means one stage of one world and needs not be taken off.
+    static long lastStage;
+    [ThreadStatic] static long markedStage;
+
+    // Queries in progress, by thread, so that threads that ask at the same time do not share a cache line. The first line is left free.
+    readonly int[] reading = new int[(StripeCount + 1) * StripeLength];
+    int holder;
+    int stepper;
+    // The thread that runs a substep event: the others wait for it.
+    int eventThread;
+    long readableStage;
+    volatile string activity = "";
+    volatile string? end;
+
+    static int CurrentThread => Environment.CurrentManagedThreadId;
+
+    /// <summary>Whether the world has come to its end.</summary>
+    internal bool HasEnded => end is not null;
+
+    /// <summary>Whether anything goes on.</summary>
+    internal bool IsBusy => Volatile.Read(ref holder) != 0 || Volatile.Read(ref stepper) != 0 || IsRead;
+
+    bool IsRead
+    {
+        get
+        {
+            int sum = 0;
+            for (int i = 1; i <= StripeCount; ++i)
+                sum += Volatile.Read(ref reading[i * StripeLength]);
+            return sum != 0;
+        }
+    }
+
+    /// <summary>From now on everything is refused.</summary>
+    /// <param name="reason">What has happened, as a sentence.</param>
+    internal void End(string reason) => end ??= reason;
+
+    /// <summary>Refuses what comes after the end.</summary>
+    /// <exception cref="ObjectDisposedException">The simulation was disposed, or its memory is gone.</exception>
+    internal void CheckAlive()
+    {
+        if (end is { } reason)
+            throw new ObjectDisposedException(nameof(Simulation), reason);
+    }
+
+    /// <summary>Begins a change by the calling thread.</summary>
+    /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
+    internal Scope Change([CallerMemberName] string operation = "")
+    {
+        Hold(operation);
+        return new(this);
+    }
+
+    /// <summary>As <see cref="Change"/>, until <see cref="Release"/>.</summary>
+    internal void Hold(string operation)
+    {
+        Take(operation);
+        if (IsStepOfOther || IsRead)
+            Refuse(operation);
+        activity = operation;
+    }
+
+    /// <summary>Ends a change or a stage.</summary>
+    internal void Release()
+    {
+        readableStage = 0;
+        Volatile.Write(ref holder, 0);
+    }
+
+    /// <summary>Begins a change that must not come between the stages of a step either.</summary>
+    /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
+    internal Scope ChangeOutsideOfSteps([CallerMemberName] string operation = "")
+    {
+        Take(operation);
+        if (Volatile.Read(ref stepper) != 0 || IsRead)
+            Refuse(operation);
+        activity = operation;
+        return new(this);
+    }
+
+    /// <summary>Begins a stage of a step.</summary>
+    /// <param name="allowsQueries">Whether nothing that queries read changes in the stage, so that its workers may ask them.</param>
+    /// <param name="operation">Name of the stage.</param>
+    /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
+    internal Scope Stage(bool allowsQueries = false, [CallerMemberName] string operation = "")
+    {
+        var scope = Change(operation);
+        if (allowsQueries)
+        {
+            readableStage = Interlocked.Increment(ref lastStage);
+            MarkWorker();
+        }
+        return scope;
+    }
+
+    /// <summary>Begins a step, which consists of stages.</summary>
+    /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
+    internal StepScope Step([CallerMemberName] string operation = "")
+    {
+        CheckAlive();
+        if (Interlocked.CompareExchange(ref stepper, CurrentThread, 0) != 0)
+            ThrowBusy(operation);
+        if (Volatile.Read(ref holder) != 0 || IsRead)
+        {
+            Volatile.Write(ref stepper, 0);
+            ThrowBusy(operation);
+        }
+        return new(this);
+    }
+
+    /// <summary>Begins a query of the calling thread.</summary>
+    /// <exception cref="InvalidOperationException">Something goes on that changes what queries read, or the world has ended.</exception>
+    internal ReadScope Read([CallerMemberName] string operation = "")
+    {
+        CheckAlive();
+        var thread = CurrentThread;
+        ref var count = ref reading[((thread & (StripeCount - 1)) + 1) * StripeLength];
+        Interlocked.Increment(ref count);
+        if ((Volatile.Read(ref holder) != 0 && !MayReadNow(thread)) || (IsStepOfOther && !MayReadNow(thread)))
+        {
+            Interlocked.Decrement(ref count);
+            ThrowBusy(operation);
+        }
+        return new(ref count);
+    }
+
+    /// <summary>Refuses the writing of values, which moves nothing in memory, at a time when it would meet others that read or write them.</summary>
+    /// <exception cref="InvalidOperationException">A stage is in progress, or another thread steps, or the world has ended.</exception>
+    internal void CheckWritable([CallerMemberName] string operation = "")
+    {
+        CheckAlive();
+        if ((Volatile.Read(ref holder) != 0 || IsStepOfOther) && Volatile.Read(ref eventThread) != CurrentThread)
+            ThrowBusy(operation);
+    }
+
+    /// <summary>Refuses a change at a time when a change would be refused, without beginning one.</summary>
+    internal void CheckChangeable([CallerMemberName] string operation = "") => Change(operation).Dispose();
+
+    /// <summary>Notes that the calling thread works at the present stage, so that what it calls may ask queries.</summary>
+    internal void MarkWorker() => markedStage = readableStage;
+
+    /// <summary>Begins a substep event, which runs alone.</summary>
+    internal void BeginEvent() => Volatile.Write(ref eventThread, CurrentThread);
+
+    /// <summary>Ends a substep event.</summary>
+    internal void EndEvent() => Volatile.Write(ref eventThread, 0);
+
+    bool IsStepOfOther => Volatile.Read(ref stepper) is var thread and not 0 && thread != CurrentThread;
+
+    bool MayReadNow(int thread) =>
+        Volatile.Read(ref eventThread) == thread || (readableStage != 0 && markedStage == readableStage);
+
+    void Take(string operation)
+    {
+        CheckAlive();
+        if (Interlocked.CompareExchange(ref holder, CurrentThread, 0) != 0)
+            ThrowBusy(operation);
+    }
+
+    [DoesNotReturn]
+    void Refuse(string operation)
+    {
+        Volatile.Write(ref holder, 0);
+        ThrowBusy(operation);
+    }
+
+    [DoesNotReturn]
+    void ThrowBusy(string operation)
+    {
+        var cause = Volatile.Read(ref holder) != 0 ? $"while {activity} is in progress"
+            : Volatile.Read(ref stepper) != 0 ? "while a step is in progress"
+            : "while a query is in progress";
+        throw new InvalidOperationException(
+            $"{operation} was called {cause}, from a callback or from another thread; nothing was changed. " +
+            "Docs/Guides/Callbacks.md says what may be called when.");
+    }
+
+    /// <summary>Ends a change or a stage.</summary>
+    internal readonly ref struct Scope(WorldLock world)
+    {
+        public void Dispose() => world.Release();
+    }
+
+    /// <summary>Ends a step.</summary>
+    internal readonly ref struct StepScope(WorldLock world)
+    {
+        public void Dispose() => Volatile.Write(ref world.stepper, 0);
+    }
+
+    /// <summary>Ends a query.</summary>
+    internal readonly ref struct ReadScope(ref int count)
+    {
+        readonly ref int count = ref count;
+
+        public void Dispose() => Interlocked.Decrement(ref count);
+    }
+}

@@ -1,0 +1,158 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+using Xunit;
+
+namespace DemoTests.Locking;
+
+/// <summary>A simulation after its end, and pools that are cleared too early.</summary>
+public class EndOfWorldTests
+{
+    public static TheoryData<string> Operations => [.. LockOperations.All.Keys];
+
+    [Theory]
+    [MemberData(nameof(Operations))]
+    public void Whatever_comes_after_Dispose_is_refused(string name)
+    {
+        var world = new LockedWorld(1, 8);
+        var body = world.Simulation.Bodies[world.Body];
+        var still = world.Simulation.Statics[world.SpareStatic];
+        world.Step();
+        world.Simulation.Dispose();
+        world.Pool.AssertEmpty();
+        CheckEnded(world, body, still, name);
+        world.Pool.AssertEmpty();
+        world.Pool.Clear();
+    }
+
+    [Theory]
+    [MemberData(nameof(Operations))]
+    public void Whatever_comes_after_its_pool_was_cleared_is_refused(string name)
+    {
+        var world = new LockedWorld(1, 8);
+        var body = world.Simulation.Bodies[world.Body];
+        var still = world.Simulation.Statics[world.SpareStatic];
+        world.Step();
+        world.Pool.Clear();
+        CheckEnded(world, body, still, name);
+        Assert.Equal(0ul, world.Pool.GetTotalAllocatedByteCount());
+    }
+
+    [Fact]
+    public void What_a_simulation_shows_of_itself_after_its_end_is_empty_or_refused()
+    {
+        var world = new LockedWorld(1, 8);
+        world.Step();
+        world.Simulation.Dispose();
+        Assert.Equal(0, world.Simulation.Bodies.CountBodies());
+        Assert.Equal(0, world.Simulation.Statics.Count);
+        Assert.Equal(0, world.Simulation.Solver.CountConstraints());
+        Assert.Equal(0, world.Simulation.Bodies.HandleToLocation.Length);
+        Assert.Equal(0, world.Simulation.BroadPhase.ActiveTree.LeafCount);
+        Assert.Throws<ObjectDisposedException>(() => world.Simulation.Bodies.ActiveSet.Count);
+        Assert.Throws<ObjectDisposedException>(() => world.Simulation.Solver.ActiveSet.CountConstraints());
+        Assert.Throws<ObjectDisposedException>(() => world.Simulation.Statics[0].Pose);
+        Assert.Throws<ObjectDisposedException>(() => world.Simulation.Validate());
+        Assert.False(world.Simulation.Bodies.BodyExists(world.Body));
+        Assert.False(world.Simulation.Statics.StaticExists(world.Ground));
+        Assert.False(world.Simulation.Solver.ConstraintExists(world.Joint));
+        world.Simulation.Dispose();
+        world.Pool.Clear();
+    }
+
+    [Fact]
+    public void A_pool_that_was_cleared_serves_a_new_simulation()
+    {
+        var pool = new BufferPool();
+        for (int round = 0; round < 3; ++round)
+        {
+            var simulation = NewSimulation(pool);
+            simulation.Bodies.Add(BodyDescription.CreateKinematic(RigidPose.Identity, simulation.Shapes.Add(new Sphere(1)), -1));
+            simulation.Timestep(1 / 60f);
+            pool.Clear();
+            // As in games that dispose in any order.
+            simulation.Dispose();
+            pool.AssertEmpty();
+        }
+    }
+
+    [Fact]
+    public void Shapes_whose_pool_was_cleared_are_refused_by_those_who_share_them()
+    {
+        var shapePool = new BufferPool();
+        var pool = new BufferPool();
+        var shapes = new Shapes(shapePool, 4);
+        using (var simulation = NewSimulation(pool, shapes))
+        {
+            var sphere = shapes.Add(new Sphere(1));
+            simulation.Bodies.Add(BodyDescription.CreateKinematic(RigidPose.Identity, sphere, -1));
+            simulation.Timestep(1 / 60f);
+            shapePool.Clear();
+            Assert.Throws<ObjectDisposedException>(() => simulation.Timestep(1 / 60f));
+            Assert.Throws<ObjectDisposedException>(() => shapes.Add(new Sphere(1)));
+            Assert.False(shapes.Exists(sphere));
+        }
+        pool.AssertEmpty();
+    }
+
+    [Fact]
+    public void A_simulation_whose_callbacks_throw_at_the_beginning_or_the_end_leaves_no_memory_behind()
+    {
+        var pool = new BufferPool();
+        Assert.Throws<TimeZoneNotFoundException>(() => Simulation.Create(
+            pool, new ThrowingContacts { InInitialize = true }, new PlainIntegrator(), new SolveDescription(1, 2)));
+        pool.AssertEmpty();
+        var simulation = Simulation.Create(pool, new ThrowingContacts { InDispose = true }, new PlainIntegrator(), new SolveDescription(1, 2));
+        Assert.Throws<TimeZoneNotFoundException>(simulation.Dispose);
+        simulation.Dispose();
+        pool.AssertEmpty();
+    }
+
+    [Fact]
+    public void In_builds_with_checks_a_pool_says_what_was_not_returned()
+    {
+        var reports = new List<string>();
+        BufferPool.LeakFound += reports.Add;
+        try
+        {
+            var pool = new BufferPool();
+            pool.Take<int>(1000, out var numbers);
+            pool.Take<Vector3>(10, out var vectors);
+            pool.Return(ref numbers);
+            pool.Take<double>(3, out _);
+            pool.Clear();
+            reports.RemoveAll(report => !report.Contains("Vector3", StringComparison.Ordinal) || !report.Contains("Double", StringComparison.Ordinal));
+            Assert.Equal(Check.IsEnabled ? 1 : 0, reports.Count);
+            Assert.DoesNotContain(reports, report => report.Contains("Int32", StringComparison.Ordinal));
+        }
+        finally
+        {
+            BufferPool.LeakFound -= reports.Add;
+        }
+    }
+
+    static void CheckEnded(LockedWorld world, BodyReference body, StaticReference still, string name)
+    {
+        var exception = Record.Exception(() => LockOperations.All[name].Do(world));
+        // A second Dispose, and clearing the pool, are no calls to the simulation.
+        if (name is "Simulation.Dispose" or "BufferPool.Clear")
+            Assert.Null(exception);
+        else
+            Assert.True(exception is ObjectDisposedException, $"{name}: {exception?.ToString() ?? "worked"}");
+        Assert.False(body.Exists);
+        Assert.False(still.Exists);
+        Assert.Throws<ObjectDisposedException>(() => body.Pose);
+        Assert.Throws<ObjectDisposedException>(() => body.BoundingBox);
+        Assert.Throws<ObjectDisposedException>(() => still.Pose);
+        Assert.Throws<ObjectDisposedException>(() => still.BoundingBox);
+    }
+
+    static Simulation NewSimulation(BufferPool pool, Shapes? shapes = null) =>
+        Simulation.Create(pool, new ThrowingContacts(), new PlainIntegrator(), new SolveDescription(1, 2), shapes: shapes);
+}
