@@ -69,6 +69,8 @@ public struct BodySet
     internal Buffer<StepOrigin> Origins;
     /// <summary>Geometric stiffness of each body in the place of an inertia tensor; allocated only once a joint can add to it.</summary>
     internal Buffer<BodyInertia> Stiffness;
+    /// <summary>Number of each body's joints that make hubs; allocated with the first of them.</summary>
+    internal Buffer<int> JointCounts;
     /// <summary>Principal frames of the bodies, as far as they are known; allocated only once a body's inertia is not diagonal.</summary>
     // They say themselves what they are of: they need not move with the bodies.
     internal Buffer<PrincipalFrame> PrincipalFrames;
@@ -98,6 +100,8 @@ public struct BodySet
         ResizeZeroed(ref Origins, capacity, Count, pool);
         if (Stiffness.Allocated)
             ResizeZeroed(ref Stiffness, capacity, Count, pool);
+        if (JointCounts.Allocated)
+            ResizeZeroed(ref JointCounts, capacity, Count, pool);
         if (PrincipalFrames.Allocated)
             ResizeZeroed(ref PrincipalFrames, capacity, Count, pool);
         ResizeZeroed(ref Collidables, capacity, Count, pool);
@@ -110,6 +114,13 @@ public struct BodySet
     {
         if (!Stiffness.Allocated)
             ResizeZeroed(ref Stiffness, Capacity, 0, pool);
+    }
+
+    /// <summary>Makes room for counts of joints, from the first joint on that is counted.</summary>
+    internal void EnsureJointCounts(BufferPool pool)
+    {
+        if (!JointCounts.Allocated)
+            ResizeZeroed(ref JointCounts, Capacity, 0, pool);
     }
 
     /// <summary>Makes room for principal frames, if this is the first body whose inertia is not diagonal.</summary>
@@ -146,6 +157,8 @@ public struct BodySet
             Origins[index] = Origins[last];
             if (Stiffness.Allocated)
                 Stiffness[index] = Stiffness[last];
+            if (JointCounts.Allocated)
+                JointCounts[index] = JointCounts[last];
             Collidables[index] = Collidables[last];
             Activity[index] = Activity[last];
             Constraints[index] = Constraints[last];
@@ -158,6 +171,8 @@ public struct BodySet
         Origins[last] = default;
         if (Stiffness.Allocated)
             Stiffness[last] = default;
+        if (JointCounts.Allocated)
+            JointCounts[last] = default;
         Collidables[last] = default;
         Activity[last] = default;
         Constraints[last] = default;
@@ -176,6 +191,8 @@ public struct BodySet
         Origins.Clear(0, Count);
         if (Stiffness.Allocated)
             Stiffness.Clear(0, Count);
+        if (JointCounts.Allocated)
+            JointCounts.Clear(0, Count);
         Collidables.Clear(0, Count);
         Activity.Clear(0, Count);
         Constraints.Clear(0, Count);
@@ -194,6 +211,8 @@ public struct BodySet
         pool.Return(ref Origins);
         if (Stiffness.Allocated)
             pool.Return(ref Stiffness);
+        if (JointCounts.Allocated)
+            pool.Return(ref JointCounts);
         if (PrincipalFrames.Allocated)
             pool.Return(ref PrincipalFrames);
         pool.Return(ref Collidables);

@@ -33,10 +33,12 @@ public struct SpringSettings
     }
 
     /// <summary>Frequency of rigid joints in periods per substep; without relaxations, the upper limit of every joint's.</summary>
+    /// <remarks>Joints of a dynamic body that has three or more of them take <see cref="ContactCyclesPerSubstep"/>, if that is less.</remarks>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
     /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
     // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either
-    // kind, moves a load over one more joint and is worth another 0.125 up to three, and half as much from there.
+    // kind, moves a load over one more joint and is worth another 0.125 up to three, and half as much from there. Joints of bodies that have
+    // three or more are no stiffer than contacts (Solver.Hubs.cs).
     public static float JointCyclesPerSubstep(int iterations, int relaxations = 0)
     {
         var sweeps = iterations + relaxations;
@@ -90,14 +92,32 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     // Relaxation takes back the velocity that the correction of position has left behind, and is for what is meant to be rigid: C' = 0
     // without any softness. The velocity of a spring that a game asked for is no correction, and stays.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits)
+    public readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits) =>
+        ForSubstep(substep, new Vector<float>(limits.RigidFrequencyDt), new Vector<float>(limits.GreatestFrequencyDt));
+
+    /// <summary>Coefficients of the implicit Euler step of the spring, or of its relaxation, where some lanes have limits of their own.</summary>
+    /// <param name="substep">The substep, and what its present sweep is for.</param>
+    /// <param name="limits">How stiff the kind of constraint may be in it.</param>
+    /// <param name="hubLimits">How stiff it may be besides in lanes of hubs.</param>
+    /// <param name="hubMask">Lanes of hubs.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly SoftnessWide ForSubstep(
+        in Substep substep, in SubstepStiffness limits, in SubstepStiffness hubLimits, Vector<int> hubMask) => ForSubstep(
+        substep,
+        Least(limits.RigidFrequencyDt, hubLimits.RigidFrequencyDt, hubMask), Least(limits.GreatestFrequencyDt, hubLimits.GreatestFrequencyDt, hubMask));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Least(float limit, float hubLimit, Vector<int> hubMask) =>
+        Wide.Select(hubMask, new Vector<float>(MathHelper.Min(limit, hubLimit)), new Vector<float>(limit));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly SoftnessWide ForSubstep(in Substep substep, Vector<float> rigidFrequencyDt, Vector<float> greatestFrequencyDt)
     {
         var given = AngularFrequency * substep.Dt;
         var rigid = Vector.Equals(given, Vector<float>.Zero);
         if (substep.IsRelaxation)
             return new() { MassScale = Wide.Mask(rigid, Vector<float>.One) };
-        var stiffest = new Vector<float>(limits.GreatestFrequencyDt);
-        var frequencyDt = Vector.ConditionalSelect(rigid, new Vector<float>(limits.RigidFrequencyDt), Wide.Min(given, stiffest));
+        var frequencyDt = Vector.ConditionalSelect(rigid, rigidFrequencyDt, Wide.Min(given, greatestFrequencyDt));
         var sum = frequencyDt + Vector.ConditionalSelect(rigid, new Vector<float>(2), TwiceDampingRatio);
         var product = frequencyDt * sum;
         SoftnessWide softness;

@@ -24,6 +24,8 @@ public struct SolverBodyWide
     public Vector3Wide Translation;
     /// <summary>Rotation since collision detection, as the sum of angular velocity times time.</summary>
     public Vector3Wide Rotation;
+    /// <summary>Lanes in which the body is a hub: constraints that move it at the same time are many, or do not see each other's impulses.</summary>
+    public Vector<int> HubMask;
 }
 
 /// <summary>Parts of a body that a constraint reads. Folded away by the JIT.</summary>
@@ -40,6 +42,8 @@ public enum BodyAccess
     Mass = 4,
     /// <summary>Translation and rotation since collision detection; read only where there can be any.</summary>
     Displacement = 8,
+    /// <summary>Whether the body is a hub of joints.</summary>
+    Hub = 16,
 }
 
 /// <summary>The one to four bodies that a constraint connects.</summary>

@@ -23,6 +23,9 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Whether the constraint holds points of its bodies together, so that its load stiffens their rotation.</summary>
     static virtual bool CarriesPointLoad => false;
 
+    /// <summary>Whether several constraints of the type on one body make it a hub.</summary>
+    static virtual bool MakesHubs => false;
+
     /// <summary>Geometric stiffness of the constraint's load on its first and its last body; asked for only where <see cref="CarriesPointLoad"/>.</summary>
     /// <returns>Whether there is any in any lane that a substep might not resolve.</returns>
     static virtual bool TryGetGeometricStiffness(

@@ -51,6 +51,13 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>Whether the joint holds a point of A to a point of B.</summary>
     static virtual bool HoldsPoints => false;
 
+    /// <summary>
+    /// Whether the joint hands the weight of one body to another, so that several of them on one body make it a hub, whose joints may be less stiff
+    /// than those of a chain.
+    /// </summary>
+    /// <remarks>Joints that hold points do so, whatever they say.</remarks>
+    static virtual bool CarriesBodies => false;
+
     /// <summary>Arms and impulse (on A) of the point rows; asked for only where <see cref="HoldsPoints"/>.</summary>
     static virtual void PointLoad(in TGeometry geometry, in TRows impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
     {

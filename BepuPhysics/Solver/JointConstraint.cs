@@ -13,10 +13,12 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
     /// <inheritdoc/>
     public static BodyAccess WarmStartAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
     /// <inheritdoc/>
-    public static BodyAccess SolveAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+    public static BodyAccess SolveAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass | BodyAccess.Hub;
 
     /// <inheritdoc/>
     public static bool CarriesPointLoad => TJoint.HoldsPoints;
+    /// <inheritdoc/>
+    public static bool MakesHubs => TJoint.HoldsPoints || TJoint.CarriesBodies;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -61,7 +63,12 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-        var softness = TJoint.Spring(prestep).ForSubstep(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
+        var isHub = BodySlots.At(ref bodies, 0).HubMask;
+        if (TBodies.Count > 1) isHub |= BodySlots.At(ref bodies, 1).HubMask;
+        if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
+        if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
+        var limits = TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints;
+        var softness = TJoint.Spring(prestep).ForSubstep(substep, limits, substep.Hubs, isHub);
 
         var wanted = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)

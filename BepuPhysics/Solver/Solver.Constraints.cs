@@ -164,10 +164,12 @@ public sealed unsafe partial class Solver
         }
         var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
         Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
-        if (Processor(typeId).CarriesPointLoad)
-            bodies.ActiveSet.EnsureStiffness(pool);
         for (int i = 0; i < bodyHandles.Length; ++i)
             bodies.AddConstraint(bodyHandles[i], handle, i);
+        if (Processor(typeId).CarriesPointLoad)
+            bodies.ActiveSet.EnsureStiffness(pool);
+        if (Processor(typeId).MakesHubs)
+            CountJoint(handle, bodyHandles);
         return handle;
     }
 
@@ -228,7 +230,7 @@ public sealed unsafe partial class Solver
             {
                 var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
                 if ((reference & EncodedBody.KinematicFlag) == 0)
-                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference].Slot);
+                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference & EncodedBody.IndexMask].Slot);
             }
         }
         var index = location.IndexInTypeBatch;
@@ -246,6 +248,8 @@ public sealed unsafe partial class Solver
         {
             var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
             bodies.RemoveConstraint(reference, handle);
+            if (processor.MakesHubs)
+                ChangeJointCount(reference, -1);
         }
     }
 
@@ -255,7 +259,9 @@ public sealed unsafe partial class Solver
     /// </summary>
     internal void Recolor(BodyHandle body)
     {
-        ref var constraints = ref bodies.ActiveSet.Constraints[bodies.Locations[body.Slot].Index];
+        var recolored = bodies.Locations[body.Slot].Index;
+        ref var constraints = ref bodies.ActiveSet.Constraints[recolored];
+        ChangeKindOfHub(recolored);
         Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
         for (int i = constraints.Count - 1; i >= 0; --i)
@@ -281,6 +287,8 @@ public sealed unsafe partial class Solver
             var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
             Locations[handle.Slot] = location;
             processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+            if (processor.MakesHubs)
+                MarkHubs(location);
         }
     }
 

@@ -152,13 +152,14 @@ public sealed unsafe partial class Solver
                     if ((reference & EncodedBody.KinematicFlag) != 0)
                         continue;
                     var part = split.StartOfTypeBatch[i] + constraint * processor.BodiesPerConstraint + slot;
+                    var body = reference & EncodedBody.IndexMask;
                     if (next == null)
                     {
-                        ++split.Counts[reference];
-                        split.Shares[part] = Need(ref typeBatches[i], processor, constraint, reference);
+                        ++split.Counts[body];
+                        split.Shares[part] = Need(ref typeBatches[i], processor, constraint, body);
                     }
                     else
-                        split.PartsOfBody[next[reference]++] = part;
+                        split.PartsOfBody[next[body]++] = part;
                 }
             }
         }

@@ -15,47 +15,39 @@ namespace BepuPhysics;
 // symmetric, and K's is positive: the eigenvalues of the mean are real again. Two fixed orders in turn are no remedy, least of all one order
 // and its reverse, where the last joint of a substep is the first of the next. One order for all sweeps of a substep: an exactly straight
 // chain, with three sweeps and the stiffness that they allow, gains energy where each of them has its own.
+//
+// Contacts come after all joints then, in the order of their batches: what touches no joint keeps every bit, whatever hubs there are elsewhere.
 public sealed unsafe partial class Solver
 {
-    /// <summary>Joints of one body from which on a fixed order gains energy, with one sweep and at the mass ratio that is worst for it.</summary>
-    const int JointsOfHub = 8;
+    /// <summary>Joints of one body from which on a fixed order gains energy at the mass ratio that is worst for it, with one sweep per substep.</summary>
+    const int JointsToDrawForOneSweep = 8;
+    /// <summary>The same with several sweeps per substep, be they iterations or relaxations.</summary>
+    const int JointsToDrawForSweeps = 4;
 
     // Part of the state of a simulation: it begins with zero and takes the same values in each run.
     uint drawnOrder;
 
-    /// <summary>Lists the batches that have constraints in the order of their indices, and finds out whether it has to change.</summary>
-    // What was removed has no part in it: batches and type batches that have become empty stay, since contacts come back to them.
+    /// <summary>Lists the batches that have joints, in the order of their indices.</summary>
     void BuildOrder(ref SolveWork work)
     {
-        ref var batches = ref ActiveSet.Batches;
-        work.Order = new QuickList<int>(Math.Max(1, batches.Count), pool);
-        for (int i = 0; i < batches.Count; ++i)
-        {
-            if (work.BlocksOfBatch[i].Count == 0)
-                continue;
-            work.Order.Add(i, pool);
-            // The batches of a body are not those of another: batches with joints that far up are there only if some body has that many constraints.
-            work.DrawsOrder |= i >= JointsOfHub - 1 && HoldsPoints(batches[i]);
-        }
-        // Who comes after the last hub finds what the first one found.
-        if (!work.DrawsOrder)
-            drawnOrder = 0;
+        work.Order = new QuickList<int>(Math.Max(1, work.BlocksOfBatch.Count), pool);
+        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
+            if (work.BlocksOfBatch[i].JointCount > 0)
+                work.Order.Add(i, pool);
     }
 
-    bool HoldsPoints(in ConstraintBatch batch)
-    {
-        for (int i = 0; i < batch.TypeBatches.Count; ++i)
-            if (batch.TypeBatches[i].ConstraintCount > 0 && Processor(batch.TypeBatches[i].TypeId).CarriesPointLoad)
-                return true;
-        return false;
-    }
-
-    /// <summary>Draws the order for the next substep, where a fixed one is not stable.</summary>
+    /// <summary>Draws the order of joints for the next substep, where a fixed one is not stable.</summary>
     // Fisher and Yates. Of the linear congruential generator only the upper bits count, which are the good ones.
     void DrawOrder(ref SolveWork work)
     {
+        var hubs = work.Iterations + relaxationIterationCount > 1 ? hubsToDrawForSweeps : hubsToDrawForOneSweep;
+        work.DrawsOrder = hubs > 0;
         if (!work.DrawsOrder)
+        {
+            // Who comes after the last hub finds what the first one found.
+            drawnOrder = 0;
             return;
+        }
         for (int i = work.Order.Count - 1; i > 0; --i)
         {
             drawnOrder = drawnOrder * 1664525 + 1013904223;

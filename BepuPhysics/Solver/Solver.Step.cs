@@ -15,7 +15,7 @@ namespace BepuPhysics;
 // With relaxation, poses are integrated after the iterations of each substep, and for each relaxation, for each batch: solve, without
 // correction of positions.
 //
-// Batches are solved in the order of their indices, or in one that is drawn for the substep (Solver.Order.cs).
+// Batches are solved in the order of their indices, or those of joints first, in an order that is drawn for the substep (Solver.Order.cs).
 //
 // The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
 public sealed unsafe partial class Solver
@@ -67,6 +67,7 @@ public sealed unsafe partial class Solver
         public IntegrationStage Integration;
         public int Substep;
         public int Batch;
+        public int FirstBlock;
         public int BlockCount;
         public int Iterations;
         public SolverPoint Point;
@@ -81,9 +82,11 @@ public sealed unsafe partial class Solver
         public int EndBundle;
     }
 
+    // Blocks of a batch: those of joints, then those of contacts.
     struct BlockRange
     {
         public int Start;
+        public int JointCount;
         public int Count;
     }
 
@@ -158,14 +161,22 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < batches.Count; ++i)
         {
             var start = work.Blocks.Count;
-            ref var typeBatches = ref batches[i].TypeBatches;
-            for (int j = 0; j < typeBatches.Count; ++j)
-            {
-                var bundles = typeBatches[j].BundleCount;
-                for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
-                    work.Blocks.Add(new() { TypeBatch = j, StartBundle = bundle, EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles) }, pool);
-            }
-            work.BlocksOfBatch.Add(new() { Start = start, Count = work.Blocks.Count - start }, pool);
+            AddBlocks(ref work, batches[i], ofJoints: true);
+            var firstContacts = work.Blocks.Count;
+            AddBlocks(ref work, batches[i], ofJoints: false);
+            work.BlocksOfBatch.Add(new() { Start = start, JointCount = firstContacts - start, Count = work.Blocks.Count - start }, pool);
+        }
+    }
+
+    void AddBlocks(ref SolveWork work, in ConstraintBatch batch, bool ofJoints)
+    {
+        for (int i = 0; i < batch.TypeBatches.Count; ++i)
+        {
+            if (batch.TypeBatches[i].TypeId >= ConstraintTypeIds.ContactTypeCount != ofJoints)
+                continue;
+            var bundles = batch.TypeBatches[i].BundleCount;
+            for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
+                work.Blocks.Add(new() { TypeBatch = i, StartBundle = bundle, EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles) }, pool);
         }
     }
 
@@ -229,16 +240,37 @@ public sealed unsafe partial class Solver
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
+        if (!work.DrawsOrder)
+        {
+            for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
+                AddBatch(ref work, kind, substep, i, work.BlocksOfBatch[i].Start, work.BlocksOfBatch[i].Count);
+            return;
+        }
         for (int i = 0; i < work.Order.Count; ++i)
         {
             var batch = work.Order[i];
-            work.Stages.Add(new()
-            {
-                Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, BlockCount = work.BlocksOfBatch[batch].Count,
-            }, pool);
-            if (batch == FallbackBatchThreshold)
-                work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
+            ref var blocks = ref work.BlocksOfBatch[batch];
+            // Split bodies are joined once for all of their constraints.
+            AddBatch(ref work, kind, substep, batch, blocks.Start, batch == FallbackBatchThreshold ? blocks.Count : blocks.JointCount);
         }
+        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
+        {
+            ref var blocks = ref work.BlocksOfBatch[i];
+            if (i < FallbackBatchThreshold || blocks.JointCount == 0)
+                AddBatch(ref work, kind, substep, i, blocks.Start + blocks.JointCount, blocks.Count - blocks.JointCount);
+        }
+    }
+
+    void AddBatch(ref SolveWork work, StageKind kind, int substep, int batch, int firstBlock, int blockCount)
+    {
+        if (blockCount == 0)
+            return;
+        work.Stages.Add(new()
+        {
+            Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, FirstBlock = firstBlock, BlockCount = blockCount,
+        }, pool);
+        if (batch == FallbackBatchThreshold)
+            work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
     }
 
     static int BlockCount(int count, int perBlock) => (count + perBlock - 1) / perBlock;
@@ -256,7 +288,7 @@ public sealed unsafe partial class Solver
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
         public QuickList<BlockRange> BlocksOfBatch;
-        // Batches in the order in which the present substep sweeps over them.
+        // Batches with joints, in the order in which the present substep sweeps over them if it is drawn.
         public QuickList<int> Order;
         public bool DrawsOrder;
 
@@ -278,7 +310,7 @@ public sealed unsafe partial class Solver
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                 case StageKind.Relax:
-                    RunConstraints(stage, Blocks[BlocksOfBatch[stage.Batch].Start + blockIndex]);
+                    RunConstraints(stage, Blocks[stage.FirstBlock + blockIndex]);
                     break;
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;

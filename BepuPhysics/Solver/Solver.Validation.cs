@@ -30,6 +30,7 @@ public sealed partial class Solver
         for (int i = 0; i < bodies.ActiveSet.Count; ++i)
             listedCount += bodies.ActiveSet.Constraints[i].Count;
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
+        ValidateHubs();
         Invariant.Ids(HandlePool, Locations.Length, "constraints", id => Locations[id].SetIndex >= 0);
         for (int slot = 0; slot < owners.Capacity; ++slot)
             Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);
@@ -109,6 +110,30 @@ public sealed partial class Solver
         Invariant.Require(anyDynamic, "constraint without dynamic bodies", handle.Slot);
         for (int i = 0; i < processor.ImpulseFloats; ++i)
             Invariant.Require(float.IsFinite(processor.Impulse(ref typeBatch, location.IndexInTypeBatch, i)), "impulse of constraint", handle.Slot, i);
+    }
+
+    void ValidateHubs()
+    {
+        int drawnForOneSweep = 0, drawnForSweeps = 0;
+        for (int i = 0; bodies.ActiveSet.JointCounts.Allocated && i < bodies.ActiveSet.Count; ++i)
+        {
+            ref var constraints = ref bodies.ActiveSet.Constraints[i];
+            int joints = 0;
+            for (int j = 0; j < constraints.Count; ++j)
+            {
+                ref var location = ref Locations[constraints[j].ConnectingConstraintHandle.Slot];
+                var reference = Processor(location.TypeId).BodyReference(
+                    ref TypeBatchAt(location), location.IndexInTypeBatch, constraints[j].BodyIndexInConstraint);
+                var makesHubs = Processor(location.TypeId).MakesHubs;
+                joints += makesHubs ? 1 : 0;
+                Invariant.Require((reference & EncodedBody.HubFlag) != 0 == (makesHubs && Degree(i) >= JointsOfHub), "flag of a hub of body", i, j);
+            }
+            Invariant.Require(bodies.ActiveSet.JointCounts[i] == joints, "number of joints of body", i, joints);
+            drawnForOneSweep += Degree(i) >= JointsToDrawForOneSweep ? 1 : 0;
+            drawnForSweeps += Degree(i) >= JointsToDrawForSweeps ? 1 : 0;
+        }
+        Invariant.Require(hubsToDrawForOneSweep == drawnForOneSweep && hubsToDrawForSweeps == drawnForSweeps, "number of hubs",
+            hubsToDrawForOneSweep, hubsToDrawForSweeps);
     }
 
     bool IsListed(int bodyIndex, ConstraintHandle handle, int slot)

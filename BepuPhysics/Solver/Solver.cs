@@ -216,6 +216,8 @@ public sealed unsafe partial class Solver
         previousSubstepDt = 0;
         steadySubstepDt = 0;
         drawnOrder = 0;
+        hubsToDrawForOneSweep = 0;
+        hubsToDrawForSweeps = 0;
     }
 
     void DisposeBatch(ref ConstraintBatch batch)

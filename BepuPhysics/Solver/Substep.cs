@@ -23,6 +23,8 @@ public readonly struct Substep
     public readonly SubstepStiffness Joints;
     /// <summary>How stiff servos may be.</summary>
     public readonly SubstepStiffness Servos;
+    /// <summary>How stiff joints and servos may be at most where many are on one body, or do not see each other's impulses.</summary>
+    public readonly SubstepStiffness Hubs;
     /// <summary>How stiff contacts may be.</summary>
     public readonly SubstepStiffness Contacts;
 
@@ -43,6 +45,7 @@ public readonly struct Substep
         Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations) * steadiness, unrelaxed);
         Servos = new(unrelaxed * steadiness, unrelaxed);
         Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations) * steadiness, SpringSettings.ContactCyclesPerSubstep(iterations));
+        Hubs = Contacts;
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;

@@ -34,6 +34,8 @@ static class EncodedBody
     internal const int Empty = -1;
     /// <summary>Set for a kinematic body: it is read by many constraints of a batch at once and written by none.</summary>
     internal const int KinematicFlag = 1 << 30;
+    /// <summary>Set, in joints that make hubs, for a body that is one (Solver.Hubs.cs).</summary>
+    internal const int HubFlag = 1 << 29;
     /// <summary>Bits of the body index.</summary>
-    internal const int IndexMask = KinematicFlag - 1;
+    internal const int IndexMask = HubFlag - 1;
 }

@@ -13,6 +13,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
 
     /// <inheritdoc/>
     internal override bool CarriesPointLoad => TConstraint.CarriesPointLoad;
+    /// <inheritdoc/>
+    internal override bool MakesHubs => TConstraint.MakesHubs;
 
     /// <inheritdoc/>
     internal override void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
@@ -71,6 +73,8 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         {
             Gather(references + i * TBodies.Count, bodies, TConstraint.SolveAccess, substep, out var slots);
             ScaleInverseMass(i, split, ref slots);
+            // Constraints of split bodies do not see each other's impulses until the parts are joined.
+            BodySlots.At(ref slots, 0).HubMask = new(-1);
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
         }
@@ -83,28 +87,45 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     {
         if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
             return;
-        bodies.AddStiffness(references[0], stiffnessA);
-        bodies.AddStiffness(references[TBodies.Count - 1], stiffnessB);
+        bodies.AddStiffness(Places(references[0]), stiffnessA);
+        bodies.AddStiffness(Places(references[TBodies.Count - 1]), stiffnessB);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Gather(Vector<int>* references, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
     {
         Unsafe.SkipInit(out slots);
-        bodies.Gather(references[0], access, substep, out BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.Gather(references[1], access, substep, out BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.Gather(references[2], access, substep, out BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.Gather(references[3], access, substep, out BodySlots.At(ref slots, 3));
+        bodies.Gather(Places(references[0]), access, substep, out BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.Gather(Places(references[1]), access, substep, out BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.Gather(Places(references[2]), access, substep, out BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.Gather(Places(references[3]), access, substep, out BodySlots.At(ref slots, 3));
+        if ((access & BodyAccess.Hub) != 0)
+        {
+            BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
+            if (TBodies.Count > 1) BodySlots.At(ref slots, 1).HubMask = HubMask(references[1]);
+            if (TBodies.Count > 2) BodySlots.At(ref slots, 2).HubMask = HubMask(references[2]);
+            if (TBodies.Count > 3) BodySlots.At(ref slots, 3).HubMask = HubMask(references[3]);
+        }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Scatter(Vector<int>* references, in SolverBodies bodies, ref TBodies slots)
     {
-        bodies.ScatterVelocity(references[0], BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.ScatterVelocity(references[1], BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.ScatterVelocity(references[2], BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.ScatterVelocity(references[3], BodySlots.At(ref slots, 3));
+        bodies.ScatterVelocity(Places(references[0]), BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.ScatterVelocity(Places(references[1]), BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.ScatterVelocity(Places(references[2]), BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.ScatterVelocity(Places(references[3]), BodySlots.At(ref slots, 3));
     }
+
+    // References as gathers and scatters know them. Only joints that make hubs have the flag of a hub in theirs.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Places(Vector<int> references) =>
+        TConstraint.MakesHubs ? references & new Vector<int>(~EncodedBody.HubFlag) : references;
+
+    // All bits of an empty reference are set; what its lane holds means nothing.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> HubMask(Vector<int> references) =>
+        TConstraint.MakesHubs ? Vector.Equals(references & new Vector<int>(EncodedBody.HubFlag), new(EncodedBody.HubFlag)) : default;
 
     static void ScaleInverseMass(int bundle, in SplitBodies split, ref TBodies slots)
     {

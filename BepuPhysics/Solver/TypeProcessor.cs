@@ -32,6 +32,8 @@ public abstract class TypeProcessor
 
     /// <summary>Whether constraints of this type stiffen the rotation of their bodies by their load.</summary>
     internal abstract bool CarriesPointLoad { get; }
+    /// <summary>Whether several constraints of this type on one body make it a hub.</summary>
+    internal abstract bool MakesHubs { get; }
     /// <summary>Applies the accumulated impulses of some bundles.</summary>
     internal abstract void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
     /// <summary>Solves some bundles once.</summary>

@@ -19,7 +19,7 @@ public class HubTests(ITestOutputHelper output)
     const double Duration = 10, Settling = 1;
 
     static readonly (int Arms, float HubMass)[] hubs = [(8, 1), (20, 2), (50, 5), (200, 20)];
-    // Not held: ten times less mass than a game would give a hub of that many arms.
+    // Ten times less mass than a game would give a hub of that many arms: only what it gains is judged.
     static readonly (int Arms, float HubMass)[] lightHubs = [(8, .2f), (20, .2f), (50, .5f), (200, 2)];
     static readonly string[] held = ["s4 i1", "s8 i1", "accurate"];
     static readonly string[] reported = ["s1 i1", "s1 i8", "s4 i2", "s4 i3", "s4 i1 r1"];
@@ -46,10 +46,11 @@ public class HubTests(ITestOutputHelper output)
     {
         var settings = Settings(effort);
         Gain(settings, arms, hubMass, length, out double gain, out double rise);
-        new CaseResult("E2", FormattableString.Invariant($"{arms} arms of {length} m on {hubMass} kg"), settings)
-            .Limit("energy gained", gain, .05, "%")
-            .Limit("rise once settled", rise, .05, "%")
-            .Finish(output, enforce: isHeld);
+        var result = new CaseResult("E2", FormattableString.Invariant($"{arms} arms of {length} m on {hubMass} kg"), settings)
+            .Limit("energy gained", gain, .05, "%");
+        // Joints that give as much as those of a light hub take up energy and give it back, which is a rise and no gain.
+        result = isHeld ? result.Limit("rise once settled", rise, .05, "%") : result.Note("rise once settled", rise, "%");
+        result.Finish(output, enforce: true);
     }
 
     static AccuracySettings Settings(string effort) => effort switch

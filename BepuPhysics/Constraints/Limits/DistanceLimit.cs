@@ -84,6 +84,8 @@ public readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide,
 
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
+    /// <inheritdoc/>
+    public static bool CarriesBodies => true;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,0 +1,84 @@
+using System;
+using BepuPhysics.Constraints;
+
+namespace BepuPhysics;
+
+// Hubs: dynamic bodies with several joints that hold points of them, or that carry their weight.
+//
+// All joints of one body are coupled with each other, where those of a chain see two neighbours. A sweep from the first to the last that starts
+// from the impulses of the substep before then carries errors along the order of the joints like a wave (Solver.Order.cs), and the correction of
+// positions feeds it, the more the stiffer the joints are. With one sweep the stiffness of a chain is what few joints on a body bear as well; each
+// further sweep is worth less to them than to a chain, about as much as to a heap of contacts. So the joints of a hub take the contacts' stiffness
+// (Substep.Hubs). A kinematic body couples nothing, as no joint moves it.
+//
+// How many such joints a body has is kept with the body. The joints of a hub know it by a flag in their references to it, which is written
+// when the number passes the limit: sweeps read what they read anyway, and contacts read nothing.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Joints that make a body a hub.</summary>
+    const int JointsOfHub = 3;
+
+    // Number of hubs whose joints have to be swept over in an order that is drawn, with one sweep per substep and with several.
+    int hubsToDrawForOneSweep;
+    int hubsToDrawForSweeps;
+
+    // The number of joints that are coupled through a body.
+    int Degree(int bodyIndex) =>
+        Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]) ? 0 : bodies.ActiveSet.JointCounts[bodyIndex];
+
+    /// <summary>Takes note of a joint that was just added and makes hubs.</summary>
+    void CountJoint(ConstraintHandle joint, ReadOnlySpan<BodyHandle> bodyHandles)
+    {
+        bodies.ActiveSet.EnsureJointCounts(pool);
+        for (int i = 0; i < bodyHandles.Length; ++i)
+            ChangeJointCount(bodies.Locations[bodyHandles[i].Slot].Index, 1);
+        MarkHubs(Locations[joint.Slot]);
+    }
+
+    /// <summary>Follows a body that got a joint, or lost one.</summary>
+    void ChangeJointCount(int bodyIndex, int change)
+    {
+        var before = Degree(bodyIndex);
+        bodies.ActiveSet.JointCounts[bodyIndex] += change;
+        var after = Degree(bodyIndex);
+        CountHub(before, after);
+        if (before >= JointsOfHub == after >= JointsOfHub)
+            return;
+        ref var constraints = ref bodies.ActiveSet.Constraints[bodyIndex];
+        for (int i = 0; i < constraints.Count; ++i)
+        {
+            ref var location = ref Locations[constraints[i].ConnectingConstraintHandle.Slot];
+            if (Processor(location.TypeId).MakesHubs)
+                MarkHubs(location);
+        }
+    }
+
+    /// <summary>Follows a body that became kinematic or dynamic; its joints are marked by who puts them into batches anew.</summary>
+    void ChangeKindOfHub(int bodyIndex)
+    {
+        if (!bodies.ActiveSet.JointCounts.Allocated)
+            return;
+        var after = Degree(bodyIndex);
+        CountHub(bodies.ActiveSet.JointCounts[bodyIndex] - after, after);
+    }
+
+    /// <summary>Writes into the references of a joint which of its bodies are hubs.</summary>
+    void MarkHubs(in ConstraintLocation location)
+    {
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            ref var reference = ref processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot);
+            var isHub = Degree(reference & EncodedBody.IndexMask) >= JointsOfHub;
+            reference = isHub ? reference | EncodedBody.HubFlag : reference & ~EncodedBody.HubFlag;
+        }
+    }
+
+    void CountHub(int before, int after)
+    {
+        hubsToDrawForOneSweep += Change(JointsToDrawForOneSweep);
+        hubsToDrawForSweeps += Change(JointsToDrawForSweeps);
+
+        int Change(int limit) => (after >= limit ? 1 : 0) - (before >= limit ? 1 : 0);
+    }
+}
