@@ -180,8 +180,10 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
             margin += set.Collidables[indexB].SpeculativeMargin;
             poseB = ref set.MotionStates[indexB].Pose;
         }
+        var ownMargin = margin;
         if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
             return;
+        CallbackChecks.Margin(ref margin, ownMargin, a, b);
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
         Unsafe.SkipInit(out TestedPair tested);
@@ -249,8 +251,12 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, tested.Pair, ref manifold);
-        if (surface.Restitution > 0)
+        CallbackChecks.Contacts(tested.Pair, convex, material);
+        if (surface.Restitution != 0)
+        {
+            CallbackChecks.Restitution(tested.Pair, surface.Restitution);
             Note(ref worker, new() { Pair = tested.Pair, Coefficient = surface.Restitution });
+        }
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {

@@ -46,6 +46,6 @@ public interface IPoseIntegratorCallbacks
     /// <summary>Kept for callers; bodies without constraints are integrated in substeps like all others.</summary>
     bool AllowSubstepsForUnconstrainedBodies { get; }
 
-    /// <summary>How orientations and angular velocities are advanced.</summary>
+    /// <summary>How orientations and angular velocities are advanced. Read before each integration; a value that is none ends the step there.</summary>
     AngularIntegrationMode AngularIntegrationMode { get; }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
@@ -40,7 +41,13 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Callbacks.Initialize(simulation);
     }
 
-    void IPoseIntegrator.Prepare(float dt) => Callbacks.PrepareForIntegration(dt);
+    void IPoseIntegrator.Prepare(float dt)
+    {
+        var mode = Callbacks.AngularIntegrationMode;
+        if (mode is < AngularIntegrationMode.Nonconserving or > AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque)
+            throw new InvalidOperationException($"The pose integrator callbacks have an {nameof(AngularIntegrationMode)} of {mode}: there is no such mode.");
+        Callbacks.PrepareForIntegration(dt);
+    }
 
     void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
     {
