@@ -15,7 +15,11 @@ public sealed record RunResult
 
     public required string Scene { get; init; }
 
+    /// <summary>Steps that were run.</summary>
     public int Steps { get; init; }
+
+    /// <summary>Steps that were to be run; more than <see cref="Steps"/> when the run was stopped.</summary>
+    public int StepsAsked { get; init; }
 
     public float StepDuration { get; init; }
 
@@ -90,6 +94,9 @@ public sealed record RunResult
     public ulong Hash { get; init; }
 
     public IReadOnlyList<StepHash> Hashes { get; init; } = [];
+
+    /// <summary>Whether the run was stopped before its end.</summary>
+    public bool IsStopped => Steps < StepsAsked;
 
     /// <summary>Whether every body is still where a body can be.</summary>
     public bool IsSound => Lost == 0 && NotFinite == 0;

@@ -23,6 +23,8 @@ public static class RunResultJson
         json.WriteString("engine", result.Engine);
         json.WriteString("scene", result.Scene);
         json.WriteNumber("steps", result.Steps);
+        if (result.IsStopped)
+            json.WriteNumber("stepsAsked", result.StepsAsked);
         json.WriteNumber("dt", result.StepDuration);
         json.WriteNumber("substeps", result.Substeps);
         json.WriteNumber("iterations", result.Iterations);

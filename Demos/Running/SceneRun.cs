@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Numerics;
+using System.Threading;
 using BepuPhysics;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
@@ -15,6 +16,8 @@ namespace Demos.Running;
 public sealed class SceneRun : IDisposable
 {
     const int DefaultWarmup = 30;
+    // A step of so many is long enough for anybody; beyond, a slip of the finger would look like a hang.
+    const int MaximumSweeps = 1_000_000;
 
     readonly SceneDescription scene;
     readonly RunSettings settings;
@@ -65,14 +68,17 @@ public sealed class SceneRun : IDisposable
 
     /// <summary>Runs all steps and returns the figures.</summary>
     /// <param name="progress">Called between steps with the number of steps done; its time and its garbage are not counted.</param>
-    public RunResult Run(Action<int>? progress = null)
+    /// <param name="stop">Ends the run after the step that is under way; the figures are then those of the steps so far.</param>
+    public RunResult Run(Action<int>? progress = null, CancellationToken stop = default)
     {
         var clock = new StepClock();
         StageTimes stages = StageTimes.Zero;
         clock.Reset();
         ulong poolBytesAtReset = PoolBytes();
-        for (int step = 1; step <= steps; ++step)
+        int step = 0;
+        while (step < steps && !stop.IsCancellationRequested)
         {
+            ++step;
             clock.Begin();
             simulation.Timestep(settings.StepDuration, dispatcher);
             clock.End();
@@ -93,7 +99,8 @@ public sealed class SceneRun : IDisposable
         {
             Engine = EngineDefaults.Name,
             Scene = scene.Name,
-            Steps = steps,
+            Steps = step,
+            StepsAsked = steps,
             StepDuration = settings.StepDuration,
             Substeps = settings.Substeps,
             Iterations = settings.Iterations,
@@ -102,7 +109,7 @@ public sealed class SceneRun : IDisposable
             Lanes = Vector<float>.Count,
             Seed = settings.Seed,
             Times = clock.Summarize(),
-            Stages = stages.Scale(1000.0 / (steps - warmup)),
+            Stages = stages.Scale(1000.0 / clock.Count),
             Bodies = built.BodyCount,
             Awake = simulation.Bodies.ActiveSet.Count,
             Statics = simulation.Statics.Count,
@@ -154,15 +161,17 @@ public sealed class SceneRun : IDisposable
     static void Refuse(RunSettings settings)
     {
         Require(settings.Steps is null or > 0, "steps", settings.Steps);
-        Require(settings.StepDuration is > 0 and <= float.MaxValue, "dt", settings.StepDuration);
-        Require(settings.Substeps > 0, "substeps", settings.Substeps);
-        Require(settings.Iterations > 0, "iterations", settings.Iterations);
-        Require(settings.Relaxations >= 0, "relaxations", settings.Relaxations);
+        Require(settings.StepDuration is > 0 and <= Limits.MaximumTimestep, "dt", settings.StepDuration);
+        Require(settings.Substeps is > 0 and <= MaximumSweeps, "substeps", settings.Substeps);
+        Require(settings.Iterations is > 0 and <= MaximumSweeps, "iterations", settings.Iterations);
+        Require(settings.Relaxations is >= 0 and <= MaximumSweeps, "relaxations", settings.Relaxations);
+        long sweeps = (long)settings.Substeps * (settings.Iterations + settings.Relaxations);
+        Require(sweeps <= MaximumSweeps, "substeps times iterations and relaxations", sweeps);
         Require(settings.Threads is > 0 and <= 1024, "threads", settings.Threads);
         Require(settings.HashEvery >= 0, "hash-every", settings.HashEvery);
         Require(settings.Warmup is null or >= 0, "warmup", settings.Warmup);
-        Require(settings.Frequency is null or (> 0 and <= float.MaxValue), "frequency", settings.Frequency);
-        Require(settings.DampingRatio is null or (>= 0 and <= float.MaxValue), "damping-ratio", settings.DampingRatio);
+        Require(settings.Frequency is null or (> 0 and <= Limits.MaximumSpringFrequency), "frequency", settings.Frequency);
+        Require(settings.DampingRatio is null or (>= 0 and <= Limits.MaximumDampingRatio), "damping-ratio", settings.DampingRatio);
         Require(settings.DampingRatio is null || settings.Frequency is not null, "damping-ratio without frequency", settings.DampingRatio);
     }
 

@@ -24,6 +24,9 @@ sealed class StepClock
         }
     }
 
+    /// <summary>Number of steps since <see cref="Reset"/>.</summary>
+    public int Count => milliseconds.Count;
+
     /// <summary>Forgets all steps so far.</summary>
     public void Reset()
     {
@@ -46,9 +49,11 @@ sealed class StepClock
         milliseconds.Add(elapsed);
     }
 
-    /// <summary>The figures of the steps since <see cref="Reset"/>.</summary>
+    /// <summary>The figures of the steps since <see cref="Reset"/>; no numbers when there was none.</summary>
     public StepTimes Summarize()
     {
+        if (milliseconds.Count == 0)
+            return new StepTimes(double.NaN, double.NaN, double.NaN, double.NaN, double.NaN);
         var sorted = new List<double>(milliseconds);
         sorted.Sort();
         double sum = 0;

@@ -31,7 +31,9 @@ public static class SceneLibrary
     /// <exception cref="SceneException">There is neither, or the file is wrong.</exception>
     public static SceneDescription Load(string nameOrPath, int seed)
     {
-        ArgumentException.ThrowIfNullOrWhiteSpace(nameOrPath);
+        ArgumentNullException.ThrowIfNull(nameOrPath);
+        if (string.IsNullOrWhiteSpace(nameOrPath))
+            throw new SceneException("a scene without a name; 'list' shows those that there are");
         foreach (BuiltInScene scene in Scenes)
         {
             if (scene.Name == nameOrPath)

@@ -22,6 +22,9 @@ public static class DemosCommand
     /// <summary>Exit status of a run that lost bodies, or has bodies whose state is not finite.</summary>
     public const int Unsound = 2;
 
+    /// <summary>Exit status of a run that a signal stopped, with its figures so far, as shells have it for Ctrl-C.</summary>
+    public const int Stopped = 130;
+
     /// <summary>Runs the command line and returns the exit status.</summary>
     public static int Run(string[] args) => Run(args, Console.Out, Console.Error);
 
@@ -67,14 +70,17 @@ public static class DemosCommand
     {
         SceneDescription scene = SceneLibrary.Load(nameOrPath, settings.Seed);
         // Found out now rather than after minutes of simulation.
-        if (jsonPath is not null && !Directory.Exists(Path.GetDirectoryName(Path.GetFullPath(jsonPath))))
-            throw new DirectoryNotFoundException($"the folder of '{jsonPath}' does not exist");
+        if (jsonPath is not null)
+            OutputFile.CheckWritable(jsonPath);
         using var run = new SceneRun(scene, settings);
-        RunResult result = report.RunWithProgress(run, scene.Name, settings.Steps ?? scene.Steps);
+        using var signal = new StopSignal();
+        RunResult result = report.RunWithProgress(run, scene.Name, settings.Steps ?? scene.Steps, signal.Token);
         if (jsonPath is not null)
             RunResultJson.Write(jsonPath, result);
         report.Write(result);
-        return result.IsSound ? Finished : Unsound;
+        if (!result.IsSound)
+            return Unsound;
+        return result.IsStopped ? Stopped : Finished;
     }
 
     /// <summary>Turns what is wrong with the input into a line on standard error. Anything else is a defect and shows its trace.</summary>

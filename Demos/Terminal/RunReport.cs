@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Threading;
 using Demos.Running;
 using Spectre.Console;
 
@@ -13,10 +14,10 @@ sealed class RunReport(TextWriter output)
     readonly bool isTerminal = output == Console.Out && !Console.IsOutputRedirected && AnsiConsole.Profile.Capabilities.Interactive;
 
     /// <summary>Runs all steps, with a progress bar where somebody can see it.</summary>
-    public RunResult RunWithProgress(SceneRun run, string sceneName, int steps)
+    public RunResult RunWithProgress(SceneRun run, string sceneName, int steps, CancellationToken stop)
     {
         if (!isTerminal)
-            return run.Run();
+            return run.Run(null, stop);
         // Drawn from between the steps, never by a timer thread: that would cost the steps time and count as their garbage.
         return AnsiConsole.Progress().AutoRefresh(false).AutoClear(true).Start(context =>
         {
@@ -28,7 +29,7 @@ sealed class RunReport(TextWriter output)
                     return;
                 task.Value = step;
                 context.Refresh();
-            });
+            }, stop);
         });
     }
 
@@ -49,13 +50,15 @@ sealed class RunReport(TextWriter output)
         AnsiConsole.Write(table);
     }
 
+    static string Stopped(RunResult result) => result.IsStopped ? Text($", stopped before {result.StepsAsked}") : "";
+
     static string Relaxed(RunResult result) => result.Relaxations == 0 ? "" : Text($", {result.Relaxations} relaxed");
 
     static IEnumerable<(string Name, string Value)> Rows(RunResult result)
     {
         yield return ("engine", result.Engine);
         yield return ("scene", result.Scene);
-        yield return ("steps", Text($"{result.Steps} of {result.StepDuration * 1000:0.###} ms"));
+        yield return ("steps", Text($"{result.Steps} of {result.StepDuration * 1000:0.###} ms{Stopped(result)}"));
         yield return ("solver", Text($"{result.Iterations} iterations x {result.Substeps} substeps{Relaxed(result)}"));
         yield return ("threads, lanes", Text($"{result.Threads}, {result.Lanes}"));
         StepTimes ms = result.Times;

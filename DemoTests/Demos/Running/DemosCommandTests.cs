@@ -1,4 +1,6 @@
 using System;
+using System.Diagnostics;
+using System.Globalization;
 using System.IO;
 using System.Text.Json;
 using Demos.Scenes;
@@ -78,12 +80,60 @@ public sealed class DemosCommandTests : IDisposable
     [InlineData("run")]
     [InlineData("walk")]
     [InlineData("run", "newton", "--json", "no-such-folder/run.json")]
+    [InlineData("run", "newton", "--json", "")]
+    [InlineData("run", "newton", "--json", " ")]
+    [InlineData("run", "newton", "--json", ".")]
+    [InlineData("run", "newton", "--json", "a\0b")]
+    [InlineData("run", "newton", "--dt", "1e30")]
+    [InlineData("run", "newton", "--dt", "")]
+    [InlineData("run", "newton", "--dt", "-1")]
+    [InlineData("run", "newton", "--dt", "infinity")]
+    [InlineData("run", "newton", "--substeps", "2147483647")]
+    [InlineData("run", "newton", "--iterations", "2147483647")]
+    [InlineData("run", "newton", "--relaxations", "2147483647")]
+    [InlineData("run", "newton", "--substeps", "100000", "--iterations", "100000")]
+    [InlineData("run", "newton", "--substeps", "99999999999")]
+    [InlineData("run", "newton", "--relaxations", "-1")]
+    [InlineData("run", "newton", "--hash-every", "-1")]
+    [InlineData("run", "newton", "--warmup", "-1")]
+    [InlineData("run", "newton", "--frequency", "1e38")]
+    [InlineData("run", "newton", "--frequency", "30", "--damping-ratio", "1e38")]
+    [InlineData("run", "newton", "--frequency", "30", "--damping-ratio", "nan")]
+    [InlineData("run", "")]
+    [InlineData("run", " ")]
+    [InlineData("run", "/")]
     public void Arguments_that_cannot_be_are_bad_input(params string[] arguments)
     {
         (int status, _, string error) = Run(arguments);
 
         Assert.Equal(DemosCommand.BadInput, status);
         Assert.NotEmpty(error);
+    }
+
+    [Fact]
+    public void A_file_that_was_there_is_kept_until_there_are_figures()
+    {
+        string json = File("old.json", "old");
+
+        Assert.Equal(DemosCommand.BadInput, Run("run", "newton", "--steps", "-1", "--json", json).Status);
+        Assert.Equal("old", System.IO.File.ReadAllText(json));
+        Assert.Equal(DemosCommand.BadInput, Run("run", "newton", "--json", json, "--json", "").Status);
+        Assert.Equal("old", System.IO.File.ReadAllText(json));
+    }
+
+    [Fact]
+    public void A_signal_ends_a_run_with_its_figures_so_far()
+    {
+        if (OperatingSystem.IsWindows())
+            return;
+        string scene = File("falling.scene", Falling);
+        using Process interrupted = Start("run", scene, "--steps", "1000000000", "--json", Path.Combine(folder, "INT.json"));
+        using Process terminated = Start("run", scene, "--steps", "2147483647", "--json", Path.Combine(folder, "TERM.json"));
+        // Long enough that they run, on a busy machine too: a signal that comes before there is a run ends the process as ever.
+        Assert.False(interrupted.WaitForExit(TimeSpan.FromSeconds(4)));
+
+        RequireFigures(interrupted, "INT", 1000000000);
+        RequireFigures(terminated, "TERM", 2147483647);
     }
 
     [Fact]
@@ -105,6 +155,33 @@ public sealed class DemosCommandTests : IDisposable
 
         Assert.Equal(DemosCommand.Finished, status);
         Assert.All(SceneLibrary.Scenes, scene => Assert.Contains(scene.Name, output, StringComparison.Ordinal));
+    }
+
+    void RequireFigures(Process process, string signal, long steps)
+    {
+        using Process kill = Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]);
+        bool ended = process.WaitForExit(TimeSpan.FromSeconds(30));
+        if (!ended)
+            process.Kill();
+
+        Assert.True(ended);
+        Assert.Equal(DemosCommand.Stopped, process.ExitCode);
+        string json = Path.Combine(folder, signal + ".json");
+        JsonElement root = JsonDocument.Parse(System.IO.File.ReadAllBytes(json)).RootElement;
+        long done = root.GetProperty("steps").GetInt64();
+        Assert.InRange(done, 1, steps - 1);
+        Assert.Equal(steps, root.GetProperty("stepsAsked").GetInt64());
+        Assert.True(root.GetProperty("ms").GetProperty("mean").GetDouble() > 0);
+        Assert.Contains($"{done} of 16.667 ms, stopped before {steps}", process.StandardOutput.ReadToEnd(), StringComparison.Ordinal);
+    }
+
+    static Process Start(params string[] arguments)
+    {
+        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true };
+        start.ArgumentList.Add(typeof(DemosCommand).Assembly.Location);
+        foreach (string argument in arguments)
+            start.ArgumentList.Add(argument);
+        return Process.Start(start)!;
     }
 
     string File(string name, string content)
