@@ -12,8 +12,8 @@ namespace BepuPhysics.Collidables;
 /// Shapes that no body or static uses any more are disposed by their owner or by <see cref="Shapes.RemoveAndDispose"/>.
 /// To be added as a shape, the distance from the centre of mass to the nearest face must be from 1e-6 to 1e7 m, as must half the extent.
 /// The axes of the frame are those of the points and no principal axes: the inverse inertia has products. As floats these keep what is
-/// left of the least inverse moment up to about a thousand times as long as thick; a hull thinner than that should have its length along an
-/// axis.
+/// left of the least inverse moment to a percent, up to several thousand times as long as thick; a longer hull must have its length along
+/// an axis, or <see cref="ComputeInertia"/> refuses it.
 /// </remarks>
 public unsafe struct ConvexHull : IConvexShape, IDisposableShape
 {
@@ -159,9 +159,7 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
         if (Header == null)
             throw new ArgumentException("A convex hull without memory is no shape: it was never created, or it was disposed.", nameof(Data));
         ShapeLimits.CheckSize(Header->InnerRadius, "convex hull", nameof(HullHeader.InnerRadius));
-        var halfExtent = (Header->Max - Header->Min) * 0.5f;
-        var largest = halfExtent.X > halfExtent.Y ? halfExtent.X : halfExtent.Y;
-        ShapeLimits.CheckSize(largest > halfExtent.Z ? largest : halfExtent.Z, "convex hull", nameof(Points));
+        ShapeLimits.CheckSize(Header->LargestHalfExtent, "convex hull", nameof(Points));
     }
 
     /// <inheritdoc/>

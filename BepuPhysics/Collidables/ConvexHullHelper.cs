@@ -24,7 +24,7 @@ public static unsafe class ConvexHullHelper
     /// <param name="pool">Source of the hull's memory and of temporary memory.</param>
     /// <param name="center">Centre of mass in the coordinates of the points; the hull's own coordinates begin there.</param>
     /// <param name="hullShape">The hull; without memory when there is none.</param>
-    /// <returns>Whether there is a hull: not when the points span no volume.</returns>
+    /// <returns>Whether there is a hull: not when the points span no volume, or none of a size that a shape can have.</returns>
     /// <exception cref="ArgumentException">A point is not finite.</exception>
     public static bool CreateShape(Span<Vector3> points, BufferPool pool, out Vector3 center, out ConvexHull hullShape) =>
         TryCreateShape(points, pool, out center, out hullShape, out _);
@@ -35,7 +35,7 @@ public static unsafe class ConvexHullHelper
     /// <param name="center">Centre of mass in the coordinates of the points; the hull's own coordinates begin there.</param>
     /// <param name="hullShape">The hull; without memory when there is none.</param>
     /// <param name="failure">Why there is none.</param>
-    /// <returns>Whether there is a hull: not when the points span no volume.</returns>
+    /// <returns>Whether there is a hull: not when the points span no volume, or none of a size that a shape can have.</returns>
     /// <exception cref="ArgumentException">A point is not finite.</exception>
     public static bool TryCreateShape(
         Span<Vector3> points, BufferPool pool, out Vector3 center, out ConvexHull hullShape, out HullFailure failure)
@@ -52,7 +52,7 @@ public static unsafe class ConvexHullHelper
     /// <param name="hullData">Vertices and faces as indices, to be disposed too; without memory when there is no hull.</param>
     /// <param name="center">Centre of mass in the coordinates of the points; the hull's own coordinates begin there.</param>
     /// <param name="hullShape">The hull; without memory when there is none.</param>
-    /// <returns>Whether there is a hull: not when the points span no volume.</returns>
+    /// <returns>Whether there is a hull: not when the points span no volume, or none of a size that a shape can have.</returns>
     /// <exception cref="ArgumentException">A point is not finite.</exception>
     public static bool CreateShape(
         Span<Vector3> points, BufferPool pool, out HullData hullData, out Vector3 center, out ConvexHull hullShape) =>
@@ -78,8 +78,8 @@ public static unsafe class ConvexHullHelper
     /// <param name="transform">Where the axes of the hull's frame go, one per row; not singular.</param>
     /// <param name="pool">Source of the copy's memory.</param>
     /// <param name="target">The copy, with memory of its own.</param>
-    /// <exception cref="ArgumentException">The hull has no memory, the transform is not finite or is singular, or the copy would be smaller
-    /// than 1e-18 or larger than 1e18.</exception>
+    /// <exception cref="ArgumentException">The hull has no memory, the transform is not finite or is singular, or the copy would have no
+    /// size that a shape can have.</exception>
     public static void CreateTransformedCopy(in ConvexHull source, in Matrix3x3 transform, BufferPool pool, out ConvexHull target)
     {
         ArgumentNullException.ThrowIfNull(pool);
@@ -105,7 +105,13 @@ public static unsafe class ConvexHullHelper
             return false;
         HullAssembly.Assemble(points, hullData, normals, pool, out center, out hullShape);
         pool.Return(ref normals);
-        return true;
+        if (hullShape.Header->IsShape)
+            return true;
+        failure = HullFailure.SizeOutOfRange;
+        hullShape.Dispose(pool);
+        hullData.Dispose(pool);
+        center = default;
+        return false;
     }
 
     internal static string Describe(HullFailure failure, int pointCount)
@@ -117,7 +123,8 @@ public static unsafe class ConvexHullHelper
             HullFailure.AllPointsOnALine => "all are on one line, within the tolerance",
             HullFailure.AllPointsInAPlane => "all are in one plane, within the tolerance",
             HullFailure.TooManyVertices => $"their hull has more than {ConvexHull.MaximumVertexCount} vertices",
-            _ => "they are too far apart or too close together",
+            _ => $"they are too far apart or too close together: the centre of mass must be from {ShapeLimits.MinimumSize} to " +
+                $"{ShapeLimits.MaximumSize} m away from the nearest face, and half the extent as long",
         };
         return $"{pointCount} points have no convex hull that can be a shape: {reason}.";
     }

@@ -12,6 +12,8 @@ struct ConvexHullMass
 {
     // Products of inertia below this part of the moments are roundings of the sums: a hull that is symmetric has none.
     const double NoProduct = 1e-12;
+    // Of the rounded inverse, relative: a percent, less what the sums and the rounding of the vertices add.
+    const double GreatestError = 8e-3;
 
     /// <summary>Volume, m3.</summary>
     public double Volume;
@@ -78,18 +80,21 @@ struct ConvexHullMass
         // Inverse by cofactors.
         double cofactorXX = yy * zz - zy * zy, cofactorYX = zx * zy - yx * zz, cofactorZX = yx * zy - zx * yy;
         var inverse = 1 / (xx * cofactorXX + yx * cofactorYX + zx * cofactorZX) / (mass * size * size);
-        var inertia = new BodyInertia
-        {
-            InverseMass = 1 / mass,
-            InverseInertiaTensor = new((float)(cofactorXX * inverse), (float)(cofactorYX * inverse), (float)((xx * zz - zx * zx) * inverse),
-                (float)(cofactorZX * inverse), (float)((yx * zx - xx * zy) * inverse), (float)((xx * yy - yx * yx) * inverse)),
-        };
-        ref var tensor = ref inertia.InverseInertiaTensor;
+        var error = InertiaRounding.Round(
+            [cofactorXX * inverse, cofactorYX * inverse, (xx * zz - zx * zx) * inverse,
+            cofactorZX * inverse, (yx * zx - xx * zy) * inverse, (xx * yy - yx * yx) * inverse], out var tensor);
+        var inertia = new BodyInertia { InverseMass = 1 / mass, InverseInertiaTensor = tensor };
         var isInRange = float.IsNormal(inertia.InverseMass) && IsPositive(tensor.XX) && IsPositive(tensor.YY) && IsPositive(tensor.ZZ);
         if (!(mass >= ShapeLimits.MinimumMass && mass <= ShapeLimits.MaximumMass) || !isInRange)
         {
             throw new ArgumentOutOfRangeException(
                 nameof(mass), mass, $"A mass must be from {ShapeLimits.MinimumMass} to {ShapeLimits.MaximumMass} kg.");
+        }
+        if (!(error <= GreatestError))
+        {
+            throw new ArgumentException(
+                "The hull is so much longer than thick that floats cannot hold its inverse inertia in axes at an angle to it. " +
+                "Turn its points so that its length is along an axis, and its bodies the other way.");
         }
         return inertia;
     }

@@ -15,6 +15,6 @@ public enum HullFailure
     AllPointsInAPlane,
     /// <summary>The hull has more vertices than <see cref="ConvexHull.MaximumVertexCount"/>, whatever the tolerance merges.</summary>
     TooManyVertices,
-    /// <summary>The points are farther apart, or closer together, than what a float can tell once squared.</summary>
+    /// <summary>The points are farther apart, closer together or in a thinner layer than what a shape can be.</summary>
     SizeOutOfRange,
 }

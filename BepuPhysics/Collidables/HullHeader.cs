@@ -38,6 +38,20 @@ unsafe struct HullHeader
     /// <summary>Greatest coordinates of the vertices, m.</summary>
     public Vector3 Max;
 
+    /// <summary>Half of the largest side of the box, m.</summary>
+    public readonly float LargestHalfExtent
+    {
+        get
+        {
+            var extent = (Max - Min) * 0.5f;
+            var largest = extent.X > extent.Y ? extent.X : extent.Y;
+            return largest > extent.Z ? largest : extent.Z;
+        }
+    }
+
+    /// <summary>Whether the hull can be added as a shape.</summary>
+    public readonly bool IsShape => ShapeLimits.IsSize(InnerRadius) && ShapeLimits.IsSize(LargestHalfExtent);
+
     /// <summary>Vertices in bundles. As all that follows, only for a header that is where it belongs: at the start of its hull's memory.</summary>
     public readonly Vector3Wide* Points
     {

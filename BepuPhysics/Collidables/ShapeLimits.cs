@@ -16,10 +16,13 @@ static class ShapeLimits
     /// <summary>Greatest radius or half extent, m.</summary>
     public const float MaximumSize = 1e7f;
 
+    /// <summary>Whether a radius or half extent is within the limits; NaN is not.</summary>
+    public static bool IsSize(float size) => size >= MinimumSize && size <= MaximumSize;
+
     /// <summary>Refuses a radius or half extent outside the limits; NaN is outside.</summary>
     public static void CheckSize(float size, string shape, string field)
     {
-        if (!(size >= MinimumSize && size <= MaximumSize))
+        if (!IsSize(size))
             throw new ArgumentOutOfRangeException(field, size, $"{field} of a {shape} must be from {MinimumSize} to {MaximumSize} m.");
     }
 

@@ -104,16 +104,38 @@ public sealed class ConvexHullCreationTests(ITestOutputHelper output) : IDisposa
     }
 
     [Fact]
-    public void SizesBeyondTheLimitsCannotBeAdded()
+    public void WhatIsCreatedCanBeAddedAndNothingElseIsCreated()
     {
         var shapes = new Shapes(pool, 1);
-        foreach (var size in (ReadOnlySpan<float>)[1e-7f, 1e9f])
+        var random = new Random(5);
+        int accepted = 0, refused = 0;
+        for (int i = 0; i < 300; ++i)
         {
-            var hull = new ConvexHull(HullInputs.Box(size, size, size), pool, out _);
-            Assert.Throws<ArgumentOutOfRangeException>(() => shapes.Add(hull));
+            // Half of them near one of the limits, some of these thin.
+            var size = MathF.Pow(10, i % 2 == 0 ? random.NextSingle() * 30 - 15 : random.NextSingle() * 0.2f - 0.1f + (i % 4 < 2 ? -5.7f : 7.3f));
+            var thickness = i % 3 == 0 ? size * MathF.Pow(10, -4 * random.NextSingle()) : size;
+            if (!ConvexHullHelper.TryCreateShape(HullInputs.Box(size, thickness, size), pool, out _, out var hull, out var failure))
+            {
+                Assert.Equal(HullFailure.SizeOutOfRange, failure);
+                Assert.True(size / 2 > 9.9e6f || thickness / 2 < 1.01e-6f, $"{size} by {thickness}");
+                Assert.Equal(0, hull.Data.Length);
+                ++refused;
+                continue;
+            }
+            ++accepted;
+            shapes.Add(hull);
             hull.Dispose(pool);
         }
+        Assert.True(accepted > 50 && refused > 50, $"{accepted} accepted, {refused} refused");
+        var good = new ConvexHull(HullInputs.Box(1, 1, 1), pool, out _);
+        foreach (var scale in (ReadOnlySpan<float>)[1e-7f, 3e7f])
+        {
+            var transform = new Matrix3x3 { X = new(scale, 0, 0), Y = new(0, scale, 0), Z = new(0, 0, scale) };
+            Assert.Throws<ArgumentException>(() => ConvexHullHelper.CreateTransformedCopy(good, transform, pool, out _));
+        }
+        good.Dispose(pool);
         shapes.Dispose();
+        pool.AssertEmpty();
     }
 
     [Theory]

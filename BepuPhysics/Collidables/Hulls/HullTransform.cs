@@ -45,13 +45,13 @@ static unsafe class HullTransform
             HullBlock.SetPlane(header, face, moved * (1 / HullPoint.Length(moved)));
         }
         HullBlock.Finish(header);
-        var extent = Math.Max(Math.Max((double)header->Max.X - header->Min.X, (double)header->Max.Y - header->Min.Y),
-            (double)header->Max.Z - header->Min.Z);
-        if (HullGrid.IsSizeInRange(extent) && header->InnerRadius > 0)
+        if (header->IsShape)
             return;
+        float inner = header->InnerRadius, extent = header->LargestHalfExtent;
         target.Dispose(pool);
         throw new ArgumentException(
-            $"Transformed by {transform.X}, {transform.Y}, {transform.Z}, the hull has no size that shapes can have: {extent}.", nameof(transform));
+            $"Transformed by {transform.X}, {transform.Y}, {transform.Z}, the hull has no size that shapes can have: " +
+            $"{extent} m in half extent, {inner} m to the nearest face.", nameof(transform));
     }
 
     // A map that stretches makes more of the rounding of a normal; the vertices tell it without that, but for those of slivers.

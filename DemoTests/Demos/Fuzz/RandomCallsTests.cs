@@ -1,0 +1,43 @@
+using System.IO;
+using System.Threading;
+using DemoTests.Support;
+using Demos.Fuzz;
+using Xunit;
+
+namespace DemoTests.Runner;
+
+/// <summary>A few thousand of the random calls of which <c>Demos fuzz</c> makes a million.</summary>
+[Collection(AloneCollection.Name)]
+public class RandomCallsTests
+{
+    [Theory]
+    [InlineData(1, 400)]
+    [InlineData(2, 400)]
+    [InlineData(3, 60)]
+    [InlineData(4, 1500)]
+    public void NoRandomCallsBreakAPromise(int seed, int callsPerWorld)
+    {
+        using var output = new StringWriter();
+        using var run = new FuzzRun(new FuzzSettings { Seed = seed, Calls = 3000, CallsPerWorld = callsPerWorld, ShrinkSeconds = 20 }, output);
+
+        int failures = run.Run(CancellationToken.None);
+
+        Assert.True(failures == 0, output.ToString());
+        // Both kinds, or there was nothing to see.
+        Assert.InRange(run.Counts.Refusals, run.Counts.Calls / 50, run.Counts.Calls / 2);
+    }
+
+    [Fact]
+    public void TheSameSeedMakesTheSameCalls()
+    {
+        Assert.Equal(Count(5), Count(5));
+        Assert.NotEqual(Count(5), Count(6));
+
+        static (long, long, long) Count(int seed)
+        {
+            using var run = new FuzzRun(new FuzzSettings { Seed = seed, Calls = 1000, Scope = FuzzScope.None }, TextWriter.Null);
+            Assert.Equal(0, run.Run(CancellationToken.None));
+            return run.Counts;
+        }
+    }
+}

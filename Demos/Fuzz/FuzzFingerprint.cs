@@ -1,0 +1,95 @@
+using System.Numerics;
+using System.Runtime.InteropServices;
+using BepuPhysics;
+using BepuPhysics.Constraints;
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+
+namespace Demos.Fuzz;
+
+/// <summary>A hash of all that a call could change: not of poses alone, but of settings, lists, trees, handles, constraints.</summary>
+static class FuzzFingerprint
+{
+    public static ulong Of(Simulation simulation)
+    {
+        StateHash hash = default;
+        AddBodies(ref hash, simulation.Bodies);
+        AddStatics(ref hash, simulation.Statics);
+        AddConstraints(ref hash, simulation.Solver);
+        AddTree(ref hash, simulation.BroadPhase.ActiveTree);
+        AddTree(ref hash, simulation.BroadPhase.StaticTree);
+        hash.Add(simulation.NarrowPhase.PairCount);
+        hash.Add(simulation.Deterministic ? 1 : 0);
+        return hash.Value;
+    }
+
+    static void AddBodies(ref StateHash hash, Bodies bodies)
+    {
+        ref BodySet set = ref bodies.ActiveSet;
+        hash.Add(set.Count);
+        Add(ref hash, set.IndexToHandle, set.Count);
+        Add(ref hash, set.MotionStates, set.Count);
+        Add(ref hash, set.LocalInertias, set.Count);
+        Add(ref hash, set.Collidables, set.Count);
+        Add(ref hash, set.Activity, set.Count);
+        for (int i = 0; i < set.Count; ++i)
+            Add(ref hash, set.Constraints[i].Span, set.Constraints[i].Count);
+        AddIds(ref hash, bodies.HandlePool);
+        hash.Add(bodies.MinimumConstraintCapacityPerBody);
+    }
+
+    static void AddStatics(ref StateHash hash, Statics statics)
+    {
+        hash.Add(statics.Count);
+        Add(ref hash, statics.IndexToHandle, statics.Count);
+        Add(ref hash, statics.StaticsBuffer, statics.Count);
+        AddIds(ref hash, statics.HandlePool);
+    }
+
+    static void AddConstraints(ref StateHash hash, Solver solver)
+    {
+        ref ConstraintSet set = ref solver.ActiveSet;
+        for (int i = 0; i < set.Batches.Count; ++i)
+        {
+            ref QuickList<TypeBatch> typeBatches = ref set.Batches[i].TypeBatches;
+            for (int j = 0; j < typeBatches.Count; ++j)
+            {
+                ref TypeBatch batch = ref typeBatches[j];
+                hash.Add(batch.TypeId);
+                hash.Add(batch.ConstraintCount);
+                TypeProcessor processor = solver.TypeProcessors[batch.TypeId]!;
+                int bundleLength = batch.BundleCount * Vector<float>.Count;
+                Add(ref hash, batch.IndexToHandle, batch.ConstraintCount);
+                Add(ref hash, batch.BodyReferences, bundleLength * processor.BodiesPerConstraint);
+                Add(ref hash, batch.Prestep, bundleLength * processor.PrestepFloats);
+                Add(ref hash, batch.AccumulatedImpulses, bundleLength * processor.ImpulseFloats);
+            }
+        }
+        AddIds(ref hash, solver.HandlePool);
+        hash.Add(solver.VelocityIterationCount);
+        hash.Add(solver.SubstepCount);
+        hash.Add(solver.RelaxationIterationCount);
+        hash.Add(solver.MinimumCapacityPerTypeBatch);
+    }
+
+    static void AddTree(ref StateHash hash, in Tree tree)
+    {
+        hash.Add(tree.LeafCount);
+        Add(ref hash, tree.Nodes, tree.NodeCount);
+        Add(ref hash, tree.Leaves, tree.LeafCount);
+    }
+
+    static void AddIds(ref StateHash hash, in IdPool ids)
+    {
+        hash.Add(ids.HighestPossiblyClaimedId);
+        Add(ref hash, ids.AvailableIds, ids.AvailableIdCount);
+    }
+
+    static void Add<T>(ref StateHash hash, in Buffer<T> buffer, int count) where T : unmanaged
+    {
+        if (count > 0)
+            hash.Add(MemoryMarshal.AsBytes(buffer.AsSpan()[..count]));
+    }
+}

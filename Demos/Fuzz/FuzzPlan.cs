@@ -1,0 +1,52 @@
+using System;
+using System.Threading;
+using BepuPhysics;
+using BepuPhysics.CollisionDetection;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+
+namespace Demos.Fuzz;
+
+/// <summary>What the callbacks of a world do wrong, and in which of their calls. Shared by all threads of a step.</summary>
+sealed class FuzzPlan
+{
+    int callsLeft = -1;
+    Action? action;
+
+    /// <summary>Materials of pairs; bad ones where that is asked for.</summary>
+    public PairMaterialProperties Material = new(0.5f, 2, SpringSettings.Rigid);
+    /// <summary>Added to the speculative margin.</summary>
+    public float Margin;
+    /// <summary>Number of contacts that is written to manifolds; none where it is below 0.</summary>
+    public int ContactCount = -1;
+    /// <summary>Written to a velocity; nothing where it is 0.</summary>
+    public float Velocity;
+    /// <summary>Whether pairs are refused.</summary>
+    public bool RefusesPairs;
+
+    /// <summary>Does something in a callback to come, once.</summary>
+    public void Do(int afterCalls, Action what)
+    {
+        action = what;
+        callsLeft = afterCalls;
+    }
+
+    /// <summary>Ends what was planned; whether it was not done.</summary>
+    public void Reset()
+    {
+        callsLeft = -1;
+        action = null;
+        Margin = 0;
+        ContactCount = -1;
+        Velocity = 0;
+        RefusesPairs = false;
+        Material = new(0.5f, 2, SpringSettings.Rigid);
+    }
+
+    /// <summary>To be called by every callback.</summary>
+    public void OnCall()
+    {
+        if (Volatile.Read(ref callsLeft) >= 0 && Interlocked.Decrement(ref callsLeft) == -1)
+            action?.Invoke();
+    }
+}

@@ -1,0 +1,34 @@
+using System;
+using BepuPhysics;
+
+namespace Demos.Fuzz.Operations;
+
+/// <summary>Settings of the solver and of a simulation.</summary>
+static class SolverOperations
+{
+    public static FuzzOperation[] All { get; } =
+    [
+        new("Solver.VelocityIterationCount", 2, w => w.Simulation.Solver.VelocityIterationCount = Few(w)),
+        new("Solver.SubstepCount", 2, w => w.Simulation.Solver.SubstepCount = Few(w)),
+        new("Solver.RelaxationIterationCount", 2, w => w.Simulation.Solver.RelaxationIterationCount = Few(w)),
+        new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
+        new("Solver.VelocityIterationScheduler", 2, Schedule),
+        new("Simulation.Deterministic", 1, w => w.Simulation.Deterministic = w.Random.Percent(50)),
+        new("SolveDescription", 1, w => _ = new SolveDescription(Few(w), Few(w), w.Random.Count()) { RelaxationIterationCount = Few(w) }),
+        new("SolveDescription of a list", 1, w => _ = new SolveDescription([Few(w), Few(w)])),
+    ];
+
+    // Steps must stay short.
+    static int Few(FuzzWorld w)
+    {
+        int count = w.Random.Percent(80) ? w.Random.Below(5) : w.Random.Of((ReadOnlySpan<int>)[-1, int.MinValue, 7]);
+        w.Tell($"{count}");
+        return count;
+    }
+
+    static void Schedule(FuzzWorld w)
+    {
+        int count = w.Has(FuzzScope.BadCallbacks) ? Few(w) : w.Random.Below(3);
+        w.Simulation.Solver.VelocityIterationScheduler = w.Random.Percent(50) ? null : substep => substep == 1 ? 2 : count;
+    }
+}
