@@ -7,13 +7,10 @@ namespace BepuPhysics;
 // The step. DefaultTimestepper calls these stages in order; Docs/Timestep.md says what each reads and writes.
 public sealed partial class Simulation
 {
-    // A second is far beyond what any step can simulate; this bounds what the numbers can bear.
-    const float MaximumDt = 1e6f;
-
     /// <summary>Advances the simulation.</summary>
-    /// <param name="dt">Time to advance by, s; above 0. May change from step to step.</param>
+    /// <param name="dt">Time to advance by, s, within <see cref="Limits"/>. May change from step to step.</param>
     /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The time is not finite or not above 0.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is not within <see cref="Limits"/>.</exception>
     public void Timestep(float dt, IThreadDispatcher? threadDispatcher = null)
     {
         CheckDt(dt);
@@ -59,7 +56,10 @@ public sealed partial class Simulation
 
     static void CheckDt(float dt)
     {
-        if (!(dt > 0 && dt <= MaximumDt))
-            throw new ArgumentOutOfRangeException(nameof(dt), dt, $"The time of a step must be above 0 and at most {MaximumDt} s.");
+        if (!(dt >= Limits.MinimumTimestep && dt <= Limits.MaximumTimestep))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(dt), dt, $"The time of a step must be from {Limits.MinimumTimestep} to {Limits.MaximumTimestep} s.");
+        }
     }
 }

@@ -7,31 +7,20 @@ namespace BepuPhysics;
 /// <summary>Checks of the values that describe bodies and statics.</summary>
 static class BodyChecks
 {
-    /// <summary>Greatest coordinate of a position, m.</summary>
-    // Squares and products of three lengths must stay finite in float.
-    internal const float MaximumPosition = 1e12f;
-    /// <summary>Greatest component of a velocity, m/s or rad/s.</summary>
-    internal const float MaximumVelocity = 1e12f;
-    /// <summary>Greatest component of an impulse, N s, or of the arm at which it acts, m.</summary>
-    const float MaximumImpulse = 1e15f;
-    /// <summary>Greatest inverse mass and least mass; the reciprocal bounds the other end.</summary>
-    internal const float MaximumInverseMass = 1e15f;
-    const float MinimumInverseMass = 1e-15f;
-    /// <summary>Greatest entry of an inverse inertia tensor.</summary>
-    // A 1 mm cube of 1e-6 kg has 6e12 / (kg m2).
-    internal const float MaximumInverseInertia = 1e25f;
     /// <summary>Greatest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
     // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find what was never normalised.
     const float UnitTolerance = 1e-2f;
 
+    const float LeastInverseMass = 1 / Limits.MaximumMass, GreatestInverseMass = 1 / Limits.MinimumMass;
+
     internal static bool HasUnitLength(float lengthSquared) => MathF.Abs(lengthSquared - 1) <= UnitTolerance;
 
-    internal static void Position(Vector3 value, string name) => Bounded(value, MaximumPosition, name);
+    internal static void Position(Vector3 value, string name) => Bounded(value, Limits.MaximumPosition, name);
 
     internal static void Velocity(in BodyVelocity value)
     {
-        Bounded(value.Linear, MaximumVelocity, "linear velocity");
-        Bounded(value.Angular, MaximumVelocity, "angular velocity");
+        Bounded(value.Linear, Limits.MaximumLinearVelocity, "linear velocity");
+        Bounded(value.Angular, Limits.MaximumAngularVelocity, "angular velocity");
     }
 
     internal static void Pose(in RigidPose pose)
@@ -48,20 +37,38 @@ static class BodyChecks
 
     internal static void Inertia(in BodyInertia inertia)
     {
-        if (inertia.InverseMass != 0 && !(inertia.InverseMass >= MinimumInverseMass && inertia.InverseMass <= MaximumInverseMass))
+        if (inertia.InverseMass != 0 && !(inertia.InverseMass >= LeastInverseMass && inertia.InverseMass <= GreatestInverseMass))
         {
             throw new ArgumentException(
-                $"The inverse mass must be 0, or from {MinimumInverseMass} to {MaximumInverseMass} 1/kg, not {inertia.InverseMass}.", nameof(inertia));
+                $"The inverse mass must be 0, or from {LeastInverseMass} to {GreatestInverseMass} 1/kg, not {inertia.InverseMass}.", nameof(inertia));
         }
         var i = inertia.InverseInertiaTensor;
-        Bounded(new(i.XX, i.YY, i.ZZ), MaximumInverseInertia, "inverse inertia");
-        Bounded(new(i.YX, i.ZX, i.ZY), MaximumInverseInertia, "inverse inertia");
-        // A symmetric matrix with a negative principal minor would gain energy by being turned.
-        const float Rounding = 1e-5f;
-        if (i.XX < 0 || i.YY < 0 || i.ZZ < 0 ||
-            i.YX * i.YX > i.XX * i.YY * (1 + Rounding) || i.ZX * i.ZX > i.XX * i.ZZ * (1 + Rounding) || i.ZY * i.ZY > i.YY * i.ZZ * (1 + Rounding))
-            throw new ArgumentException($"The inverse inertia must have no negative principal moment, not the diagonal ({i.XX}, {i.YY}, {i.ZZ}).",
-                nameof(inertia));
+        Bounded(new(i.XX, i.YY, i.ZZ), Limits.MaximumInverseInertia, "inverse inertia");
+        Bounded(new(i.YX, i.ZX, i.ZY), Limits.MaximumInverseInertia, "inverse inertia");
+        if (!IsPositiveSemidefinite(i))
+        {
+            throw new ArgumentException(
+                "The inverse inertia must have no negative principal moment, as it would gain energy by being turned; not " +
+                $"({i.XX}, {i.YY}, {i.ZZ}) on the diagonal and ({i.YX}, {i.ZX}, {i.ZY}) below it.", nameof(inertia));
+        }
+    }
+
+    /// <summary>Whether no principal moment is negative by more than rounding.</summary>
+    // A tensor of a locked axis, or of a needle, that was turned in floats may have lost its least moment to rounding: some times 2^-24 of the
+    // trace. With that added, a matrix without a negative eigenvalue has three positive pivots; a double has digits to spare for them.
+    static bool IsPositiveSemidefinite(in Symmetric3x3 tensor)
+    {
+        const double Rounding = 1.0 / (1 << 20);
+        double trace = (double)tensor.XX + tensor.YY + tensor.ZZ, yx = tensor.YX, zx = tensor.ZX, zy = tensor.ZY;
+        if (tensor.XX < 0 || tensor.YY < 0 || tensor.ZZ < 0)
+            return false;
+        if (trace == 0)
+            return yx == 0 && zx == 0 && zy == 0;
+        double xx = tensor.XX + trace * Rounding, yy = tensor.YY + trace * Rounding, zz = tensor.ZZ + trace * Rounding;
+        yy -= yx * yx / xx;
+        zy -= yx * zx / xx;
+        zz -= zx * zx / xx;
+        return yy > 0 && zz - zy * zy / yy > 0;
     }
 
     internal static void Activity(in BodyActivityDescription activity)
@@ -70,7 +77,7 @@ static class BodyChecks
             throw new ArgumentException("The sleep threshold must not be NaN.", nameof(activity));
     }
 
-    internal static void Vector(Vector3 value, string name) => Bounded(value, MaximumImpulse, name);
+    internal static void Vector(Vector3 value, string name) => Bounded(value, Limits.MaximumImpulse, name);
 
     static void Bounded(Vector3 value, float maximum, string name)
     {

@@ -103,32 +103,41 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Applies an impulse at a point.</summary>
     /// <param name="impulse">N s, world axes.</param>
     /// <param name="impulseOffset">From the centre of mass, world axes.</param>
-    /// <exception cref="ArgumentException">A value is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">A value, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
     public readonly void ApplyImpulse(Vector3 impulse, Vector3 impulseOffset)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
         BodyChecks.Vector(impulseOffset, nameof(impulseOffset));
         Owner.CheckWritable(nameof(ApplyImpulse));
-        ApplyImpulse(impulse, impulseOffset, ref LocalInertia, ref Pose, ref Velocity);
+        var velocity = Velocity;
+        ApplyImpulse(impulse, impulseOffset, ref LocalInertia, ref Pose, ref velocity);
+        BodyChecks.Velocity(velocity);
+        Velocity = velocity;
     }
 
     /// <summary>Applies an impulse at the centre of mass, N s.</summary>
-    /// <exception cref="ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">The impulse, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
     public readonly void ApplyLinearImpulse(Vector3 impulse)
     {
         BodyChecks.Vector(impulse, nameof(impulse));
         Owner.CheckWritable(nameof(ApplyLinearImpulse));
-        ApplyLinearImpulse(impulse, LocalInertia.InverseMass, ref Velocity.Linear);
+        var velocity = Velocity;
+        ApplyLinearImpulse(impulse, LocalInertia.InverseMass, ref velocity.Linear);
+        BodyChecks.Velocity(velocity);
+        Velocity = velocity;
     }
 
     /// <summary>Applies an angular impulse, N m s.</summary>
-    /// <exception cref="ArgumentException">The impulse is not finite; nothing was changed.</exception>
+    /// <exception cref="ArgumentException">The impulse, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
     public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
     {
         BodyChecks.Vector(angularImpulse, nameof(angularImpulse));
         Owner.CheckWritable(nameof(ApplyAngularImpulse));
         ComputeInverseInertia(out var inverseInertia);
-        ApplyAngularImpulse(angularImpulse, inverseInertia, ref Velocity.Angular);
+        var velocity = Velocity;
+        ApplyAngularImpulse(angularImpulse, inverseInertia, ref velocity.Angular);
+        BodyChecks.Velocity(velocity);
+        Velocity = velocity;
     }
 
     /// <summary>Applies an impulse at a point to a body of a set. Values are not checked.</summary>

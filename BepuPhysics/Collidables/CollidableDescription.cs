@@ -38,11 +38,13 @@ public struct CollidableDescription(TypedIndex shape, float minimumSpeculativeMa
     internal readonly void Validate()
     {
         Continuity.Validate(nameof(Continuity));
-        if (!(MinimumSpeculativeMargin >= 0) || !(MaximumSpeculativeMargin >= MinimumSpeculativeMargin) || float.IsInfinity(MinimumSpeculativeMargin))
+        if (!(MinimumSpeculativeMargin >= 0) || !(MaximumSpeculativeMargin >= MinimumSpeculativeMargin) ||
+            !(MinimumSpeculativeMargin <= Limits.MaximumMinimumSpeculativeMargin))
         {
             throw new ArgumentException(
                 $"{nameof(MinimumSpeculativeMargin)} ({MinimumSpeculativeMargin}) and " +
-                $"{nameof(MaximumSpeculativeMargin)} ({MaximumSpeculativeMargin}) must be in order and not negative.",
+                $"{nameof(MaximumSpeculativeMargin)} ({MaximumSpeculativeMargin}) must be in order and not negative, " +
+                $"the first at most {Limits.MaximumMinimumSpeculativeMargin} m.",
                 nameof(MinimumSpeculativeMargin));
         }
     }

@@ -5,16 +5,16 @@ namespace BepuPhysics.Collidables;
 
 /// <summary>What sizes shapes may have, and how the inertia of a solid follows from them.</summary>
 /// <remarks>
-/// Within these limits and for masses from 1e-6 to 1e12 kg no product of the simulation leaves the range of a float: moments of
-/// inertia are from 1e-18 to 1e27 kg m2. Sizes of one shape may differ by any ratio, but positions within it are rounded
+/// Within these limits and for masses from 1e-9 to 1e12 kg no product of the simulation leaves the range of a float: moments of
+/// inertia are from 1e-21 to 1e26 kg m2. Sizes of one shape may differ by any ratio, but positions within it are rounded
 /// relative to its largest size, so a feature a million times smaller is not resolved.
 /// </remarks>
 static class ShapeLimits
 {
     /// <summary>Least radius or half extent, m.</summary>
-    public const float MinimumSize = 1e-6f;
+    public const float MinimumSize = Limits.MinimumSize;
     /// <summary>Greatest radius or half extent, m.</summary>
-    public const float MaximumSize = 1e7f;
+    public const float MaximumSize = Limits.MaximumSize;
 
     /// <summary>Whether a radius or half extent is within the limits; NaN is not.</summary>
     public static bool IsSize(float size) => size >= MinimumSize && size <= MaximumSize;
@@ -27,7 +27,7 @@ static class ShapeLimits
     }
 
     /// <summary>Least and greatest mass of a body, kg.</summary>
-    public const float MinimumMass = 1e-15f, MaximumMass = 1e15f;
+    public const float MinimumMass = Limits.MinimumMass, MaximumMass = Limits.MaximumMass;
 
     /// <summary>Refuses a half length outside zero and the upper limit; NaN is outside.</summary>
     public static void CheckSizeOrZero(float size, string shape, string field)

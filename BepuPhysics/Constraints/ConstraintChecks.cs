@@ -7,13 +7,14 @@ namespace BepuPhysics.Constraints;
 /// <summary>Checks of the values in constraint descriptions.</summary>
 static class ConstraintChecks
 {
-    /// <summary>Greatest length of an offset, m: squares and products with velocities must stay finite in float.</summary>
-    const float MaximumLength = 1e12f;
+    internal static void Offset(Vector3 value, string name) => Bounded(value, Limits.MaximumOffset, name);
 
-    internal static void Finite(Vector3 value, string name)
+    internal static void Position(Vector3 value, string name) => Bounded(value, Limits.MaximumPosition, name);
+
+    static void Bounded(Vector3 value, float maximum, string name)
     {
-        if (!(MathF.Abs(value.X) <= MaximumLength && MathF.Abs(value.Y) <= MaximumLength && MathF.Abs(value.Z) <= MaximumLength))
-            throw new ArgumentException($"{name} must be finite and at most {MaximumLength} in each component, not {value}.", name);
+        if (!(MathF.Abs(value.X) <= maximum && MathF.Abs(value.Y) <= maximum && MathF.Abs(value.Z) <= maximum))
+            throw new ArgumentException($"{name} must be finite and at most {maximum} in each component, not {value}.", name);
     }
 
     internal static void Finite(float value, string name)
@@ -22,10 +23,10 @@ static class ConstraintChecks
             throw new ArgumentException($"{name} must be finite, not {value}.", name);
     }
 
-    internal static void NotNegative(float value, string name)
+    internal static void Distance(float value, string name)
     {
-        if (!(value >= 0))
-            throw new ArgumentOutOfRangeException(name, value, $"{name} must not be negative or NaN.");
+        if (!(value >= 0 && value <= Limits.MaximumDistance))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be from 0 to {Limits.MaximumDistance} m.");
     }
 
     internal static void Cosine(float value, string name)
@@ -36,7 +37,6 @@ static class ConstraintChecks
 
     internal static void Unit(Vector3 value, string name)
     {
-        Finite(value, name);
         if (!BodyChecks.HasUnitLength(Exact.LengthSquared(value)))
             throw new ArgumentException($"{name} must have unit length, not {value}.", name);
     }
@@ -51,16 +51,16 @@ static class ConstraintChecks
     {
         if (!SpringSettings.Validate(value))
             throw new ArgumentException(
-                $"{name} must be finite and not negative, not an angular frequency of {value.AngularFrequency} " +
-                $"and twice a damping ratio of {value.TwiceDampingRatio}.", name);
+                $"{name} must not be negative, at most {Limits.MaximumSpringFrequency} Hz and of a damping ratio of at most {Limits.MaximumDampingRatio}, " +
+                $"not an angular frequency of {value.AngularFrequency} and twice a damping ratio of {value.TwiceDampingRatio}.", name);
     }
 
     internal static void Servo(in ServoSettings value, string name)
     {
         if (!ServoSettings.Validate(value))
             throw new ArgumentException(
-                $"{name} must not be negative or NaN, not maximum speed {value.MaximumSpeed}, base speed {value.BaseSpeed}, " +
-                $"maximum force {value.MaximumForce}.", name);
+                $"{name} must not be negative or NaN, with a base speed of at most {Limits.MaximumServoBaseSpeed}, not maximum speed " +
+                $"{value.MaximumSpeed}, base speed {value.BaseSpeed}, maximum force {value.MaximumForce}.", name);
     }
 
     internal static void Order(float minimum, float maximum, string minimumName, string maximumName)

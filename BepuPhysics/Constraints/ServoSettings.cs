@@ -19,9 +19,9 @@ public struct ServoSettings(float maximumSpeed, float baseSpeed, float maximumFo
     /// <summary>No limits.</summary>
     public static ServoSettings Default => new(float.MaxValue, 0, float.MaxValue);
 
-    /// <summary>Whether the settings can be simulated: not NaN and not negative.</summary>
+    /// <summary>Whether the settings can be simulated: not NaN and not negative, and a base speed within <see cref="Limits"/>.</summary>
     public static bool Validate(in ServoSettings settings) =>
-        settings.MaximumSpeed >= 0 && settings.BaseSpeed >= 0 && settings.MaximumForce >= 0 && float.IsFinite(settings.BaseSpeed);
+        settings.MaximumSpeed >= 0 && settings.BaseSpeed >= 0 && settings.MaximumForce >= 0 && settings.BaseSpeed <= Limits.MaximumServoBaseSpeed;
 }
 
 /// <summary>A bundle of <see cref="ServoSettings"/>.</summary>

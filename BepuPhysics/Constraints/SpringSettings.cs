@@ -67,10 +67,10 @@ public struct SpringSettings
         set => TwiceDampingRatio = value * 2;
     }
 
-    /// <summary>Whether the settings can be simulated: finite and not negative.</summary>
+    /// <summary>Whether the settings can be simulated: not negative, and within <see cref="Limits"/>.</summary>
     public static bool Validate(in SpringSettings settings) =>
-        float.IsFinite(settings.AngularFrequency) && float.IsFinite(settings.TwiceDampingRatio) &&
-        settings.AngularFrequency >= 0 && settings.TwiceDampingRatio >= 0;
+        settings.AngularFrequency >= 0 && settings.AngularFrequency <= Limits.MaximumSpringFrequency * MathF.Tau &&
+        settings.TwiceDampingRatio >= 0 && settings.TwiceDampingRatio <= Limits.MaximumDampingRatio * 2;
 }
 
 /// <summary>A bundle of <see cref="SpringSettings"/>.</summary>

@@ -95,7 +95,29 @@ public struct RowMatrix3(in Symmetric3x3Wide m) : IRowMatrix<RowMatrix3, Rows3>
     /// <summary>The matrix.</summary>
     public Symmetric3x3Wide M = m;
 
+    // Below, the determinant of a matrix of trace 1 to 2 is made of rounding, and the inverse of noise: the arm of a joint is hundreds of times the
+    // radius of its body, or nothing but rotations can move the point.
+    const float LeastDeterminant = 1f / (1 << 20);
+
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Rows3 Solve(in RowMatrix3 matrix, in Rows3 rightSide) => new(Symmetric3x3Wide.Invert(matrix.M) * rightSide.V);
+    public static Rows3 Solve(in RowMatrix3 matrix, in Rows3 rightSide)
+    {
+        var solution = Symmetric3x3Wide.InvertWithDeterminant(matrix.M, out var determinant) * rightSide.V;
+        var least = new Vector<float>(LeastDeterminant);
+        if (Vector.LessThanOrEqualAny(determinant, least))
+        {
+            // Copies: a local whose address is taken is in memory all the time.
+            Symmetric3x3Wide singular = matrix.M;
+            Vector3Wide right = rightSide.V, regular = solution;
+            SolveSingular(singular, right, Vector.LessThanOrEqual(determinant, least), ref regular);
+            solution = regular;
+        }
+        return new(solution);
+    }
+
+    // Only the lanes that are so.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void SolveSingular(in Symmetric3x3Wide matrix, in Vector3Wide rightSide, Vector<int> mask, ref Vector3Wide solution) =>
+        solution = Vector3Wide.Select(mask, new RowFactor3(matrix, RowFactor3.Trace(matrix)).Solve(rightSide), solution);
 }

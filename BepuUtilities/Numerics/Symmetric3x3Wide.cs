@@ -108,14 +108,21 @@ public partial struct Symmetric3x3Wide : IWide<Symmetric3x3>
     /// bodies of infinite mass yields no impulse instead of NaN.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Symmetric3x3Wide Invert(in Symmetric3x3Wide matrix)
+    public static Symmetric3x3Wide Invert(in Symmetric3x3Wide matrix) => InvertWithDeterminant(matrix, out _);
+
+    /// <summary>As <see cref="Invert(in Symmetric3x3Wide)"/>; also says how near to singular the matrix is.</summary>
+    /// <param name="matrix">Matrix to invert.</param>
+    /// <param name="determinant">Determinant of the matrix times the power of two with which its trace is from 1 to 2: at most 8/27.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Symmetric3x3Wide InvertWithDeterminant(in Symmetric3x3Wide matrix, out Vector<float> determinant)
     {
         var power = Wide.NormalizingPowerOfTwo(matrix.XX + matrix.YY + matrix.ZZ);
         var m = matrix * power;
 
         // The columns of the adjugate are the cross products of the rows.
         var column = Vector3Wide.Cross(new(m.YX, m.YY, m.ZY), new(m.ZX, m.ZY, m.ZZ));
-        var scale = Wide.DivideOrZero(power, Vector3Wide.Dot(new(m.XX, m.YX, m.ZX), column));
+        determinant = Vector3Wide.Dot(new(m.XX, m.YX, m.ZX), column);
+        var scale = Wide.DivideOrZero(power, determinant);
         return new(
             column.X * scale,
             column.Y * scale, (m.XX * m.ZZ - m.ZX * m.ZX) * scale,

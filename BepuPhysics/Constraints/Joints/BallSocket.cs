@@ -23,8 +23,8 @@ public struct BallSocket : ITwoBodyConstraintDescription<BallSocket>
     /// <inheritdoc/>
     public static void Validate(in BallSocket description)
     {
-        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
-        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
+        ConstraintChecks.Offset(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Offset(description.LocalOffsetB, nameof(LocalOffsetB));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }
 }

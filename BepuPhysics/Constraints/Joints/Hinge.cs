@@ -26,9 +26,9 @@ public struct Hinge : ITwoBodyConstraintDescription<Hinge>
     /// <inheritdoc/>
     public static void Validate(in Hinge description)
     {
-        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Offset(description.LocalOffsetA, nameof(LocalOffsetA));
         ConstraintChecks.Unit(description.LocalHingeAxisA, nameof(LocalHingeAxisA));
-        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
+        ConstraintChecks.Offset(description.LocalOffsetB, nameof(LocalOffsetB));
         ConstraintChecks.Unit(description.LocalHingeAxisB, nameof(LocalHingeAxisB));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }

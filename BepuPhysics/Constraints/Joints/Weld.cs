@@ -22,7 +22,7 @@ public struct Weld : ITwoBodyConstraintDescription<Weld>
     /// <inheritdoc/>
     public static void Validate(in Weld description)
     {
-        ConstraintChecks.Finite(description.LocalOffset, nameof(LocalOffset));
+        ConstraintChecks.Offset(description.LocalOffset, nameof(LocalOffset));
         ConstraintChecks.Unit(description.LocalOrientation, nameof(LocalOrientation));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }

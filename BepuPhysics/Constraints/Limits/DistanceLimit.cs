@@ -32,9 +32,10 @@ public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float mi
     /// <inheritdoc/>
     public static void Validate(in DistanceLimit description)
     {
-        ConstraintChecks.Finite(description.LocalOffsetA, nameof(LocalOffsetA));
-        ConstraintChecks.Finite(description.LocalOffsetB, nameof(LocalOffsetB));
-        ConstraintChecks.NotNegative(description.MinimumDistance, nameof(MinimumDistance));
+        ConstraintChecks.Offset(description.LocalOffsetA, nameof(LocalOffsetA));
+        ConstraintChecks.Offset(description.LocalOffsetB, nameof(LocalOffsetB));
+        // There may be no greatest distance to speak of.
+        ConstraintChecks.Distance(description.MinimumDistance, nameof(MinimumDistance));
         ConstraintChecks.Order(description.MinimumDistance, description.MaximumDistance, nameof(MinimumDistance), nameof(MaximumDistance));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }

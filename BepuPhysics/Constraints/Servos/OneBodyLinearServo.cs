@@ -25,8 +25,8 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
     /// <inheritdoc/>
     public static void Validate(in OneBodyLinearServo description)
     {
-        ConstraintChecks.Finite(description.LocalOffset, nameof(LocalOffset));
-        ConstraintChecks.Finite(description.Target, nameof(Target));
+        ConstraintChecks.Offset(description.LocalOffset, nameof(LocalOffset));
+        ConstraintChecks.Position(description.Target, nameof(Target));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
         ConstraintChecks.Servo(description.ServoSettings, nameof(ServoSettings));
     }
