@@ -24,7 +24,10 @@ static class CallbackChecks
     // Friction, recovery, frequency and damping, as they follow one another. An unlimited recovery is a common setting.
     static Vector128<float> MaterialLimits => Vector128.Create(float.MaxValue, float.PositiveInfinity, MaximumSpring, MaximumSpring);
 
-    /// <summary>The margin of a pair after <see cref="INarrowPhaseCallbacks.AllowContactGeneration(int, CollidableReference, CollidableReference, ref float)"/>.</summary>
+    /// <summary>
+    /// The margin of a pair after
+    /// <see cref="INarrowPhaseCallbacks.AllowContactGeneration(int, CollidableReference, CollidableReference, ref float)"/>.
+    /// </summary>
     /// <param name="margin">What the callback made of it.</param>
     /// <param name="own">What the motion of the pair makes of it.</param>
     /// <param name="a">First collidable.</param>
@@ -47,7 +50,10 @@ static class CallbackChecks
             $"it must be from 0 to {MaximumLength} m.");
     }
 
-    /// <summary>What <see cref="INarrowPhaseCallbacks.ConfigureContactManifold{TManifold}(int, CollidablePair, ref TManifold, out PairMaterialProperties)"/> made of a pair that has contacts.</summary>
+    /// <summary>
+    /// What <see cref="INarrowPhaseCallbacks.ConfigureContactManifold{TManifold}(int, CollidablePair, ref TManifold, out PairMaterialProperties)"/>
+    /// made of a pair that has contacts.
+    /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static void Contacts(in CollidablePair pair, in ConvexContactManifold manifold, in PairMaterialProperties material)
     {

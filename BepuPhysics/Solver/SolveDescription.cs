@@ -18,7 +18,8 @@ public struct SolveDescription
     /// <summary>Sweeps per substep that take back the velocity which the correction of positions has left behind; 0 for none.</summary>
     /// <remarks>
     /// One costs about half as much as a substep with one iteration. Rigid joints are then as stiff as with twice the substeps, rigid contacts, and joints of
-    /// bodies that have three or more, as with half again as many; what overlaps parts without being thrown, and energy is kept better. What has a frequency of its own, and servos, gain nothing.
+    /// bodies that have three or more, as with half again as many; what overlaps parts without being thrown, and energy is kept better.
+    /// What has a frequency of its own, and servos, gain nothing.
     /// </remarks>
     public int RelaxationIterationCount;
     /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>

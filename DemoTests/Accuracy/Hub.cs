@@ -43,7 +43,8 @@ sealed class Hub
         var random = new Random(seed);
         var hub = world.AddDynamic(new Box(Size, Size, Size), mass, RigidPose.Identity);
         if (isPost)
-            world.Simulation.Solver.Add(world.AddAnchor(new(0, -Size, 0)), hub, new Weld { LocalOffset = new(0, Size, 0), LocalOrientation = Quaternion.Identity });
+            world.Simulation.Solver.Add(
+                world.AddAnchor(new(0, -Size, 0)), hub, new Weld { LocalOffset = new(0, Size, 0), LocalOrientation = Quaternion.Identity });
         for (int i = 0; i < armCount; ++i)
         {
             var direction = isPost ? AroundTheWaist(i, armCount) : AllAround(i, armCount);

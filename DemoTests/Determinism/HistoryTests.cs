@@ -142,7 +142,7 @@ public class HistoryTests
             int values = world.Bodies.HandlePool.HighestPossiblyClaimedId + 1;
             for (int i = 0; i < values; ++i)
                 bodies.Add(world.Bodies.Add(RandomScene.AnyBody(random)));
-            foreach (var body in bodies.OrderByDescending(body => body.Value))
+            foreach (var body in bodies.OrderByDescending(body => body.Slot))
                 world.Bodies.Remove(body);
             Assert.Equal(0, world.Solver.CountConstraints());
             world.Simulation.Validate();

@@ -84,8 +84,7 @@ public class RecordedHashTests
     // Restitution among bodies that fall on each other, with steps that change.
     static ulong Bounce(int steps)
     {
-        var settings = new AccuracySettings();
-        using var world = new TestWorld(settings, material: EngineTraits.Material(.3f, .8f, 2, EngineTraits.DefaultSpring(settings.SubstepDuration)));
+        using var world = new TestWorld(new AccuracySettings { Friction = .3f }, restitution: .8f);
         new RandomScene(7, Ingredients.Contacts).AddTo(world);
         for (int i = 0; i < steps; ++i)
             world.Step(i % 5 == 0 ? 1 / 45f : TestWorld.Dt);

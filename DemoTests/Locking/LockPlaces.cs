@@ -61,8 +61,8 @@ sealed record LockPlace(string Name, Action<LockedWorld> Reach, OperationKind[] 
     {
         var solver = world.Simulation.Solver;
         var timestepper = (DefaultTimestepper)world.Simulation.Timestepper;
-        SubstepEvent started = _ => world.Reach("SubstepStarted");
-        SubstepEvent ended = _ => world.Reach("SubstepEnded");
+        Solver.SubstepEvent started = _ => world.Reach("SubstepStarted");
+        Solver.SubstepEvent ended = _ => world.Reach("SubstepEnded");
         TimestepperStageHandler before = (_, _) => world.Reach("BeforeCollisionDetection");
         TimestepperStageHandler detected = (_, _) => world.Reach("CollisionsDetected");
         TimestepperStageHandler solved = (_, _) => world.Reach("ConstraintsSolved");

@@ -144,7 +144,8 @@ public class CallbackValueTests
     public void An_integration_mode_that_is_none_is_refused(int mode)
     {
         using var pool = new BufferPool();
-        using var simulation = Simulation.Create(pool, new FaultyContacts(new Fault()), new ModeCallbacks((AngularIntegrationMode)mode), new SolveDescription(1, 4));
+        using var simulation = Simulation.Create(
+            pool, new FaultyContacts(new Fault()), new ModeCallbacks((AngularIntegrationMode)mode), new SolveDescription(1, 4));
         simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(Vector3.Zero, 1, simulation.Shapes, new Box(1, 2, 3)));
         var before = simulation.StateHash();
 

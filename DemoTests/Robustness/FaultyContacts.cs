@@ -31,7 +31,7 @@ sealed class Fault
 }
 
 /// <summary>Ordinary contacts but for a fault.</summary>
-struct FaultyContacts(Fault fault) : INarrowPhaseCallbacks
+struct FaultyContacts(Fault fault) : ISurfaceCallbacks<FaultyContacts>
 {
     public readonly void Initialize(Simulation simulation)
     {
@@ -50,12 +50,12 @@ struct FaultyContacts(Fault fault) : INarrowPhaseCallbacks
     {
         pairMaterial = new PairMaterialProperties(.5f, 2, default);
         if (fault.Concerns(pair.A, pair.B) && manifold.Count > 0)
-        {
             fault.Change?.Invoke(ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold), ref pairMaterial);
-            pairMaterial.Restitution = fault.Restitution;
-        }
         return true;
     }
+
+    public readonly SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
+        where TManifold : unmanaged, IContactManifold<TManifold> => new() { Restitution = fault.Concerns(pair.A, pair.B) ? fault.Restitution : 0 };
 
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 

@@ -7,7 +7,7 @@ namespace DemoTests.Scenes;
 /// <summary>Memory that shapes own, and that a simulation therefore leaves to others.</summary>
 static class ShapeMemory
 {
-    /// <summary>Disposes of the hulls of all bodies and statics; the simulation is not to be stepped any more.</summary>
+    /// <summary>Removes all bodies and statics, and disposes of their hulls: a shape that is in use stays.</summary>
     public static void DisposeHulls(this Simulation simulation)
     {
         var hulls = new HashSet<TypedIndex>();
@@ -18,6 +18,10 @@ static class ShapeMemory
         }
         for (int i = 0; i < simulation.Statics.Count; ++i)
             hulls.Add(simulation.Statics.StaticsBuffer[i].Shape);
+        while (simulation.Bodies.ActiveSet.Count > 0)
+            simulation.Bodies.RemoveAt(simulation.Bodies.ActiveSet.Count - 1);
+        while (simulation.Statics.Count > 0)
+            simulation.Statics.RemoveAt(simulation.Statics.Count - 1);
         foreach (var shape in hulls)
         {
             if (shape.Exists && shape.Type == ConvexHull.Id)

@@ -7,5 +7,5 @@ namespace DemoTests.Support;
 static class EmptySimulation
 {
     public static Simulation Create(BufferPool pool, int substeps = 4) =>
-        Simulation.Create(pool, new NarrowPhaseCallbacks(), new PoseIntegratorCallbacks(), new SolveDescription(1, substeps));
+        Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, substeps));
 }
