@@ -59,9 +59,14 @@ sealed class WorldLock
     /// <exception cref="ObjectDisposedException">The simulation was disposed, or its memory is gone.</exception>
     internal void CheckAlive()
     {
-        if (end is { } reason)
-            throw new ObjectDisposedException(nameof(Simulation), reason);
+        if (end is not null)
+            ThrowEnded();
     }
+
+    /// <summary>Refuses what comes after the end, where it is known that it does.</summary>
+    [DoesNotReturn]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    internal void ThrowEnded() => throw new ObjectDisposedException(nameof(Simulation), end);
 
     /// <summary>Begins a change by the calling thread.</summary>
     /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>

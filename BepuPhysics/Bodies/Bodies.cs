@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
@@ -42,10 +43,11 @@ public sealed unsafe partial class Bodies
     /// <exception cref="ObjectDisposedException">The simulation was disposed, or its pool cleared.</exception>
     public ref BodySet ActiveSet
     {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get
         {
             if (!Sets.Allocated)
-                world.CheckAlive();
+                world.ThrowEnded();
             return ref Sets[0];
         }
     }

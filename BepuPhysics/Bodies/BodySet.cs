@@ -92,7 +92,6 @@ public struct BodySet
     internal void Resize(int capacity, BufferPool pool)
     {
         capacity = (capacity + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
-        ResizeZeroed(ref IndexToHandle, capacity, Count, pool);
         ResizeZeroed(ref MotionStates, capacity, Count, pool);
         ResizeZeroed(ref LocalInertias, capacity, Count, pool);
         ResizeZeroed(ref WorldInertias, capacity, Count, pool);
@@ -107,6 +106,8 @@ public struct BodySet
         ResizeZeroed(ref Collidables, capacity, Count, pool);
         ResizeZeroed(ref Activity, capacity, Count, pool);
         ResizeZeroed(ref Constraints, capacity, Count, pool);
+        // It tells the capacity, so it comes last, should the system refuse memory in between.
+        ResizeZeroed(ref IndexToHandle, capacity, Count, pool);
     }
 
     /// <summary>Makes room for geometric stiffness, from the first joint on that can add to it.</summary>

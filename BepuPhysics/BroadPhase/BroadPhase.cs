@@ -92,9 +92,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
     int Add(CollidableReference collidable, BoundingBox bounds, ref Tree tree, ref Buffer<CollidableReference> leaves)
     {
+        // All memory before the first change.
+        if (tree.LeafCount == tree.Leaves.Length)
+            tree.EnsureCapacity(Math.Max(16, tree.LeafCount * 2), Pool);
+        FitLeaves(tree, ref leaves);
         var index = tree.Add(bounds, Pool);
-        if (index >= leaves.Length)
-            Pool.ResizeToAtLeast(ref leaves, tree.Leaves.Length, index);
         leaves[index] = collidable;
         return index;
     }
@@ -220,8 +222,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Makes room for numbers of leaves.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A number is negative or more than a tree holds; nothing was changed.</exception>
     public void EnsureCapacity(int activeCapacity, int staticCapacity)
     {
+        CheckCapacity(activeCapacity, nameof(activeCapacity));
+        CheckCapacity(staticCapacity, nameof(staticCapacity));
         using var change = world.Change("BroadPhase.EnsureCapacity");
         MakeRoomFor(activeCapacity, staticCapacity);
     }
@@ -241,8 +246,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Changes the room for leaves to about these numbers, never below what is in use.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">A number is negative or more than a tree holds; nothing was changed.</exception>
     public void Resize(int activeCapacity, int staticCapacity)
     {
+        CheckCapacity(activeCapacity, nameof(activeCapacity));
+        CheckCapacity(staticCapacity, nameof(staticCapacity));
         using var change = world.Change("BroadPhase.Resize");
         ActiveTree.Resize(Pool, activeCapacity);
         StaticTree.Resize(Pool, staticCapacity);
@@ -274,6 +282,12 @@ public sealed unsafe partial class BroadPhase : IDisposable
         CheckNotOwned(nameof(Dispose));
         using var change = world.Change("BroadPhase.Dispose");
         ReturnMemory();
+    }
+
+    static void CheckCapacity(int capacity, string name)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(capacity, name);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(capacity, Tree.MaximumLeafCount, name);
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>

@@ -325,9 +325,10 @@ public abstract unsafe class ShapeBatch
     /// <summary>Changes the number of slots whose state is recorded; those in use remain.</summary>
     private protected void ResizeSlots(int slotCapacity)
     {
-        pool.ResizeToAtLeast(ref taken, slotCapacity, UsedSlotCount);
         pool.ResizeToAtLeast(ref generations, slotCapacity, UsedSlotCount);
         pool.ResizeToAtLeast(ref uses, slotCapacity, UsedSlotCount);
+        // It tells the capacity, so it comes last, should the system refuse memory in between.
+        pool.ResizeToAtLeast(ref taken, slotCapacity, UsedSlotCount);
         taken.Clear(UsedSlotCount, taken.Length - UsedSlotCount);
     }
 

@@ -23,23 +23,29 @@ public sealed partial class Shapes : IBufferPoolUser
     /// <summary>Whether any simulation but one uses the collection.</summary>
     internal bool IsUsedByOthers(WorldLock user) => Array.Exists(users, other => other != user);
 
-    /// <summary>Notes that a simulation uses the collection.</summary>
+    /// <summary>Notes that a simulation uses the collection. Others that use it may be stepping meanwhile.</summary>
     internal void Attach(WorldLock user)
     {
-        using var change = Change("Simulation.Create");
-        users = [.. users, user];
+        // Not while the collection changes: that change holds those who use it, and would not hold this one.
+        using var change = world.Change("Simulation.Create");
+        lock (world)
+            users = [.. users, user];
     }
 
     /// <summary>Notes that a simulation no longer uses the collection.</summary>
-    internal void Detach(WorldLock user) => users = Array.FindAll(users, other => other != user);
+    internal void Detach(WorldLock user)
+    {
+        lock (world)
+            users = Array.FindAll(users, other => other != user);
+    }
 
     /// <summary>Begins a change, for which all simulations that use the collection must be at rest.</summary>
     /// <exception cref="InvalidOperationException">A stage or a query is in progress, another thread is changing something, or the collection was part of
     /// a simulation that was disposed.</exception>
     internal ChangeScope Change(string operation)
     {
-        var held = users;
         world.Hold(operation);
+        var held = users;
         int count = 0;
         try
         {

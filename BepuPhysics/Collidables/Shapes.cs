@@ -238,9 +238,9 @@ public sealed partial class Shapes
             Array.Resize(ref batches, typeId + 1);
         if (batches[typeId] is not { } batch)
         {
+            batch = TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
             if (Array.TrueForAll(batches, other => other is null))
                 pool.AddUser(this);
-            batch = TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
             batch.BelongTo(this);
             batches[typeId] = batch;
         }

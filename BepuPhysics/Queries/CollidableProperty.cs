@@ -12,7 +12,7 @@ namespace BepuPhysics;
 /// when a body or static is added, then read and write from any number of threads. A body in the slot of one that was removed finds the value
 /// of its predecessor until it is allocated anew. Handles of what was removed are refused.
 /// </remarks>
-public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
+public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T : unmanaged
 {
     BufferPool? pool;
     Simulation? simulation;
@@ -127,6 +127,15 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
             pool!.Return(ref bodyData);
         if (staticData.Allocated)
             pool!.Return(ref staticData);
+        pool?.RemoveUser(this);
+    }
+
+    void IBufferPoolUser.CheckNotBusy() { }
+
+    void IBufferPoolUser.ForgetMemory()
+    {
+        bodyData = default;
+        staticData = default;
     }
 
     Simulation CheckedSimulation => simulation ?? throw new InvalidOperationException("Call Initialize first: the properties belong to no simulation yet.");
@@ -149,6 +158,8 @@ public sealed class CollidableProperty<T> : IDisposable where T : unmanaged
         capacity = BufferPool.GetCapacityForCount<T>(Math.Max(1, capacity));
         if (capacity == data.Length)
             return;
+        if (!bodyData.Allocated && !staticData.Allocated)
+            pool.AddUser(this);
         var kept = Math.Min(data.Length, capacity);
         pool.ResizeToAtLeast(ref data, capacity, kept);
         data.Clear(kept, data.Length - kept);

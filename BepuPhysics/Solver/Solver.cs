@@ -58,10 +58,11 @@ public sealed unsafe partial class Solver
     /// <exception cref="ObjectDisposedException">The simulation was disposed, or its pool cleared.</exception>
     public ref ConstraintSet ActiveSet
     {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get
         {
             if (!Sets.Allocated)
-                world.CheckAlive();
+                world.ThrowEnded();
             return ref Sets[0];
         }
     }

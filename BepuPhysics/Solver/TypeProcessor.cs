@@ -129,10 +129,11 @@ public abstract class TypeProcessor
         var lanes = Vector<float>.Count;
         var bundles = (capacity + lanes - 1) / lanes;
         var used = batch.BundleCount * lanes;
-        ResizeExactly(ref batch.IndexToHandle, bundles * lanes, batch.ConstraintCount, pool);
         ResizeExactly(ref batch.BodyReferences, bundles * lanes * BodiesPerConstraint, used * BodiesPerConstraint, pool);
         ResizeExactly(ref batch.Prestep, bundles * lanes * PrestepFloats, used * PrestepFloats, pool);
         ResizeExactly(ref batch.AccumulatedImpulses, bundles * lanes * ImpulseFloats, used * ImpulseFloats, pool);
+        // It tells the capacity, so it comes last, should the system refuse memory in between.
+        ResizeExactly(ref batch.IndexToHandle, bundles * lanes, batch.ConstraintCount, pool);
     }
 
     static void ResizeExactly<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged

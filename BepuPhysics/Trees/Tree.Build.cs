@@ -28,8 +28,10 @@ public unsafe partial struct Tree
         foreach (ref readonly var box in leafBounds)
             BoxMath.RequireBox(box.Min, box.Max);
 
-        Clear();
+        // All memory before the first change.
         EnsureCapacity(leafBounds.Length, pool);
+        using var scratch = new BuildScratch(leafBounds.Length, pool);
+        Clear();
         if (leafBounds.Length < 3)
         {
             foreach (ref readonly var box in leafBounds)
@@ -37,7 +39,6 @@ public unsafe partial struct Tree
             return;
         }
         LeafCount = leafBounds.Length;
-        using var scratch = new BuildScratch(LeafCount, pool);
         for (var leaf = 0; leaf < LeafCount; ++leaf)
             scratch.Items[leaf] = new NodeChild { Min = leafBounds[leaf].Min, Max = leafBounds[leaf].Max, Index = ~leaf, LeafCount = 1 };
         BuildAll(scratch);

@@ -112,9 +112,14 @@ public unsafe partial struct Tree
     void Reallocate(int leafCapacity, BufferPool pool)
     {
         leafCapacity = BufferPool.GetCapacityForCount<Leaf>(leafCapacity);
-        Move(ref Leaves, leafCapacity, LeafCount, pool);
+        // Leaves tell the room that there is: they grow last and shrink first, should the system refuse memory in between.
+        var shrinks = leafCapacity < Leaves.Length;
+        if (shrinks)
+            Move(ref Leaves, leafCapacity, LeafCount, pool);
         Move(ref Nodes, leafCapacity, NodeCount, pool);
         Move(ref Metanodes, leafCapacity, NodeCount, pool);
+        if (!shrinks)
+            Move(ref Leaves, leafCapacity, LeafCount, pool);
     }
 
     static void Move<T>(ref Buffer<T> buffer, int capacity, int count, BufferPool pool) where T : unmanaged

@@ -83,6 +83,39 @@ public class EndOfWorldTests
     }
 
     [Fact]
+    public void Properties_whose_pool_was_cleared_hold_nothing_and_say_so()
+    {
+        var pool = new BufferPool();
+        using var world = new LockedWorld(1, 8);
+        using var property = new CollidableProperty<int>(world.Simulation, pool);
+        property[world.Body] = 7;
+        property[world.Ground] = 8;
+        pool.Clear();
+        Assert.Throws<ArgumentOutOfRangeException>(() => property[world.Body]);
+        Assert.Throws<ArgumentOutOfRangeException>(() => property[world.Ground]);
+        property.Allocate(world.Body) = 9;
+        Assert.Equal(9, property[world.Body]);
+        property.Dispose();
+        pool.AssertEmpty();
+    }
+
+    [Fact]
+    public void Impossible_capacities_of_a_broad_phase_change_nothing()
+    {
+        var pool = new BufferPool();
+        using var broadPhase = new BepuPhysics.CollisionDetection.BroadPhase(pool, 16, 16);
+        foreach (int bad in new[] { -1, int.MinValue, BepuPhysics.Trees.Tree.MaximumLeafCount + 1, int.MaxValue })
+        {
+            Assert.Throws<ArgumentOutOfRangeException>(() => broadPhase.EnsureCapacity(1000, bad));
+            Assert.Throws<ArgumentOutOfRangeException>(() => broadPhase.EnsureCapacity(bad, 1000));
+            Assert.Throws<ArgumentOutOfRangeException>(() => broadPhase.Resize(1000, bad));
+            Assert.Throws<ArgumentOutOfRangeException>(() => broadPhase.Resize(bad, 1000));
+        }
+        Assert.Equal(16, broadPhase.ActiveTree.Leaves.Length);
+        Assert.Equal(16, broadPhase.StaticTree.Leaves.Length);
+    }
+
+    [Fact]
     public void Shapes_whose_pool_was_cleared_are_refused_by_those_who_share_them()
     {
         var shapePool = new BufferPool();

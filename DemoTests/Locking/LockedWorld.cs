@@ -18,13 +18,13 @@ sealed class LockedWorld : IDisposable
     readonly Hook hook;
     readonly TypedIndex sphere;
 
-    public LockedWorld(int threads, int bodyCount, ITimestepper? timestepper = null)
+    public LockedWorld(int threads, int bodyCount, ITimestepper? timestepper = null, Shapes? shapes = null)
     {
         hook = new Hook();
         Dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         Simulation = Simulation.Create(
             Pool, new HookedContacts(hook), new HookedIntegrator(hook), new SolveDescription(1, 2), timestepper,
-            new SimulationAllocationSizes(16, 16, 0, 4, 16, 16, 1));
+            new SimulationAllocationSizes(16, 16, 0, 4, 16, 16, 1), shapes);
         var floor = Simulation.Shapes.Add(new Box(500, 2, 500));
         Ground = Simulation.Statics.Add(new StaticDescription(new Vector3(0, -1, 0), Quaternion.Identity, floor));
         sphere = Simulation.Shapes.Add(new Sphere(.5f));

@@ -110,6 +110,31 @@ public class ShapeUseTests
     }
 
     [Fact]
+    public void A_simulation_may_begin_to_share_shapes_while_another_steps()
+    {
+        var shapes = new Shapes(pool, 4);
+        var others = new BufferPool();
+        Exception? attached = null;
+        Exception? changed = null;
+        using (var world = new LockedWorld(1, 8, null, shapes))
+        {
+            world.Arm("AllowContactGeneration", () =>
+            {
+                attached = Record.Exception(() => Simulation.Create(
+                    others, new ThrowingContacts(), new PlainIntegrator(), new SolveDescription(1, 2), shapes: shapes).Dispose());
+                changed = Record.Exception(() => shapes.Add(new Sphere(2)));
+            });
+            world.Step();
+            Assert.True(world.WasReached);
+        }
+        Assert.Null(attached);
+        Assert.IsType<InvalidOperationException>(changed);
+        shapes.Dispose();
+        others.AssertEmpty();
+        pool.AssertEmpty();
+    }
+
+    [Fact]
     public void A_shape_that_is_refused_for_a_body_is_not_counted()
     {
         using var simulation = NewSimulation(null);
