@@ -8,8 +8,9 @@ namespace BepuPhysics;
 /// <summary>Keeps a simulation from being changed while something else goes on in it: by callbacks, by other threads, after its end.</summary>
 /// <remarks>
 /// It never waits: who comes at the wrong time gets an exception that says what is going on. Three kinds of things can go on. One thread may
-/// <i>hold</i> the world, for a stage of a step or for one change. One may be <i>stepping</i>: between its stages it may change the world itself, no
-/// other may. Any number may be <i>reading</i>, which lasts while a query runs, for its handler is the game's.
+/// <i>hold</i> the world, for a stage of a step or for one change. One may be <i>stepping</i>: between its stages it may change the world
+/// itself, and others may ask queries and write values, as the workers of an event do. Any number may be <i>reading</i>, which lasts while a
+/// query runs, for its handler is the game's.
 /// Each announces itself before it looks at the others, with a fence between, so that of two that exclude each other at least one notices.
 /// </remarks>
 sealed class WorldLock
@@ -141,7 +142,7 @@ sealed class WorldLock
         var thread = CurrentThread;
         ref var count = ref reading[((thread & (StripeCount - 1)) + 1) * StripeLength];
         Interlocked.Increment(ref count);
-        if ((Volatile.Read(ref holder) != 0 && !MayReadNow(thread)) || (IsStepOfOther && !MayReadNow(thread)))
+        if (Volatile.Read(ref holder) != 0 && !MayReadNow(thread))
         {
             Interlocked.Decrement(ref count);
             ThrowBusy(operation);
@@ -150,11 +151,11 @@ sealed class WorldLock
     }
 
     /// <summary>Refuses the writing of values, which moves nothing in memory, at a time when it would meet others that read or write them.</summary>
-    /// <exception cref="InvalidOperationException">A stage is in progress, or another thread steps, or the world has ended.</exception>
+    /// <exception cref="InvalidOperationException">A stage or a change is in progress, or the world has ended.</exception>
     internal void CheckWritable([CallerMemberName] string operation = "")
     {
         CheckAlive();
-        if ((Volatile.Read(ref holder) != 0 || IsStepOfOther) && Volatile.Read(ref eventThread) != CurrentThread)
+        if (Volatile.Read(ref holder) != 0 && Volatile.Read(ref eventThread) != CurrentThread)
             ThrowBusy(operation);
     }
 

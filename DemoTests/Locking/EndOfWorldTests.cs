@@ -100,6 +100,23 @@ public class EndOfWorldTests
     }
 
     [Fact]
+    public void The_leaves_of_a_simulation_are_its_own()
+    {
+        using var world = new LockedWorld(1, 8);
+        var broadPhase = world.Simulation.BroadPhase;
+        var bounds = new BoundingBox(-Vector3.One, Vector3.One);
+        var body = world.Simulation.Bodies[world.Body].CollidableReference;
+        Assert.Throws<InvalidOperationException>(() => broadPhase.AddActive(body, ref bounds));
+        Assert.Throws<InvalidOperationException>(() => broadPhase.AddStatic(body, ref bounds));
+        Assert.Throws<InvalidOperationException>(() => broadPhase.RemoveActiveAt(0, out _));
+        Assert.Throws<InvalidOperationException>(() => broadPhase.RemoveStaticAt(0, out _));
+        Assert.Throws<InvalidOperationException>(broadPhase.Clear);
+        Assert.Throws<InvalidOperationException>(broadPhase.Dispose);
+        world.Step();
+        world.Simulation.Validate();
+    }
+
+    [Fact]
     public void Impossible_capacities_of_a_broad_phase_change_nothing()
     {
         var pool = new BufferPool();

@@ -43,13 +43,12 @@ public class LockMatrixTests
     public void A_call_from_a_second_thread_during_a_callback_works_or_is_refused(string placeName, int threads, int bodyCount)
     {
         var place = LockPlace.All[placeName];
-        // While a query runs, others may ask and write values; while a step is in progress, nobody else may do anything.
-        bool isQuery = place.Allowed.Contains(OperationKind.Write) && !place.Allowed.Contains(OperationKind.Change) &&
-            !placeName.StartsWith("Substep", StringComparison.Ordinal);
+        // While a query runs, and between two stages, others may ask and write values; while a stage is in progress, nobody else may do anything.
+        bool isOutsideOfStages = place.Allowed.Contains(OperationKind.Write) && !placeName.StartsWith("Substep", StringComparison.Ordinal);
         var wrong = new List<string>();
         foreach (var (name, operation) in LockOperations.All)
         {
-            bool isAllowed = isQuery && operation.Kind is (OperationKind.Query or OperationKind.Write);
+            bool isAllowed = isOutsideOfStages && operation.Kind is (OperationKind.Query or OperationKind.Write);
             Try(wrong, name, place, threads, bodyCount, isAllowed, world => OnOtherThread(() => operation.Do(world)));
         }
         Assert.Empty(wrong);

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -143,6 +144,16 @@ public class ShapeUseTests
         Assert.Throws<ArgumentException>(() => simulation.Bodies.Add(bad));
         Assert.Throws<ArgumentException>(() => simulation.Statics.Add(new StaticDescription(new Vector3(float.NaN, 0, 0), Quaternion.Identity, sphere)));
         simulation.Shapes.Remove(sphere);
+    }
+
+    [Fact]
+    public void Shapes_are_not_assigned()
+    {
+        foreach (var type in new[] { typeof(Collidable), typeof(Static) })
+        {
+            Assert.Empty(type.GetFields().Where(field => field.FieldType == typeof(TypedIndex)));
+            Assert.False(type.GetProperty("Shape")!.SetMethod!.IsPublic);
+        }
     }
 
     [Fact]
