@@ -28,7 +28,16 @@ public sealed partial class Simulation
         using var timer = Profiler.Time(PoseIntegrator);
         PoseIntegrator.Prepare(dt);
         var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
-        StagedWork.Run(ref work, threadDispatcher);
+        try
+        {
+            StagedWork.Run(ref work, threadDispatcher);
+        }
+        catch
+        {
+            // A callback threw after some bounds had been written: the tree has to contain them.
+            BroadPhase.UpdateTrees();
+            throw;
+        }
     }
 
     /// <summary>Bounds to pairs, pairs to contacts, contacts to constraints.</summary>

@@ -48,7 +48,8 @@ static class BodyChecks
         if (!IsPositiveSemidefinite(i))
         {
             throw new ArgumentException(
-                "The inverse inertia must have no negative principal moment, as it would gain energy by being turned; not " +
+                "The inverse inertia must have no negative principal moment, as it would gain energy by being turned, and be zero or have one of at " +
+                $"least {Limits.MinimumInverseInertia} 1/(kg m2); not " +
                 $"({i.XX}, {i.YY}, {i.ZZ}) on the diagonal and ({i.YX}, {i.ZX}, {i.ZY}) below it.", nameof(inertia));
         }
     }
@@ -64,6 +65,8 @@ static class BodyChecks
             return false;
         if (trace == 0)
             return yx == 0 && zx == 0 && zy == 0;
+        if (trace < Limits.MinimumInverseInertia)
+            return false;
         double xx = tensor.XX + trace * Rounding, yy = tensor.YY + trace * Rounding, zz = tensor.ZZ + trace * Rounding;
         yy -= yx * yx / xx;
         zy -= yx * zx / xx;

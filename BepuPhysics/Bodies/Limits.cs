@@ -20,6 +20,9 @@ public static class Limits
     /// <summary>Greatest entry of an inverse inertia tensor, 1/(kg m2).</summary>
     // A ball of a micrometre's radius and of the least mass has 2.5e21.
     public const float MaximumInverseInertia = 1e22f;
+    /// <summary>Least sum of the diagonal of an inverse inertia tensor that is not zero, 1/(kg m2).</summary>
+    // The greatest ball of the greatest mass has 7.5e-26; products of smaller ones lose their digits below the least normal float.
+    public const float MinimumInverseInertia = 1e-28f;
     /// <summary>Least radius or half extent of a shape, m.</summary>
     public const float MinimumSize = 1e-6f;
     /// <summary>Greatest radius or half extent of a shape, m.</summary>

@@ -97,6 +97,9 @@ public sealed class InertiaDefinitenessTests : IDisposable
             }
         }
         Assert.False(Accepts(new Symmetric3x3(0, 1, 0, 0, 0, 0)));
+        // Products of these lose their digits below the least normal float, or are zero.
+        Assert.False(Accepts(Symmetric3x3.Diagonal(0, 1e-36f, 0)));
+        Assert.False(Accepts(Symmetric3x3.Diagonal(float.Epsilon, float.Epsilon, float.Epsilon)));
         Assert.True(Accepts(default));
     }
 

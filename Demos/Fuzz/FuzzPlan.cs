@@ -1,9 +1,7 @@
 using System;
 using System.Threading;
-using BepuPhysics;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 
 namespace Demos.Fuzz;
 
@@ -43,9 +41,14 @@ sealed class FuzzPlan
         Material = new(0.5f, 2, SpringSettings.Rigid);
     }
 
+    /// <summary>Whether a callback was called since this was set to false: a step that is refused then has begun, and is not completed.</summary>
+    public bool WasCalled { get; set; }
+
     /// <summary>To be called by every callback.</summary>
     public void OnCall()
     {
+        if (!WasCalled)
+            WasCalled = true;
         if (Volatile.Read(ref callsLeft) >= 0 && Interlocked.Decrement(ref callsLeft) == -1)
             action?.Invoke();
     }

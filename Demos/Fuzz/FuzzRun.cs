@@ -14,6 +14,8 @@ namespace Demos.Fuzz;
 /// </remarks>
 sealed class FuzzRun : IDisposable
 {
+    const int CallsAfterDispose = 20;
+
     readonly FuzzSettings settings;
     readonly TextWriter output;
     readonly ThreadDispatcher dispatcher = new(3);
@@ -97,11 +99,14 @@ sealed class FuzzRun : IDisposable
                     break;
                 }
                 ulong after = FuzzFingerprint.Of(world.Simulation);
-                if (outcome is not null && after != state && !IsCallbacks(outcome))
+                if (outcome is not null && after != state && !world.Plan.WasCalled)
                     throw new FuzzFailure($"refused ({outcome.Message}), but changed something");
                 state = after;
                 world.Check(call);
             }
+            name = "after disposal";
+            if (world.Has(FuzzScope.AfterDispose))
+                CallAfterDispose(world, seed, list);
             name = "the end";
             world.End();
             return null;
@@ -109,6 +114,20 @@ sealed class FuzzRun : IDisposable
         catch (Exception error)
         {
             return new Failure(call, name, error);
+        }
+    }
+
+    // Whatever is called then: no crash, and nothing is taken from the pool for good.
+    void CallAfterDispose(FuzzWorld world, ulong seed, List<string>? list)
+    {
+        world.EndSimulation();
+        for (int call = settings.CallsPerWorld; call < settings.CallsPerWorld + CallsAfterDispose; ++call)
+        {
+            world.BeginCall(new FuzzRandom(FuzzRandom.Mix(seed, (ulong)call + 1)));
+            FuzzOperation operation = FuzzOperations.Draw(world.Random);
+            trace.BeginCall(call, operation.Name);
+            Exception? outcome = Call(world, operation);
+            list?.Add($"{call,5} {operation.Name}{world.Arguments} -> {outcome?.Message}");
         }
     }
 

@@ -26,6 +26,6 @@ enum FuzzScope
     /// <summary>Whatever was accepted must be simulated: a state that is not finite is a failure.</summary>
     Finite = 256,
     All = 511,
-    /// <summary>What the library bears as it is.</summary>
-    Held = None,
+    /// <summary>What the library bears as it is: bodies that become infinite end a world without a failure.</summary>
+    Held = All & ~Finite,
 }

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -90,6 +89,7 @@ sealed partial class FuzzWorld : IDisposable
     {
         Random = random;
         Arguments = "";
+        Plan.WasCalled = false;
     }
 
     /// <summary>A dispatcher or none.</summary>
@@ -126,13 +126,12 @@ sealed partial class FuzzWorld : IDisposable
 
     bool IsUsed(TypedIndex shape)
     {
-        ref BodySet set = ref Simulation.Bodies.ActiveSet;
-        for (int i = 0; i < set.Count; ++i)
+        for (int i = 0; i < BodyCount; ++i)
         {
-            if (set.Collidables[i].Shape == shape)
+            if (Simulation.Bodies.ActiveSet.Collidables[i].Shape == shape)
                 return true;
         }
-        for (int i = 0; i < Simulation.Statics.Count; ++i)
+        for (int i = 0; i < StaticCount; ++i)
         {
             if (Simulation.Statics[i].Shape == shape)
                 return true;
@@ -166,6 +165,22 @@ sealed partial class FuzzWorld : IDisposable
             Hulls[name].Dispose(Pool);
             Hulls.Remove(name);
         }
+    }
+
+    /// <summary>Whether the simulation was disposed, which no call should survive.</summary>
+    public bool IsOver { get; private set; }
+
+    /// <summary>Number of bodies; none when all is over.</summary>
+    public int BodyCount => IsOver ? 0 : Simulation.Bodies.ActiveSet.Count;
+
+    /// <summary>Number of statics; none when all is over.</summary>
+    public int StaticCount => IsOver ? 0 : Simulation.Statics.Count;
+
+    /// <summary>Disposes of the simulation ahead of the end.</summary>
+    public void EndSimulation()
+    {
+        Simulation.Dispose();
+        IsOver = true;
     }
 
     /// <summary>Returns everything; a pool that is not empty then is a failure.</summary>

@@ -12,7 +12,7 @@ static class BodyOperations
     [
         new("Bodies.Add", 60, Add),
         new("Bodies.Remove", 14, w => w.Simulation.Bodies.Remove(w.AnyBody())),
-        new("Bodies.RemoveAt", 4, w => w.Simulation.Bodies.RemoveAt(w.Random.Below(w.Simulation.Bodies.ActiveSet.Count + 4) - 2)),
+        new("Bodies.RemoveAt", 4, w => w.Simulation.Bodies.RemoveAt(w.Random.Below(w.BodyCount + 4) - 2)),
         new("Bodies.ApplyDescription", 14, w => w.Simulation.Bodies.ApplyDescription(w.AnyBody(), Describe(w))),
         new("Bodies.GetDescription", 4, w => w.Simulation.Bodies.GetDescription(w.AnyBody())),
         new("Bodies.SetShape", 8, w => w.Simulation.Bodies.SetShape(w.AnyBody(), w.AnyShape())),

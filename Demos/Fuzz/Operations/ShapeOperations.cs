@@ -74,10 +74,12 @@ static class ShapeOperations
             w.ShapeNames.Live.Add(name);
             w.Hulls.Add(name, hull);
         }
-        catch (ArgumentException error)
+        catch (Exception error)
         {
             hull.Dispose(w.Pool);
-            throw new FuzzFailure("a hull was created and then refused: " + error.Message, error);
+            if (error is ArgumentException)
+                throw new FuzzFailure("a hull was created and then refused: " + error.Message, error);
+            throw;
         }
     }
 

@@ -12,7 +12,7 @@ static class StaticOperations
     [
         new("Statics.Add", 12, Add),
         new("Statics.Remove", 4, w => w.Simulation.Statics.Remove(w.AnyStatic())),
-        new("Statics.RemoveAt", 2, w => w.Simulation.Statics.RemoveAt(w.Random.Below(w.Simulation.Statics.Count + 4) - 2)),
+        new("Statics.RemoveAt", 2, w => w.Simulation.Statics.RemoveAt(w.Random.Below(w.StaticCount + 4) - 2)),
         new("Statics.ApplyDescription", 6, w => w.Simulation.Statics.ApplyDescription(w.AnyStatic(), Describe(w))),
         new("Statics.GetDescription", 2, w => w.Simulation.Statics.GetDescription(w.AnyStatic())),
         new("Statics.SetShape", 4, w => w.Simulation.Statics.SetShape(w.AnyStatic(), w.AnyShape())),

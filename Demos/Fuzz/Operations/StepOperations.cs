@@ -1,6 +1,5 @@
 using System;
 using System.Threading;
-using BepuPhysics;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 
@@ -32,7 +31,7 @@ static class StepOperations
         new("Timestep that refuses pairs", 2, w => Step(w, plan => plan.RefusesPairs = true)),
         new("Timestep with another material", 4, w => Step(w, plan => plan.Material = new(
             w.Random.Number(0, 2), w.Random.Number(0, 5), new SpringSettings(w.Random.Magnitude(1, 100), w.Random.Number(0, 2))))),
-        new("Timestep with a margin", 2, w => Step(w, plan => plan.Margin = w.Random.Number(-1, 2))),
+        new("Timestep with a margin", 2, w => Step(w, plan => plan.Margin = w.Random.Number(0, 2))),
         .. Bad("material", (w, plan) => plan.Material = w.Random.Spoil(plan.Material, 60)),
         .. Bad("margin", (w, plan) => plan.Margin = w.Random.Bad()),
         .. Bad("contact count", (w, plan) => plan.ContactCount = w.Random.Below(9)),
