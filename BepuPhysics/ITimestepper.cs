@@ -31,8 +31,10 @@ public sealed class DefaultTimestepper : ITimestepper
     public void Timestep(Simulation simulation, float dt, IThreadDispatcher? threadDispatcher = null)
     {
         simulation.PredictBoundingBoxes(dt, threadDispatcher);       // bodies  -> bounds
+        var mayWrite = BeforeCollisionDetection is not null;
         BeforeCollisionDetection?.Invoke(dt, threadDispatcher);
-        simulation.CollisionDetection(dt, threadDispatcher);         // bounds  -> pairs -> contacts -> constraints
+        // bounds -> pairs -> contacts -> constraints
+        simulation.DetectCollisions(dt, threadDispatcher, bodiesMayBeWritten: mayWrite);
         CollisionsDetected?.Invoke(dt, threadDispatcher);
         simulation.Solve(dt, threadDispatcher);                      // constraints -> velocities -> poses
         ConstraintsSolved?.Invoke(dt, threadDispatcher);

@@ -15,6 +15,7 @@ public sealed partial class Simulation
     {
         CheckDt(dt);
         using var step = world.Step("Simulation.Timestep");
+        Quarantine.BeginStep();
         using (Profiler.Time(this))
             Timestepper.Timestep(this, dt, threadDispatcher);
     }
@@ -26,6 +27,7 @@ public sealed partial class Simulation
         using var stage = world.Stage(operation: "Simulation.PredictBoundingBoxes");
         Shapes.CheckAlive();
         using var timer = Profiler.Time(PoseIntegrator);
+        Quarantine.EnsureCapacity();
         PoseIntegrator.Prepare(dt);
         var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
         try
@@ -38,14 +40,27 @@ public sealed partial class Simulation
             BroadPhase.UpdateTrees();
             throw;
         }
+        finally
+        {
+            Quarantine.Collect();
+        }
     }
 
     /// <summary>Bounds to pairs, pairs to contacts, contacts to constraints.</summary>
-    public void CollisionDetection(float dt, IThreadDispatcher? threadDispatcher = null)
+    public void CollisionDetection(float dt, IThreadDispatcher? threadDispatcher = null) =>
+        DetectCollisions(dt, threadDispatcher, bodiesMayBeWritten: true);
+
+    /// <summary>Bounds to pairs, pairs to contacts, contacts to constraints.</summary>
+    /// <param name="dt">Time of the step, s.</param>
+    /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
+    /// <param name="bodiesMayBeWritten">Whether anybody can have written bodies since their bounds were predicted.</param>
+    internal void DetectCollisions(float dt, IThreadDispatcher? threadDispatcher, bool bodiesMayBeWritten)
     {
         CheckDt(dt);
         using var stage = world.Stage(allowsQueries: true, "Simulation.CollisionDetection");
         Shapes.CheckAlive();
+        if (bodiesMayBeWritten)
+            Quarantine.StopUnsound();
         using (Profiler.Time(BroadPhase))
             BroadPhase.UpdateTrees();
         using (Profiler.Time(NarrowPhase))
@@ -60,7 +75,18 @@ public sealed partial class Simulation
         CheckDt(dt);
         using var stage = world.Stage(operation: "Simulation.Solve");
         using var timer = Profiler.Time(Solver);
-        Solver.Step(dt, PoseIntegrator, threadDispatcher);
+        Quarantine.EnsureCapacity();
+        try
+        {
+            Solver.Step(dt, PoseIntegrator, threadDispatcher);
+            // Sweeps and bounces after the last integration: nothing else has looked at what they made of velocities.
+            if (Solver.EndsWithVelocities)
+                Quarantine.StopUnsound();
+        }
+        finally
+        {
+            Quarantine.Collect();
+        }
     }
 
     static void CheckDt(float dt)

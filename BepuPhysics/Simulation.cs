@@ -33,6 +33,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public BroadPhase BroadPhase { get; }
     /// <summary>Finds contacts.</summary>
     public NarrowPhase NarrowPhase { get; private set; } = null!;
+    /// <summary>Bodies that the last step had to stop.</summary>
+    public Quarantine Quarantine { get; }
     /// <summary>Seconds that each stage of the last step took.</summary>
     public SimulationProfiler Profiler { get; } = new();
     /// <summary>Memory of the simulation.</summary>
@@ -59,6 +61,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
             { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
         Bodies.Connect(Solver, BroadPhase, Shapes);
+        Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
     }
@@ -118,6 +121,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies.Clear();
         Statics.Clear();
         BroadPhase.RemoveAllLeaves();
+        Quarantine.BeginStep();
         if (ownsShapes)
             Shapes.ClearUnlocked();
     }
@@ -157,6 +161,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase?.Dispose();
         Solver.Dispose();
+        Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
         BroadPhase.ReturnMemory();
@@ -184,6 +189,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         NarrowPhase.Abandon();
         Solver.Abandon();
         Bodies.Abandon();
+        Quarantine.Abandon();
         Statics.Abandon();
         BroadPhase.Abandon();
         if (!ownsShapes)

@@ -24,6 +24,7 @@ public sealed unsafe partial class Bodies
         ref var motion = ref ActiveSet.MotionStates[index];
         motion.Pose = description.Pose;
         motion.Velocity = description.Velocity;
+        ActiveSet.SoundPoses[index] = description.Pose;
         shapes.ChangeUse(ActiveSet.Collidables[index].Shape, shape);
         WriteSettings(index, description);
         PlaceInBroadPhase(index, bounds);

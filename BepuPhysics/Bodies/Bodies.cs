@@ -107,6 +107,7 @@ public sealed unsafe partial class Bodies
         Locations[handle.Slot] = new() { SetIndex = 0, Index = index };
         set.IndexToHandle[index] = handle;
         set.MotionStates[index] = new() { Pose = description.Pose, Velocity = description.Velocity };
+        set.SoundPoses[index] = description.Pose;
         set.LocalInertias[index] = description.LocalInertia;
         set.Constraints[index] = constraints;
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };

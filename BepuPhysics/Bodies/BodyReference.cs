@@ -8,7 +8,8 @@ namespace BepuPhysics;
 
 /// <summary>A body, for reading and changing it. Cheap to make; its refs are valid until bodies are added or removed.</summary>
 /// <remarks>
-/// Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does. Everything but
+/// Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does. A step
+/// stops bodies whose pose or velocity cannot be simulated, and lists them in the simulation's quarantine. Everything but
 /// <see cref="Exists"/> throws an <see cref="ArgumentException"/> once the body was removed, and an
 /// <see cref="InvalidOperationException"/> for the default value.
 /// </remarks>

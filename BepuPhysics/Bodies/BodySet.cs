@@ -67,6 +67,8 @@ public struct BodySet
     internal Buffer<BodyVelocity> Displacements;
     /// <summary>Where each body was when the step began, and what rounding has taken of its velocity.</summary>
     internal Buffer<StepOrigin> Origins;
+    /// <summary>Where each body was when the last step began that found it sound.</summary>
+    internal Buffer<RigidPose> SoundPoses;
     /// <summary>Geometric stiffness of each body in the place of an inertia tensor; allocated only once a joint can add to it.</summary>
     internal Buffer<BodyInertia> Stiffness;
     /// <summary>Number of each body's joints that make hubs; allocated with the first of them.</summary>
@@ -97,6 +99,7 @@ public struct BodySet
         ResizeZeroed(ref WorldInertias, capacity, Count, pool);
         ResizeZeroed(ref Displacements, capacity, Count, pool);
         ResizeZeroed(ref Origins, capacity, Count, pool);
+        ResizeZeroed(ref SoundPoses, capacity, Count, pool);
         if (Stiffness.Allocated)
             ResizeZeroed(ref Stiffness, capacity, Count, pool);
         if (JointCounts.Allocated)
@@ -144,6 +147,15 @@ public struct BodySet
         buffer = larger;
     }
 
+    /// <summary>Makes what the integrator keeps of a body agree with a pose that was written in the middle of a step.</summary>
+    internal void Forget(int index)
+    {
+        Displacements[index] = new(MotionStates[index].Pose.Position - Origins[index].Position, default);
+        Origins[index].LostVelocity = default;
+        if (Stiffness.Allocated)
+            Stiffness[index] = default;
+    }
+
     // Moves the last body into the place of a removed one.
     internal void RemoveAt(int index)
     {
@@ -156,6 +168,7 @@ public struct BodySet
             WorldInertias[index] = WorldInertias[last];
             Displacements[index] = Displacements[last];
             Origins[index] = Origins[last];
+            SoundPoses[index] = SoundPoses[last];
             if (Stiffness.Allocated)
                 Stiffness[index] = Stiffness[last];
             if (JointCounts.Allocated)
@@ -210,6 +223,7 @@ public struct BodySet
         pool.Return(ref WorldInertias);
         pool.Return(ref Displacements);
         pool.Return(ref Origins);
+        pool.Return(ref SoundPoses);
         if (Stiffness.Allocated)
             pool.Return(ref Stiffness);
         if (JointCounts.Allocated)

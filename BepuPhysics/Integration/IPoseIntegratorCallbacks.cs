@@ -19,6 +19,9 @@ public enum AngularIntegrationMode
 public interface IPoseIntegratorCallbacks
 {
     /// <summary>Changes the velocities of a bundle of bodies. Called from worker threads.</summary>
+    /// <remarks>
+    /// A body whose velocity comes back as NaN, infinite or beyond 3e12 is stopped and listed in <see cref="Simulation.Quarantine"/>.
+    /// </remarks>
     /// <param name="bodyIndices">Indices of the bodies in the active set; -1 for unused lanes.</param>
     /// <param name="position">Positions of the bodies.</param>
     /// <param name="orientation">Orientations of the bodies.</param>
@@ -46,6 +49,6 @@ public interface IPoseIntegratorCallbacks
     /// <summary>Kept for callers; bodies without constraints are integrated in substeps like all others.</summary>
     bool AllowSubstepsForUnconstrainedBodies { get; }
 
-    /// <summary>How orientations and angular velocities are advanced. Read before each integration; a value that is none ends the step there.</summary>
+    /// <summary>How orientations and angular velocities are advanced. A value that is none ends the step before it begins.</summary>
     AngularIntegrationMode AngularIntegrationMode { get; }
 }

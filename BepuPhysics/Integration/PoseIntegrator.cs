@@ -30,6 +30,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     /// <summary>The callbacks themselves: <see cref="Simulation.Create"/> copied the struct that it was given. Not to be changed during a step.</summary>
     public TCallbacks Callbacks;
     Bodies bodies = null!;
+    Quarantine quarantine = null!;
     // Whether any body was ever so fast that rounding took of its velocity. Set by any worker, read in later stages.
     bool keepsLostVelocity;
 
@@ -38,6 +39,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     void IPoseIntegrator.Initialize(Simulation simulation)
     {
         bodies = simulation.Bodies;
+        quarantine = simulation.Quarantine;
         Callbacks.Initialize(simulation);
     }
 
@@ -45,7 +47,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         var mode = Callbacks.AngularIntegrationMode;
         if (mode is < AngularIntegrationMode.Nonconserving or > AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque)
-            throw new InvalidOperationException($"The pose integrator callbacks have an {nameof(AngularIntegrationMode)} of {mode}: there is no such mode.");
+        {
+            throw new InvalidOperationException(
+                $"The pose integrator callbacks have an {nameof(AngularIntegrationMode)} of {mode}: there is no such mode.");
+        }
         Callbacks.PrepareForIntegration(dt);
     }
 
@@ -64,13 +69,17 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             var indices = Indices(bundle, set.Count, out var exists);
             ReadBodies(motions, localInertias, indices, out var pose, out var velocity, out var localInertia);
             var kinematic = IsKinematic(localInertia);
+            if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
+                StopAndRead(unsound, indices, ref pose, ref velocity);
             if (stage == IntegrationStage.First)
                 Begin(origins, displacements, indices, pose.Position, velocity.Linear);
             else if (stage != IntegrationStage.Velocities)
                 MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
             if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
-                // The gyroscopic motion changed the angular velocity along with the orientation.
+                // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
+                if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+                    StopAndRead(unsound, indices, ref pose, ref velocity);
                 WriteVelocity(motions, indices, velocity);
                 if (keepsLostVelocity)
                     RememberVelocity(origins, indices, velocity.Linear);
@@ -91,6 +100,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 if (stage == IntegrationStage.First)
                     Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, indices);
             }
+            if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+            {
+                StopAndRead(unsound, indices, ref pose, ref velocity);
+                worldInertia = Symmetric3x3Wide.Select(unsound, default, worldInertia);
+            }
             WriteVelocity(motions, indices, velocity);
             WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
         }
@@ -101,7 +115,28 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         ref var set = ref bodies.ActiveSet;
         var indices = Indices(bundle, set.Count, out var exists);
         ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out pose, out velocity, out var localInertia);
+        if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), exists, out var unsound))
+            StopAndRead(unsound, indices, ref pose, ref velocity);
+        quarantine.Remember(bundle);
+        var before = velocity;
         IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, new Vector<float>(dt), ref velocity);
+        // What the callbacks make of a body is stopped where it is to stay; bounds only have to be bounds.
+        var sound = Soundness.OfVelocities(velocity);
+        velocity.Linear = Vector3Wide.Select(sound, velocity.Linear, before.Linear);
+        velocity.Angular = Vector3Wide.Select(sound, velocity.Angular, before.Angular);
+    }
+
+    // Bodies that are not sound are stopped in memory, whatever has been written of them there; the others are read as they were.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void StopAndRead(Vector<int> lanes, Vector<int> indices, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+    {
+        quarantine.Stop(lanes, indices);
+        ref var set = ref bodies.ActiveSet;
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out var stoppedPose, out _, out _);
+        pose.Position = Vector3Wide.Select(lanes, stoppedPose.Position, pose.Position);
+        pose.Orientation = QuaternionWide.Select(lanes, stoppedPose.Orientation, pose.Orientation);
+        velocity.Linear = Vector3Wide.Mask(~lanes, velocity.Linear);
+        velocity.Angular = Vector3Wide.Mask(~lanes, velocity.Angular);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -45,7 +45,8 @@ static class GeometricStiffness
     internal static void Apply(in Symmetric3x3Wide stiffness, Vector<float> dt, ref Symmetric3x3Wide inverseInertia, ref Vector3Wide angular)
     {
         var squared = Contract(stiffness, stiffness);
-        var loaded = Vector.GreaterThan(squared, Vector<float>.Zero);
+        // A load without bounds stiffens nothing: its bodies are about to be stopped.
+        var loaded = Vector.GreaterThan(squared, Vector<float>.Zero) & Vector.LessThan(squared, new Vector<float>(float.PositiveInfinity));
         if (Vector.EqualsAll(loaded, Vector<int>.Zero))
             return;
         var inertia = Symmetric3x3Wide.Invert(inverseInertia);

@@ -1,0 +1,15 @@
+namespace BepuPhysics;
+
+public sealed partial class Bodies
+{
+    /// <summary>Makes a body kinematic in the middle of a step, between two stages.</summary>
+    internal void MakeKinematic(BodyHandle handle) => ChangeInertia(handle, default);
+
+    /// <summary>The constraints of a body of the active set forget what they have pushed so far.</summary>
+    internal void ForgetImpulses(int index)
+    {
+        ref var constraints = ref ActiveSet.Constraints[index];
+        for (int i = 0; i < constraints.Count; ++i)
+            solver.ForgetImpulses(constraints[i].ConnectingConstraintHandle);
+    }
+}

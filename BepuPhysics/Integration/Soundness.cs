@@ -1,0 +1,72 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+/// <summary>Which bodies of a bundle have numbers that can be simulated: neither NaN nor infinite nor so great that squares would be.</summary>
+/// <remarks>
+/// All of a body is one sum of squares, and one comparison finds all three: no comparison holds of NaN, and an infinity or a great number
+/// is above the limit. The limit lies above what a game may describe (1e12 in each component), and far below overflow.
+/// </remarks>
+static class Soundness
+{
+    /// <summary>Square of the greatest distance from the origin, m, and of the greatest speeds, m/s and rad/s, that count as sound.</summary>
+    const float GreatestSquare = 1e25f;
+    /// <summary>How far the squared length of a quaternion that a game has written may be from 1 before it is no rotation any more.</summary>
+    const float GreatestDeviation = 0.5f;
+
+    /// <summary>Lanes with a sound pose and velocity.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<int> OfBodies(in RigidPoseWide pose, in BodyVelocityWide velocity)
+    {
+        var deviation = Vector.Abs(LengthSquared(pose.Orientation) - Vector<float>.One);
+        var motion = pose.Position.LengthSquared() + velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
+        return Vector.LessThanOrEqual(deviation, new Vector<float>(GreatestDeviation)) &
+            Vector.LessThanOrEqual(motion, new Vector<float>(GreatestSquare));
+    }
+
+    /// <summary>Lanes with a sound velocity.</summary>
+    // Enough for a body that was sound and has moved since: no position gets out of bounds in one substep, and an orientation that turned
+    // into NaN took the angular velocity along.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<int> OfVelocities(in BodyVelocityWide velocity) =>
+        Vector.LessThanOrEqual(velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared(), new Vector<float>(GreatestSquare));
+
+    /// <summary>Lanes with an inverse inertia of numbers.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<int> OfInertias(in BodyInertiaWide inertia)
+    {
+        var i = inertia.InverseInertiaTensor;
+        var sum = (i.XX + i.YX + i.YY) + (i.ZX + i.ZY + i.ZZ) + inertia.InverseMass;
+        return Vector.LessThan(Vector.Abs(sum), new Vector<float>(float.PositiveInfinity));
+    }
+
+    /// <summary>Whether any lane of a body that exists is not sound.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static bool IsNot(Vector<int> sound, Vector<int> exists, out Vector<int> unsound)
+    {
+        unsound = Vector.AndNot(exists, sound);
+        return unsound != Vector<int>.Zero;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> LengthSquared(in QuaternionWide q) => q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W;
+
+    /// <summary>Whether one pose is sound.</summary>
+    internal static bool IsSound(in RigidPose pose) => Exact.LengthSquared(pose.Position) <= GreatestSquare &&
+        MathF.Abs(Exact.Dot(pose.Orientation, pose.Orientation) - 1) <= GreatestDeviation;
+
+    /// <summary>Whether one velocity is sound.</summary>
+    internal static bool IsSound(in BodyVelocity velocity) =>
+        Exact.LengthSquared(velocity.Linear) + Exact.LengthSquared(velocity.Angular) <= GreatestSquare;
+
+    /// <summary>Whether one inertia consists of numbers.</summary>
+    internal static bool IsSound(in BodyInertia inertia)
+    {
+        ref readonly var i = ref inertia.InverseInertiaTensor;
+        return float.IsFinite(i.XX) && float.IsFinite(i.YX) && float.IsFinite(i.YY) && float.IsFinite(i.ZX) && float.IsFinite(i.ZY) &&
+            float.IsFinite(i.ZZ) && float.IsFinite(inertia.InverseMass);
+    }
+}
