@@ -24,10 +24,7 @@ static class CallbackChecks
     // Friction, recovery, frequency and damping, as they follow one another. An unlimited recovery is a common setting.
     static Vector128<float> MaterialLimits => Vector128.Create(float.MaxValue, float.PositiveInfinity, MaximumSpring, MaximumSpring);
 
-    /// <summary>
-    /// The margin of a pair after
-    /// <see cref="INarrowPhaseCallbacks.AllowContactGeneration(int, CollidableReference, CollidableReference, ref float)"/>.
-    /// </summary>
+    /// <summary>The margin of a pair after the callbacks have allowed contacts.</summary>
     /// <param name="margin">What the callback made of it.</param>
     /// <param name="own">What the motion of the pair makes of it.</param>
     /// <param name="a">First collidable.</param>
@@ -50,10 +47,7 @@ static class CallbackChecks
             $"it must be from 0 to {MaximumLength} m.");
     }
 
-    /// <summary>
-    /// What <see cref="INarrowPhaseCallbacks.ConfigureContactManifold{TManifold}(int, CollidablePair, ref TManifold, out PairMaterialProperties)"/>
-    /// made of a pair that has contacts.
-    /// </summary>
+    /// <summary>Contacts, of which there are some, and material of a pair after the callbacks have configured them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static void Contacts(in CollidablePair pair, in ConvexContactManifold manifold, in PairMaterialProperties material)
     {
@@ -79,8 +73,8 @@ static class CallbackChecks
             .ExtractMostSignificantBits() == 0xF;
     }
 
-    // The fields follow one another: a load for each contact, and one for the offset of B with the count behind it. Without their signs, floats
-    // are in the order of their bits, NaN above infinity; and a count as small as this one is below any limit.
+    // The fields follow one another: a load for each contact, and one for the offset of B with the count behind it. Without their signs,
+    // floats are in the order of their bits, NaN above infinity; and a count as small as this one is below any limit.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool IsBearable(in ConvexContactManifold manifold)
     {

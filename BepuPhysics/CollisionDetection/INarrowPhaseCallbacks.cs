@@ -8,17 +8,18 @@ namespace BepuPhysics.CollisionDetection;
 /// are called from worker threads, in no particular order; do not change the simulation from inside them.
 /// Implement <see cref="ISurfaceCallbacks{TSelf}"/> instead for surfaces that bounce.
 /// <para>
-/// What they say is checked. A value that cannot be simulated ends the step with an <see cref="System.InvalidOperationException"/> that names
-/// the pair and the value, before anything is stored of it; no body has moved then, and the next step may follow. So it is with an exception
-/// that a callback throws.
+/// What they say is checked. A value that cannot be simulated ends the step with an <see cref="System.InvalidOperationException"/> that
+/// names the pair and the value, before anything is stored of it; no body has moved then, and the next step may follow. So it is with an
+/// exception that a callback throws.
 /// </para>
 /// </remarks>
 public interface INarrowPhaseCallbacks
 {
     /// <summary>Chooses the material of a pair whose contacts were found, and may change them.</summary>
     /// <remarks>
-    /// Friction must be finite and not negative; recovery not negative; frequency and damping of the spring from 0 to 1e13. Contacts that were
-    /// changed must be no more than 4, with a normal of unit length, depths and offsets up to 1e13 m. Not asked of pairs without contacts.
+    /// Friction must be finite and not negative; recovery not negative; frequency and damping of the spring from 0 to 1e13. Contacts that
+    /// were changed must be no more than 4, with a normal of unit length, depths and offsets up to 1e13 m. Of pairs that have none, or are not
+    /// to have any, nothing is asked.
     /// </remarks>
     /// <returns>Whether the contacts push the bodies apart.</returns>
     bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)

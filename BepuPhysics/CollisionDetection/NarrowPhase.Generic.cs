@@ -3,16 +3,14 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
-using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>The narrow phase, compiled for the callbacks of a game.</summary>
 /// <remarks>What <see cref="Simulation.NarrowPhase"/> is: cast it to this to reach the callbacks.</remarks>
-public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : struct, INarrowPhaseCallbacks
+public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where TCallbacks : struct, INarrowPhaseCallbacks
 {
     /// <summary>The callbacks themselves: <see cref="Simulation.Create"/> copied the struct that it was given. Not to be changed during a step.</summary>
     public TCallbacks Callbacks;
@@ -32,6 +30,9 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         public QuickList<PendingPair> Pending;
         public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
+        /// <summary>Pairs until the worker tells how many it has found.</summary>
+        public int PairsLeft;
+        public int SkippedPairCount;
     }
 
     // A pair whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
@@ -77,83 +78,9 @@ public sealed unsafe class NarrowPhase<TCallbacks> : NarrowPhase where TCallback
         bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) => true;
     }
 
-    // Receives overlapping pairs of the broad phase.
-    readonly struct Overlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase) : IBroadPhaseOverlapHandler
-    {
-        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic) => narrowPhase.Enqueue(
-            workerIndex, broadPhase.ActiveLeaves[leafA], bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB]);
-    }
-
     internal override void Initialize() => Callbacks.Initialize(Simulation);
 
     internal override void DisposeCallbacks() => Callbacks.Dispose();
-
-    internal override void FindContacts(float dt, IThreadDispatcher? dispatcher)
-    {
-        Pairs.BeginStep();
-        var count = dispatcher?.ThreadCount ?? 1;
-        if (workers.Length < count)
-            Array.Resize(ref workers, count);
-        for (int i = 0; i < count; ++i)
-        {
-            ref var worker = ref workers[i];
-            worker.Queue = default;
-            worker.Pool = dispatcher is null || count == 1 ? Pool : dispatcher.WorkerPools[i];
-            if (worker.Pool != Pool)
-                worker.Pool.AddUser(this);
-            worker.Batcher = new CollisionBatcher<Completion>(worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, i),
-                Pairs.Histories.Memory);
-            worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
-            worker.Contacts = default;
-            worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
-            worker.Bouncing = default;
-        }
-        try
-        {
-            var handler = new Overlaps(this, Simulation.BroadPhase);
-            Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
-            var flush = new FlushWork { NarrowPhase = this, WorkerCount = count };
-            StagedWork.Run(ref flush, dispatcher);
-        }
-        catch
-        {
-            // Callbacks are the game's and may throw: the step is lost, the memory is not.
-            ReleaseWorkers();
-            throw;
-        }
-    }
-
-    // Tests what is left in the batchers of all workers.
-    struct FlushWork : IStagedWork
-    {
-        public NarrowPhase<TCallbacks> NarrowPhase;
-        public int WorkerCount;
-
-        public readonly int StageCount => 1;
-        public readonly int GetBlockCount(int stage) => WorkerCount;
-        // A batcher may be emptied by another worker than filled it: one batcher is one block, so no two touch it at once.
-        public readonly void Execute(int stage, int block, int workerIndex)
-        {
-            NarrowPhase.World.MarkWorker();
-            while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
-                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
-            NarrowPhase.workers[block].Batcher.Flush();
-            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
-        }
-    }
-
-    void Enqueue(int workerIndex, CollidableReference a, CollidableReference b)
-    {
-        // The constraint of a pair has its bodies in one order for ever.
-        if (ComesSecond(a, b))
-            (a, b) = (b, a);
-        if (a.Mobility != CollidableMobility.Dynamic)
-            return;
-        ref var queue = ref workers[workerIndex].Queue;
-        queue.Add(Pairs, Simulation.Bodies, new(a, b));
-        if (queue.TryTake(out var pair, out var guess))
-            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
-    }
 
     void TestPair(int workerIndex, CollidablePair pair, int cacheIndex)
     {

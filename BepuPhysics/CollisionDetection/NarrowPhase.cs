@@ -58,6 +58,12 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected static bool ComesSecond(CollidableReference a, CollidableReference b) =>
         a.Mobility > b.Mobility || (a.Mobility == b.Mobility && a.Slot > b.Slot);
 
+    /// <summary>
+    /// Number of pairs of bodies with overlapping bounds that the last step left out, because very many bodies were in one place; 0 in any
+    /// scene that makes sense. Bodies in such a crowd meet only some of the others there.
+    /// </summary>
+    public long SkippedPairCount { get; private protected set; }
+
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
     internal abstract void Flush();
@@ -103,6 +109,18 @@ public abstract partial class NarrowPhase : IBufferPoolUser
                 RemoveConstraint(ref cached);
             Pairs.RemoveAt(i, Pool);
         }
+    }
+
+    /// <summary>Removes all contacts, and what is remembered of all pairs.</summary>
+    private protected void ForgetContacts()
+    {
+        for (int i = Pairs.Pairs.Count - 1; i >= 0; --i)
+        {
+            if (Pairs.Pairs.Values[i].HasConstraint)
+                RemoveConstraint(ref Pairs.Pairs.Values[i]);
+        }
+        Pairs.Clear();
+        Restitution.BeginStep();
     }
 
     /// <summary>Removes the constraint of a pair, which has one.</summary>

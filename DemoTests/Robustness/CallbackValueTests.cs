@@ -133,7 +133,7 @@ public class CallbackValueTests
         ref var velocity = ref world.Simulation.Bodies[world.Bodies[7]].Velocity;
         velocity.Linear = new Vector3(1e12f, 0, 0);
         for (int i = 0; i < 3; ++i)
-            world.Simulation.Timestep(30);
+            world.Simulation.Timestep(1);
         world.Simulation.Validate();
     }
 

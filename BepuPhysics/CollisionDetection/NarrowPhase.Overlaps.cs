@@ -1,0 +1,133 @@
+using System;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.CollisionDetection;
+
+// From overlapping bounds to pairs that are tested.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    Crowd crowd;
+
+    // Receives overlapping pairs of the broad phase.
+    readonly struct Overlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase) : IBroadPhaseOverlapHandler
+    {
+        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic) => narrowPhase.Enqueue(
+            workerIndex, broadPhase.ActiveLeaves[leafA],
+            bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB], leafA, bIsStatic ? -1 : leafB);
+    }
+
+    internal override void FindContacts(float dt, IThreadDispatcher? dispatcher)
+    {
+        var count = dispatcher?.ThreadCount ?? 1;
+        if (workers.Length < count)
+            Array.Resize(ref workers, count);
+        try
+        {
+            if (crowd.CountsFirst)
+                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Pool, dispatcher);
+            if (!TryTestPairs(count, dt, dispatcher))
+            {
+                ReleaseWorkers();
+                ForgetContacts();
+                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Pool, dispatcher);
+                TryTestPairs(count, dt, dispatcher);
+            }
+            var skipped = 0L;
+            for (int i = 0; i < count; ++i)
+                skipped += workers[i].SkippedPairCount;
+            SkippedPairCount = skipped;
+        }
+        catch
+        {
+            // Callbacks are the game's and may throw: the step is lost, the memory is not.
+            ReleaseWorkers();
+            throw;
+        }
+        finally
+        {
+            crowd.End(Pool);
+        }
+    }
+
+    /// <summary>Tests the overlapping pairs, unless they are too many.</summary>
+    bool TryTestPairs(int workerCount, float dt, IThreadDispatcher? dispatcher)
+    {
+        Pairs.BeginStep();
+        crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
+        for (int i = 0; i < workerCount; ++i)
+            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher);
+        var handler = new Overlaps(this, Simulation.BroadPhase);
+        Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
+        for (int i = 0; i < workerCount; ++i)
+            crowd.AddRest(workers[i].PairsLeft);
+        if (crowd.HasTooMany)
+            return false;
+        var flush = new FlushWork { NarrowPhase = this, WorkerCount = workerCount };
+        StagedWork.Run(ref flush, dispatcher);
+        return true;
+    }
+
+    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher)
+    {
+        worker.Queue = default;
+        worker.Pool = dispatcher is null ? Pool : dispatcher.WorkerPools[index];
+        if (worker.Pool != Pool)
+            worker.Pool.AddUser(this);
+        worker.Batcher = new CollisionBatcher<Completion>(
+            worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
+        worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
+        worker.Contacts = default;
+        worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
+        worker.Bouncing = default;
+        worker.PairsLeft = Crowd.PairsPerReport;
+        worker.SkippedPairCount = 0;
+    }
+
+    // Tests what is left in the batchers of all workers.
+    struct FlushWork : IStagedWork
+    {
+        public NarrowPhase<TCallbacks> NarrowPhase;
+        public int WorkerCount;
+
+        public readonly int StageCount => 1;
+        public readonly int GetBlockCount(int stage) => WorkerCount;
+        // A batcher may be emptied by another worker than filled it: one batcher is one block, so no two touch it at once.
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            NarrowPhase.World.MarkWorker();
+            while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
+                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
+            NarrowPhase.workers[block].Batcher.Flush();
+            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
+        }
+    }
+
+    // The second leaf is negative for a static.
+    void Enqueue(int workerIndex, CollidableReference a, CollidableReference b, int leafA, int leafB)
+    {
+        // The constraint of a pair has its bodies in one order for ever.
+        if (ComesSecond(a, b))
+            (a, b) = (b, a);
+        if (a.Mobility != CollidableMobility.Dynamic)
+            return;
+        ref var worker = ref workers[workerIndex];
+        if (leafB >= 0 && !Admits(ref worker, leafA, leafB))
+            return;
+        worker.Queue.Add(Pairs, Simulation.Bodies, new(a, b));
+        if (worker.Queue.TryTake(out var pair, out var guess))
+            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
+    }
+
+    bool Admits(ref Worker worker, int leafA, int leafB)
+    {
+        if (!crowd.LeavesOut)
+            return --worker.PairsLeft >= 0 || crowd.Report(ref worker.PairsLeft);
+        if (crowd.Keeps(leafA, leafB))
+            return true;
+        ++worker.SkippedPairCount;
+        return false;
+    }
+}
