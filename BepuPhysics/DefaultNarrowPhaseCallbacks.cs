@@ -1,3 +1,4 @@
+using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
@@ -7,6 +8,9 @@ namespace BepuPhysics;
 /// <summary>Ready-made narrow phase callbacks: everything collides, with one material. The default material is rigid, with a friction of 0.5.</summary>
 public struct DefaultNarrowPhaseCallbacks : ISurfaceCallbacks<DefaultNarrowPhaseCallbacks>
 {
+    // Set by every constructor: the default of a struct has no friction and never pushes anything out, which nobody means.
+    readonly bool isConstructed;
+
     /// <summary>Material of all pairs.</summary>
     public PairMaterialProperties Material;
 
@@ -17,10 +21,23 @@ public struct DefaultNarrowPhaseCallbacks : ISurfaceCallbacks<DefaultNarrowPhase
     public DefaultNarrowPhaseCallbacks() : this(new PairMaterialProperties(0.5f, 2, SpringSettings.Rigid)) { }
 
     /// <summary>Everything collides, with one material.</summary>
-    public DefaultNarrowPhaseCallbacks(PairMaterialProperties material) => Material = material;
+    public DefaultNarrowPhaseCallbacks(PairMaterialProperties material)
+    {
+        Material = material;
+        isConstructed = true;
+    }
 
     /// <inheritdoc/>
-    public readonly void Initialize(Simulation simulation) { }
+    /// <exception cref="InvalidOperationException">These are the default of the struct, with nothing set.</exception>
+    public readonly void Initialize(Simulation simulation)
+    {
+        if (!isConstructed && Material.FrictionCoefficient == 0 && Material.MaximumRecoveryVelocity == 0)
+        {
+            throw new InvalidOperationException(
+                $"The narrow phase callbacks are default({nameof(DefaultNarrowPhaseCallbacks)}), without friction and recovery: " +
+                $"make them with new {nameof(DefaultNarrowPhaseCallbacks)}().");
+        }
+    }
 
     /// <inheritdoc/>
     public readonly bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) => true;

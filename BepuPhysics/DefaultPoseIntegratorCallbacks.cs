@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -7,6 +8,8 @@ namespace BepuPhysics;
 /// <summary>Ready-made integrator callbacks: one gravity, no damping, free rotation as a rigid body rotates.</summary>
 public struct DefaultPoseIntegratorCallbacks : IPoseIntegratorCallbacks
 {
+    // Set by every constructor: the default of a struct has no gravity, which is asked for by saying so.
+    readonly bool isConstructed;
     Vector3Wide velocityChange;
 
     /// <summary>Acceleration of all dynamic bodies, m/s2.</summary>
@@ -16,7 +19,11 @@ public struct DefaultPoseIntegratorCallbacks : IPoseIntegratorCallbacks
     public DefaultPoseIntegratorCallbacks() : this(new Vector3(0, -9.81f, 0)) { }
 
     /// <summary>One gravity.</summary>
-    public DefaultPoseIntegratorCallbacks(Vector3 gravity) => Gravity = gravity;
+    public DefaultPoseIntegratorCallbacks(Vector3 gravity)
+    {
+        Gravity = gravity;
+        isConstructed = true;
+    }
 
     /// <inheritdoc/>
     public readonly AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
@@ -26,7 +33,16 @@ public struct DefaultPoseIntegratorCallbacks : IPoseIntegratorCallbacks
     public readonly bool IntegrateVelocityForKinematics => false;
 
     /// <inheritdoc/>
-    public readonly void Initialize(Simulation simulation) { }
+    /// <exception cref="InvalidOperationException">These are the default of the struct, with nothing set.</exception>
+    public readonly void Initialize(Simulation simulation)
+    {
+        if (!isConstructed && Gravity == Vector3.Zero)
+        {
+            throw new InvalidOperationException(
+                $"The pose integrator callbacks are default({nameof(DefaultPoseIntegratorCallbacks)}), without gravity: make them with " +
+                $"new {nameof(DefaultPoseIntegratorCallbacks)}(), or with new {nameof(DefaultPoseIntegratorCallbacks)}(Vector3.Zero).");
+        }
+    }
 
     /// <inheritdoc/>
     public void PrepareForIntegration(float dt) => velocityChange = Lanes.Broadcast<Vector3, Vector3Wide>(Gravity * dt);

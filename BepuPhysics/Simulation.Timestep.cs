@@ -93,8 +93,9 @@ public sealed partial class Simulation
     {
         if (!(dt >= Limits.MinimumTimestep && dt <= Limits.MaximumTimestep))
         {
-            throw new ArgumentOutOfRangeException(
-                nameof(dt), dt, $"The time of a step must be from {Limits.MinimumTimestep} to {Limits.MaximumTimestep} s.");
+            throw new ArgumentOutOfRangeException(nameof(dt), dt,
+                $"The time of a step must be from {Limits.MinimumTimestep} to {Limits.MaximumTimestep} s." +
+                (dt > Limits.MaximumTimestep ? " Is this in milliseconds?" : ""));
         }
     }
 }

@@ -75,6 +75,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     /// <param name="initialAllocationSizes">How much room to make at first; null for a few thousand bodies.</param>
     /// <param name="shapes">Shapes to share with other simulations; null for shapes of its own. Shared shapes are not disposed with the simulation.</param>
     /// <exception cref="ArgumentException">A value is out of range.</exception>
+    /// <exception cref="InvalidOperationException">Ready-made callbacks are the default of their struct, with nothing set.</exception>
     public static Simulation Create<TNarrowPhaseCallbacks, TPoseIntegratorCallbacks>(
         BufferPool bufferPool, TNarrowPhaseCallbacks narrowPhaseCallbacks, TPoseIntegratorCallbacks poseIntegratorCallbacks, SolveDescription solveDescription,
         ITimestepper? timestepper = null, SimulationAllocationSizes? initialAllocationSizes = null, Shapes? shapes = null)

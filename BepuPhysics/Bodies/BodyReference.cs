@@ -28,7 +28,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly bool Awake => MemoryLocation.SetIndex == 0;
     /// <summary>Pose and velocity.</summary>
     public readonly ref MotionState MotionState => ref Find(out var index).MotionStates[index];
-    /// <summary>Where the body is.</summary>
+    /// <summary>Where the body is. Writing it moves the body without a velocity: contacts take a kinematic that is moved so for one at rest.</summary>
     public readonly ref RigidPose Pose => ref MotionState.Pose;
     /// <summary>How the body moves.</summary>
     public readonly ref BodyVelocity Velocity => ref MotionState.Velocity;
@@ -101,7 +101,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly void GetVelocityForOffset(Vector3 offset, out Vector3 velocity) =>
         velocity = Velocity.Linear + Exact.Cross(Velocity.Angular, offset);
 
-    /// <summary>Applies an impulse at a point.</summary>
+    /// <summary>Applies an impulse at a point. A kinematic body has no mass to be pushed by: nothing happens to it.</summary>
     /// <param name="impulse">N s, world axes.</param>
     /// <param name="impulseOffset">From the centre of mass, world axes.</param>
     /// <exception cref="ArgumentException">A value, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
@@ -116,7 +116,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         Velocity = velocity;
     }
 
-    /// <summary>Applies an impulse at the centre of mass, N s.</summary>
+    /// <summary>Applies an impulse at the centre of mass, N s; to a kinematic body none.</summary>
     /// <exception cref="ArgumentException">The impulse, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
     public readonly void ApplyLinearImpulse(Vector3 impulse)
     {
@@ -128,7 +128,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         Velocity = velocity;
     }
 
-    /// <summary>Applies an angular impulse, N m s.</summary>
+    /// <summary>Applies an angular impulse, N m s; to a kinematic body none.</summary>
     /// <exception cref="ArgumentException">The impulse, or the velocity that results, is beyond <see cref="Limits"/>; nothing was changed.</exception>
     public readonly void ApplyAngularImpulse(Vector3 angularImpulse)
     {

@@ -37,8 +37,8 @@ public static class Limits
     public const float MaximumImpulse = 1e15f;
     /// <summary>Shortest step, s.</summary>
     public const float MinimumTimestep = 1e-7f;
-    /// <summary>Longest step, s.</summary>
-    public const float MaximumTimestep = 1e5f;
+    /// <summary>Longest step, s: far beyond what any step can simulate. Those who ask for more mean milliseconds.</summary>
+    public const float MaximumTimestep = 1;
     /// <summary>Greatest frequency of a spring, Hz.</summary>
     public const float MaximumSpringFrequency = 1e9f;
     /// <summary>Greatest damping ratio of a spring.</summary>
