@@ -50,7 +50,7 @@ public abstract class TypeProcessor
     {
         Check.That(encodedBodies.Length == BodiesPerConstraint);
         if (batch.ConstraintCount == batch.IndexToHandle.Length)
-            Resize(ref batch, Math.Max(minimumCapacity, batch.ConstraintCount * 2), pool);
+            Resize(ref batch, Math.Max(Math.Max(1, minimumCapacity), batch.ConstraintCount * 2), pool);
         var index = batch.ConstraintCount++;
         batch.IndexToHandle[index] = handle;
         if (index % Vector<float>.Count == 0)

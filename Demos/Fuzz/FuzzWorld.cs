@@ -200,5 +200,15 @@ sealed partial class FuzzWorld : IDisposable
         }
     }
 
-    public void Dispose() => Pool.Clear();
+    public void Dispose()
+    {
+        try
+        {
+            Pool.Clear();
+        }
+        catch (InvalidOperationException)
+        {
+            // After a failure something may still hold the pool; the failure is what counts.
+        }
+    }
 }

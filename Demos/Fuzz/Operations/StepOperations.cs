@@ -35,7 +35,7 @@ static class StepOperations
         .. Bad("material", (w, plan) => plan.Material = w.Random.Spoil(plan.Material, 60)),
         .. Bad("margin", (w, plan) => plan.Margin = w.Random.Bad()),
         .. Bad("contact count", (w, plan) => plan.ContactCount = w.Random.Below(9)),
-        .. Bad("velocity", (w, plan) => plan.Velocity = w.Random.Bad()),
+        .. Bad("velocity", (w, plan) => plan.Velocity = w.Has(FuzzScope.DirectWrites) ? w.Random.Bad() : w.Random.Number(-1000, 1000)),
         new("Timestep, a callback throws", 6, w =>
         {
             if (w.Has(FuzzScope.ThrowingCallbacks))
