@@ -59,25 +59,20 @@ sealed class ConvexPairTally
     /// <param name="pair">Pose and reference.</param>
     /// <param name="manifold">Contacts of the library.</param>
     /// <param name="margin">Speculative margin of the pair, m.</param>
-    /// <param name="usesAxes">
-    /// Whether the test of this pair looks at the normals of faces and edges only, and so sees less than the distance of corners that are
-    /// apart.
-    /// </param>
-    public void Add(in ConvexCase pair, in ConvexContactManifold manifold, double margin, bool usesAxes)
+    public void Add(in ConvexCase pair, in ConvexContactManifold manifold, double margin)
     {
         ++PoseCount;
         var (reference, pose, offset, found) = pair;
         var size = reference.Size;
         var depth = found.Depth;
         var tolerance = Tolerance * size + Rounding * reference.LargerSize;
-        var isExact = !usesAxes || depth > 0 || found.AxisDepth - depth < 1e-12 * size;
         if (manifold.Count == 0)
         {
             MissedCount += depth > tolerance ? 1 : 0;
-            UnseenCount += depth <= tolerance && depth > -margin + tolerance && isExact ? 1 : 0;
+            UnseenCount += depth <= tolerance && depth > -margin + tolerance ? 1 : 0;
             return;
         }
-        GhostCount += depth < -margin - tolerance && isExact ? 1 : 0;
+        GhostCount += depth < -margin - tolerance ? 1 : 0;
         var toA = ConvexRotation.From(pose.OrientationA);
         var normal = toA.RotateBack(manifold.Normal);
         if (!(Math.Abs(normal.Length - 1) < 1e-5))
@@ -115,15 +110,14 @@ sealed class ConvexPairTally
                     + $"normal {contact.Normal}";
             }
         }
-        // Apart at corners an axis shows less than the distance, and contacts must agree with what the axis shows.
-        var error = isExact ? Math.Abs(deepest - depth) / size : Math.Max(0, deepest - along) / size;
+        var error = Math.Abs(deepest - depth) / size;
         depthErrors.Add((float)error);
-        excesses.Add((float)(isExact ? Math.Max(0, excess) : 0));
-        angles.Add((float)(isExact ? Angle(reference, found, normal, excess) : 0));
-        WrongMinimumCount += isExact && excess > WrongMinimum ? 1 : 0;
-        if (Math.Max(error, isExact ? excess : 0) > worst)
+        excesses.Add((float)Math.Max(0, excess));
+        angles.Add((float)Angle(reference, found, normal, excess));
+        WrongMinimumCount += excess > WrongMinimum ? 1 : 0;
+        if (Math.Max(error, excess) > worst)
         {
-            worst = Math.Max(error, isExact ? excess : 0);
+            worst = Math.Max(error, excess);
             WorstPose = $"{Describe(reference, pose, found)}, found {deepest:g9} {ConvexGenerator.ToVector(normal)}, along it {along:g9}";
         }
     }

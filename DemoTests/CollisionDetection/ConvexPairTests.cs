@@ -94,8 +94,6 @@ public class ConvexPairTests(ITestOutputHelper output)
 
     static (ConvexPairTally Tally, ConvexPairEffort Effort) Measure(ConvexKind a, ConvexKind b, ConvexRegime regime)
     {
-        // Boxes have fifteen axes and no search: apart at a corner they show the best of those.
-        var usesAxes = a == ConvexKind.Box && b == ConvexKind.Box;
         var tally = new ConvexPairTally();
         var effort = new ConvexPairEffort();
         for (int block = 0; block < BlocksPerRegime; ++block)
@@ -124,7 +122,7 @@ public class ConvexPairTests(ITestOutputHelper output)
             }).ToArray();
             var manifolds = library.Run(pairs);
             for (int i = 0; i < BlockSize; ++i)
-                tally.Add(cases[i], manifolds[i], Margin(cases[i]), usesAxes);
+                tally.Add(cases[i], manifolds[i], Margin(cases[i]));
             if (!ConvexPairLibrary.Searches(a, b))
                 continue;
             var searched = DepthSearchShape.Find([.. pairs.Select(pair => pair.shapeA.Search)], [.. pairs.Select(pair => pair.shapeB.Search)],

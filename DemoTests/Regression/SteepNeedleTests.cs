@@ -46,7 +46,7 @@ public class SteepNeedleTests
         var margin = (float)(ConvexPoses.Margin * pair.Reference.Size);
         var manifold = library.Run([(library.Create(a), library.Create(b), pose, margin)])[0];
         var tally = new ConvexPairTally();
-        tally.Add(pair, manifold, margin, usesAxes: false);
+        tally.Add(pair, manifold, margin);
         Assert.NotEqual(0, manifold.Count);
         Assert.True(tally.OutsideCount == 0, tally.WorstOutsidePose);
     }
