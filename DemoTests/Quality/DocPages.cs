@@ -16,6 +16,14 @@ static partial class DocPages
     public static IEnumerable<string> CodeBlocks(string page) =>
         CodeBlock().Matches(RepositoryFiles.Read(page)).Select(match => match.Groups["code"].Value);
 
+    /// <summary>What the programs of a page print, by its own account.</summary>
+    public static IEnumerable<string> PrintedLines(string page) => PrintedBlock().Matches(RepositoryFiles.Read(page))
+        .SelectMany(match => match.Groups["text"].Value.Split('\n', StringSplitOptions.RemoveEmptyEntries)).Select(line => line.TrimEnd());
+
+    /// <summary>Commands of a page, for a shell.</summary>
+    public static IEnumerable<string> Commands(string page) => CommandBlock().Matches(RepositoryFiles.Read(page))
+        .SelectMany(match => match.Groups["commands"].Value.Split('\n', StringSplitOptions.RemoveEmptyEntries)).Select(line => line.TrimEnd());
+
     /// <summary>Targets of the links of a page that lead to files.</summary>
     public static IEnumerable<string> FileLinks(string page) => Link().Matches(RepositoryFiles.Read(page))
         .Select(match => match.Groups["target"].Value.Split('#')[0])
@@ -28,6 +36,12 @@ static partial class DocPages
 
     [GeneratedRegex(@"^```csharp\r?\n(?<code>.*?)^```", RegexOptions.Multiline | RegexOptions.Singleline)]
     private static partial Regex CodeBlock();
+
+    [GeneratedRegex(@"^```text\r?\n(?<text>.*?)^```", RegexOptions.Multiline | RegexOptions.Singleline)]
+    private static partial Regex PrintedBlock();
+
+    [GeneratedRegex(@"^```sh\r?\n(?<commands>.*?)^```", RegexOptions.Multiline | RegexOptions.Singleline)]
+    private static partial Regex CommandBlock();
 
     [GeneratedRegex(@"\]\((?<target>[^)\s]+)\)")]
     private static partial Regex Link();

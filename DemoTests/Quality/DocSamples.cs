@@ -31,7 +31,7 @@ static class DocSamples
         Console.WriteLine($"The box rests at a height of {simulation.Bodies[box].Pose.Position.Y:0.00} m.");
     }
 
-    // Docs/Guides/GettingStarted.md
+    // What Docs/Guides/GettingStarted.md teaches, in parts that tests ask for other values. PackageTests runs the page itself.
     public static DefaultNarrowPhaseCallbacks Bouncing()
     {
         var material = new PairMaterialProperties(0.1f, 2, SpringSettings.Rigid);
@@ -113,7 +113,7 @@ static class DocSamples
     }
 }
 
-// Docs/Guides/GettingStarted.md
+// As in Docs/Guides/GettingStarted.md, but for what names the ice.
 struct IceCallbacks : INarrowPhaseCallbacks
 {
     public StaticHandle Ice;

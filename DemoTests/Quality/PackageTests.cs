@@ -1,7 +1,11 @@
+using System;
+using System.Buffers.Binary;
 using System.Collections.Generic;
 using System.IO;
 using System.IO.Compression;
 using System.Linq;
+using System.Text;
+using System.Text.Json;
 using System.Text.RegularExpressions;
 using System.Xml.Linq;
 using Xunit;
@@ -19,7 +23,7 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         using var archive = ZipFile.OpenRead(packages.File(id));
         var assembly = id["Tootbird.".Length..];
         var entries = archive.Entries.ToDictionary(entry => entry.FullName, entry => entry.Length);
-        foreach (var name in new[] { $"lib/net10.0/{assembly}.dll", $"lib/net10.0/{assembly}.xml", "README.md", "LICENSE" })
+        foreach (var name in new[] { $"lib/net10.0/{assembly}.dll", $"lib/net10.0/{assembly}.xml", "README.md", "LICENSE", "icon.png" })
             Assert.True(entries.GetValueOrDefault(name) > 0, $"{id} has no {name}.");
 
         using var manifest = archive.GetEntry($"{id}.nuspec")!.Open();
@@ -29,6 +33,9 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         Assert.Equal("expression", Find("license")?.Attribute("type")?.Value);
         Assert.Equal("README.md", Find("readme")?.Value);
         Assert.False(string.IsNullOrWhiteSpace(Find("description")?.Value));
+        Assert.Equal("icon.png", Find("icon")?.Value);
+        // The notes are about this version.
+        Assert.Contains($"## {packages.Version.Split('-')[0]}", Find("releaseNotes")?.Value, StringComparison.Ordinal);
         // Nothing outside the framework but the sister library.
         var dependencies = metadata.Descendants().Where(element => element.Name.LocalName == "dependency")
             .Select(element => element.Attribute("id")!.Value);
@@ -42,33 +49,95 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         Assert.Contains(archive.Entries, entry => entry.FullName == $"lib/net10.0/{id["Tootbird.".Length..]}.pdb");
     }
 
-    [Fact]
-    public void Hello_world_of_the_readme_runs_from_the_packages()
+    // NuGet shows an icon of up to 128 x 128.
+    [Theory, MemberData(nameof(Ids))]
+    public void The_icon_is_a_small_picture(string id)
     {
-        var folder = packages.CreateFolder("hello");
-        File.WriteAllText(Path.Combine(folder, "Program.cs"), DocPages.CodeBlocks("README.md").First());
-        File.WriteAllText(Path.Combine(folder, "hello.csproj"), $"""
+        using var archive = ZipFile.OpenRead(packages.File(id));
+        using var icon = archive.GetEntry("icon.png")!.Open();
+        var head = new byte[24];
+        icon.ReadExactly(head);
+        Assert.Equal("\u0089PNG\r\n\u001a\n", Encoding.Latin1.GetString(head, 0, 8));
+        Assert.Equal((128, 128), (BinaryPrimitives.ReadInt32BigEndian(head.AsSpan(16)), BinaryPrimitives.ReadInt32BigEndian(head.AsSpan(20))));
+        Assert.InRange(archive.GetEntry("icon.png")!.Length, 100, 20_000);
+    }
+
+    [Theory, MemberData(nameof(Ids))]
+    public void One_property_says_where_the_project_lives(string id)
+    {
+        const string home = "https://example.org/physics";
+        var values = Packages.Dotnet(
+            $"msbuild {id["Tootbird.".Length..]} -p:ProjectHome={home} -getProperty:PackageProjectUrl -getProperty:RepositoryUrl " +
+            "-getProperty:RepositoryType -getProperty:EnableSourceLink -getProperty:EmbedUntrackedSources", RepositoryFiles.Root);
+        using var json = JsonDocument.Parse(values);
+        string? Property(string name) => json.RootElement.GetProperty("Properties").GetProperty(name).GetString();
+        Assert.Equal((home, home, "git"), (Property("PackageProjectUrl"), Property("RepositoryUrl"), Property("RepositoryType")));
+        Assert.NotEqual("false", Property("EnableSourceLink"));
+        Assert.Equal("true", Property("EmbedUntrackedSources"));
+    }
+
+    // Word by word: a new project, the package, the program.
+    [Fact]
+    public void Commands_of_the_readme_make_a_program_that_runs()
+    {
+        var folder = packages.CreateFolder("readme");
+        var game = Path.GetFullPath(Path.Combine(folder, "../hello"));
+        WriteSources(folder);
+        Directory.CreateDirectory(game);
+        WriteSources(game);
+        var commands = DocPages.Commands("README.md").ToArray();
+        Assert.StartsWith("dotnet pack ", commands[0], StringComparison.Ordinal);
+        foreach (var command in commands[1..])
+            Packages.Dotnet(command["dotnet ".Length..].Replace("$PWD/packages", packages.Folder, StringComparison.Ordinal), folder);
+        File.WriteAllText(Path.Combine(game, "Program.cs"), DocPages.CodeBlocks("README.md").First());
+        Assert.Matches(Height(), Run(game, "hello"));
+    }
+
+    [Fact]
+    public void The_guide_runs_as_it_is_pasted_and_prints_what_it_says()
+    {
+        const string page = "Docs/Guides/GettingStarted.md";
+        var blocks = DocPages.CodeBlocks(page).ToLookup(block => TypeDeclaration().IsMatch(block));
+        Assert.Single(blocks[true]);
+        var folder = packages.CreateFolder("guide");
+        WriteSources(folder);
+        File.WriteAllText(Path.Combine(folder, "IceCallbacks.cs"), blocks[true].Single());
+        File.WriteAllText(Path.Combine(folder, "Program.cs"), string.Join('\n', blocks[false]));
+        // What dotnet new console writes.
+        File.WriteAllText(Path.Combine(folder, "guide.csproj"), $"""
             <Project Sdk="Microsoft.NET.Sdk">
               <PropertyGroup>
                 <OutputType>Exe</OutputType>
                 <TargetFramework>net10.0</TargetFramework>
+                <ImplicitUsings>enable</ImplicitUsings>
+                <Nullable>enable</Nullable>
               </PropertyGroup>
               <ItemGroup>
                 <PackageReference Include="Tootbird.BepuPhysics" Version="{packages.Version}" />
               </ItemGroup>
             </Project>
             """);
-        // The folder of the packages is the only source, and nothing that an earlier build of this version left is taken for it.
-        File.WriteAllText(Path.Combine(folder, "nuget.config"), $"""
-            <configuration>
-              <packageSources><clear /><add key="packed" value="{packages.Folder}" /></packageSources>
-              <config><add key="globalPackagesFolder" value="{Path.Combine(folder, "cache")}" /></config>
-            </configuration>
-            """);
-        Packages.Dotnet("build -c Release -o run --disable-build-servers", folder);
-        var output = Packages.Dotnet(Path.Combine("run", "hello.dll"), folder);
-        Assert.Matches(Height(), output);
+        // In whatever way the machine writes numbers.
+        var printed = Run(folder, "guide").Replace(',', '.').Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.TrimEnd());
+        Assert.Equal(DocPages.PrintedLines(page).Select(line => line.Replace(',', '.')), printed);
     }
+
+    // The folder of the packages is the only source, and nothing that an earlier build of this version left is taken for it.
+    void WriteSources(string folder) => File.WriteAllText(Path.Combine(folder, "nuget.config"), $"""
+        <configuration>
+          <packageSources><clear /><add key="packed" value="{packages.Folder}" /></packageSources>
+          <config><add key="globalPackagesFolder" value="{Path.Combine(folder, "cache")}" /></config>
+        </configuration>
+        """);
+
+    static string Run(string folder, string name)
+    {
+        Packages.Dotnet("build -c Release -o run --disable-build-servers", folder);
+        return Packages.Dotnet(Path.Combine("run", name + ".dll"), folder);
+    }
+
+    [GeneratedRegex(@"^struct ", RegexOptions.Multiline)]
+    private static partial Regex TypeDeclaration();
 
     // Half the height of the box, give or take the sink of a rigid contact, in whatever way the machine writes numbers.
     [GeneratedRegex(@"^The box rests at a height of 0[.,](49|50) m\.\s*$")]

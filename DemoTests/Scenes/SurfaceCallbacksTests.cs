@@ -34,8 +34,9 @@ public class SurfaceCallbacksTests
         world.Step();
 
         Assert.NotEqual(hard, world.Callbacks.Bouncy);
-        // What it fell with, and gained over the last centimetre.
-        Assert.Equal(.8f * MathF.Sqrt(3 * 3 + 2 * 9.81f * .01f), world.Velocity(bounces).Y, .01f);
+        // Of what it fell with and gained over the last centimetre, less what gravity took since, at most all of the step.
+        var rebound = .8f * MathF.Sqrt(3 * 3 + 2 * 9.81f * .01f);
+        Assert.InRange(world.Velocity(bounces).Y, rebound - 9.81f / 60, rebound + .001f);
         // Less than a tenth of it: what is left of the push that stopped it.
         Assert.InRange(world.Velocity(stays).Y, -.3f, .3f);
     }
