@@ -4,7 +4,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.TaskScheduling;
 using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;

@@ -1,4 +1,3 @@
-using System.Numerics;
 using BepuPhysics.Constraints;
 using DemoTests.Quality;
 

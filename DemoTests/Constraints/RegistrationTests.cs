@@ -5,7 +5,6 @@ using System.Runtime.CompilerServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using DemoTests.Scenes;
 using Xunit;
 
@@ -27,7 +26,7 @@ public class RegistrationTests
     }
 
     // Does nothing to its body, whatever its description is.
-    readonly struct Idle<TPrestep> : IConstraint<OneBody, TPrestep, Rows1> where TPrestep : unmanaged
+    public readonly struct Idle<TPrestep> : IConstraint<OneBody, TPrestep, Rows1> where TPrestep : unmanaged
     {
         public static BodyAccess WarmStartAccess => BodyAccess.Velocity;
         public static BodyAccess SolveAccess => BodyAccess.Velocity;
@@ -35,14 +34,13 @@ public class RegistrationTests
         public static void Solve(ref OneBody bodies, in Substep substep, ref TPrestep prestep, ref Rows1 impulses) { }
     }
 
-    static TypeProcessor IdleProcessor<TPrestep>() where TPrestep : unmanaged => new TypeProcessor<OneBody, TPrestep, Rows1, Idle<TPrestep>>();
+    static TypeProcessor<OneBody, TPrestep, Rows1, Idle<TPrestep>> IdleProcessor<TPrestep>() where TPrestep : unmanaged => new();
 
     public struct TooLarge : IOneBodyConstraintDescription<TooLarge>
     {
         public Floats130 Numbers;
         public static int ConstraintTypeId => 100;
         public static TypeProcessor CreateTypeProcessor() => IdleProcessor<Vectors130>();
-        public readonly void Validate() { }
     }
 
     // One float, and the id of a type whose column has more: reading it would write beyond the caller's variable.
@@ -51,7 +49,6 @@ public class RegistrationTests
         public float Number;
         public static int ConstraintTypeId => ConstraintTypeIds.OneBodyLinearServo;
         public static TypeProcessor CreateTypeProcessor() => OneBodyLinearServo.CreateTypeProcessor();
-        public readonly void Validate() { }
     }
 
     public struct ContactImpostor : IOneBodyConstraintDescription<ContactImpostor>
@@ -59,7 +56,6 @@ public class RegistrationTests
         public float Number;
         public static int ConstraintTypeId => 0;
         public static TypeProcessor CreateTypeProcessor() => IdleProcessor<Vector<float>>();
-        public readonly void Validate() { }
     }
 
     public struct Misshapen : IOneBodyConstraintDescription<Misshapen>
@@ -67,7 +63,6 @@ public class RegistrationTests
         public float First, Second;
         public static int ConstraintTypeId => 101;
         public static TypeProcessor CreateTypeProcessor() => IdleProcessor<Vector<float>>();
-        public readonly void Validate() { }
     }
 
     public struct Miscounted : ITwoBodyConstraintDescription<Miscounted>
@@ -75,7 +70,6 @@ public class RegistrationTests
         public float Number;
         public static int ConstraintTypeId => 102;
         public static TypeProcessor CreateTypeProcessor() => IdleProcessor<Vector<float>>();
-        public readonly void Validate() { }
     }
 
     public struct Unmade : IOneBodyConstraintDescription<Unmade>
@@ -83,7 +77,6 @@ public class RegistrationTests
         public float Number;
         public static int ConstraintTypeId => 103;
         public static TypeProcessor CreateTypeProcessor() => null!;
-        public readonly void Validate() { }
     }
 
     public struct OutOfRange : IOneBodyConstraintDescription<OutOfRange>
@@ -91,7 +84,6 @@ public class RegistrationTests
         public float Number;
         public static int ConstraintTypeId => 128;
         public static TypeProcessor CreateTypeProcessor() => IdleProcessor<Vector<float>>();
-        public readonly void Validate() { }
     }
 
     [Fact]

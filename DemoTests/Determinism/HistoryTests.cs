@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics;
-using BepuPhysics.Constraints;
 using DemoTests.Scenes;
 using Xunit;
 

@@ -74,7 +74,8 @@ unsafe struct ImpactQueue(BufferPool pool)
         else if (place >= 0)
         {
             pairs[pair].QueueIndex = -1;
-            var last = heap[--heap.Count];
+            var last = heap[heap.Count - 1];
+            --heap.Count;
             if (place == heap.Count)
                 return;
             heap[place] = last;
