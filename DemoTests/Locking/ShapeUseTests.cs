@@ -1,5 +1,4 @@
 using System;
-using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -9,9 +8,11 @@ using Xunit;
 namespace DemoTests.Locking;
 
 /// <summary>A shape that a body or static uses stays.</summary>
-public class ShapeUseTests
+public sealed class ShapeUseTests : IDisposable
 {
     readonly BufferPool pool = new();
+
+    public void Dispose() => pool.Dispose();
 
     /// <summary>Ways to get rid of a shape.</summary>
     public static TheoryData<string> Removals =>
@@ -151,7 +152,7 @@ public class ShapeUseTests
     {
         foreach (var type in new[] { typeof(Collidable), typeof(Static) })
         {
-            Assert.Empty(type.GetFields().Where(field => field.FieldType == typeof(TypedIndex)));
+            Assert.DoesNotContain(type.GetFields(), field => field.FieldType == typeof(TypedIndex));
             Assert.False(type.GetProperty("Shape")!.SetMethod!.IsPublic);
         }
     }

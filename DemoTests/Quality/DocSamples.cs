@@ -156,9 +156,9 @@ public struct HeightLimit : IOneBodyConstraintDescription<HeightLimit>
     public static void Validate(in HeightLimit description)
     {
         if (!float.IsFinite(description.MinimumHeight))
-            throw new ArgumentException($"{nameof(MinimumHeight)} must be finite, not {description.MinimumHeight}.", nameof(MinimumHeight));
+            throw new ArgumentException($"{nameof(MinimumHeight)} must be finite, not {description.MinimumHeight}.", nameof(description));
         if (!SpringSettings.Validate(description.SpringSettings))
-            throw new ArgumentException($"{nameof(SpringSettings)} must be finite and not negative.", nameof(SpringSettings));
+            throw new ArgumentException($"{nameof(SpringSettings)} must be finite and not negative.", nameof(description));
     }
 }
 

@@ -7,7 +7,6 @@ using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Robustness;

@@ -1,5 +1,4 @@
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 
@@ -14,10 +13,6 @@ public struct Poison : IOneBodyConstraintDescription<Poison>
 
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         OneBody, PoisonWide, Rows1, JointConstraint<OneBody, PoisonWide, PoisonGeometry, Rows1, Rows1, PoisonJoint>>();
-
-    public readonly void Validate()
-    {
-    }
 }
 
 /// <summary>A bundle, and what the row is made of.</summary>

@@ -3,8 +3,6 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints;
-using BepuUtilities;
 using DemoTests.Accuracy;
 using DemoTests.Scenes;
 using Xunit;

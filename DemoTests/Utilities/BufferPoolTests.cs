@@ -190,8 +190,9 @@ public unsafe class BufferPoolTests
         pool.Take(1000, out Buffer<byte> small);
         pool.Take(5000, out Buffer<byte> large);
         var message = Assert.Throws<InvalidOperationException>(pool.AssertEmpty).Message;
-        Assert.Contains($"1 of 1024 bytes (ids {small.Id})", message, StringComparison.Ordinal);
-        Assert.Contains($"1 of 8192 bytes (ids {large.Id})", message, StringComparison.Ordinal);
+        // Builds with checks name the type of the elements behind the number.
+        Assert.Matches($@"1 of 1024 bytes \(ids {small.Id}\b", message);
+        Assert.Matches($@"1 of 8192 bytes \(ids {large.Id}\b", message);
     }
 
     [Fact]
