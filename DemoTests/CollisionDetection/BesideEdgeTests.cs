@@ -4,7 +4,6 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
 using DemoTests.Accuracy;
 using DemoTests.Support;
 using Xunit;
