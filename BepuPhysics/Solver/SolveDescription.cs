@@ -11,8 +11,13 @@ public struct SolveDescription
 
     /// <summary>Sweeps over the constraints per substep; at least 1.</summary>
     public int VelocityIterationCount;
-    /// <summary>Parts into which a step is divided; at least 1.</summary>
+    /// <summary>
+    /// Parts into which a step of the usual length is divided; at least 1. Longer steps have more of them, up to four times as many, and shorter
+    /// ones fewer, so that all are of about the same length.
+    /// </summary>
     public int SubstepCount;
+    /// <summary>Whether every step has <see cref="SubstepCount"/> parts, whatever its length.</summary>
+    public bool HasFixedSubstepCount;
     /// <summary>Number of batches before constraints of a body go to the fallback batch; at least 1.</summary>
     public int FallbackBatchThreshold;
     /// <summary>Sweeps per substep that take back the velocity which the correction of positions has left behind; 0 for none.</summary>

@@ -30,14 +30,6 @@ public sealed unsafe partial class Solver
     /// <summary>Split bodies per block.</summary>
     const int SplitBodiesPerBlock = 64;
 
-    /// <summary>Part by which the length that sets the stiffness of rigid constraints may fall from one step to the next.</summary>
-    const float StiffeningPerStep = 0.05f;
-
-    float previousSubstepDt;
-    // Longest substep of late. The depth at which a load rests goes with the square of the substep: if rigid constraints stiffened at once
-    // when a step is short, a stack would be shot up by the depth that the long step before had let it sink.
-    float steadySubstepDt;
-
     /// <summary>Stages that run between the others where a scene asks for them, in this order.</summary>
     internal List<ISolverStage> OptionalStages { get; } = [];
 
@@ -98,10 +90,9 @@ public sealed unsafe partial class Solver
             drawnOrder = 0;
             return;
         }
-        var substepDt = dt / substepCount;
+        var substepDt = BeginStep(dt);
         var scale = previousSubstepDt > 0 ? substepDt / previousSubstepDt : 1;
         previousSubstepDt = substepDt;
-        steadySubstepDt = MathF.Max(substepDt, steadySubstepDt * (1 - StiffeningPerStep));
 
         var work = new SolveWork
         {
@@ -187,7 +178,7 @@ public sealed unsafe partial class Solver
         work.Iterations = IterationsOf(0);
         AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
         var relaxes = relaxationIterationCount > 0;
-        for (int substep = 0; substep < substepCount; ++substep)
+        for (int substep = 0; substep < LastSubstepCount; ++substep)
         {
             work.Iterations = IterationsOf(substep);
             if (SubstepStarted is not null)
@@ -209,8 +200,8 @@ public sealed unsafe partial class Solver
                 work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = substep, BlockCount = 1 }, pool);
         }
         if (!relaxes)
-            AddIntegration(ref work, IntegrationStage.Last, substepCount - 1);
-        AddOptional(ref work, SolverPoint.AfterSubsteps, substepCount - 1);
+            AddIntegration(ref work, IntegrationStage.Last, LastSubstepCount - 1);
+        AddOptional(ref work, SolverPoint.AfterSubsteps, LastSubstepCount - 1);
     }
 
     void AddIntegration(ref SolveWork work, IntegrationStage stage, int substep)
@@ -221,7 +212,7 @@ public sealed unsafe partial class Solver
 
     int IterationsOf(int substep)
     {
-        var scheduled = VelocityIterationScheduler?.Invoke(substep) ?? 0;
+        var scheduled = VelocityIterationScheduler?.Invoke((int)((long)substep * substepCount / LastSubstepCount)) ?? 0;
         return scheduled < 1 ? velocityIterationCount : scheduled;
     }
 
@@ -330,7 +321,7 @@ public sealed unsafe partial class Solver
 
         readonly Substep SubstepOf(in Stage stage) => new(
             stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1, stage.Iterations, Solver.relaxationIterationCount,
-            stage.Kind == StageKind.Relax, Solver.steadySubstepDt);
+            stage.Kind == StageKind.Relax, Solver.usualSubstepDt);
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {

@@ -80,7 +80,10 @@ public sealed unsafe partial class Solver
         }
     }
 
-    /// <summary>Parts into which a step is divided for integration and solving; at least 1.</summary>
+    /// <summary>
+    /// Parts into which a step of the usual length is divided for integration and solving; at least 1. Steps of other lengths have more or fewer
+    /// (<see cref="LastSubstepCount"/>), unless <see cref="HasFixedSubstepCount"/>.
+    /// </summary>
     public int SubstepCount
     {
         get => substepCount;
@@ -108,6 +111,9 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>Chooses the number of velocity iterations of each substep; null for <see cref="VelocityIterationCount"/> in all.</summary>
+    /// <remarks>
+    /// It is asked for indices below <see cref="SubstepCount"/>. In a step with more or fewer substeps, for the index at the same part of the step.
+    /// </remarks>
     public SubstepVelocityIterationScheduler? VelocityIterationScheduler { get; set; }
     /// <summary>Number of batches before constraints go to the fallback batch.</summary>
     public int FallbackBatchThreshold { get; }
@@ -134,6 +140,7 @@ public sealed unsafe partial class Solver
         velocityIterationCount = description.VelocityIterationCount;
         substepCount = description.SubstepCount;
         relaxationIterationCount = description.RelaxationIterationCount;
+        hasFixedSubstepCount = description.HasFixedSubstepCount;
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(1, out Sets);
@@ -214,8 +221,7 @@ public sealed unsafe partial class Solver
             Locations[i].SetIndex = -1;
         owners.ReleaseAll();
         HandlePool.Clear();
-        previousSubstepDt = 0;
-        steadySubstepDt = 0;
+        ForgetStepLengths();
         drawnOrder = 0;
         hubsToDrawForOneSweep = 0;
         hubsToDrawForSweeps = 0;

@@ -1,10 +1,16 @@
 using System;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
 /// <summary>The part of a step that the solver is working on.</summary>
 public readonly struct Substep
 {
+    // Up to this part of the usual length a longer substep keeps the usual stiffness of contacts.
+    const float GreatestContactLength = 3;
+    // The same for joints.
+    const float GreatestJointLength = 1.25f;
+
     /// <summary>Index of the substep within its step, from 0.</summary>
     public readonly int Index;
     /// <summary>Length of the substep, s.</summary>
@@ -35,17 +41,25 @@ public readonly struct Substep
     /// <param name="iterations">Sweeps over the constraints.</param>
     /// <param name="relaxations">Sweeps after the bodies have moved.</param>
     /// <param name="isRelaxation">Whether this is one of the latter.</param>
-    /// <param name="steadyDt">Length of the longest substep of late, s, where that is more than <paramref name="dt"/>.</param>
+    /// <param name="usualDt">Usual length of a substep, s, to which the stiffness of rigid constraints belongs; 0 where that is <paramref name="dt"/>.</param>
     public Substep(
-        int index, float dt, float warmStartScale = 1, int iterations = 1, int relaxations = 0, bool isRelaxation = false, float steadyDt = 0)
+        int index, float dt, float warmStartScale = 1, int iterations = 1, int relaxations = 0, bool isRelaxation = false, float usualDt = 0)
     {
-        var steadiness = dt / MathF.Max(dt, steadyDt);
+        // Stiffness is that of the usual substep. In a longer one both bear more cycles for a time than for ever, joints of chains less than
+        // contacts, and those of hubs none.
+        var length = usualDt > 0 ? dt / usualDt : 1;
+        var forHubs = MathHelper.Min(length, 1);
+        var forJoints = MathHelper.Min(length, GreatestJointLength);
+        var forContacts = MathHelper.Min(length, GreatestContactLength);
         // Relaxations leave servos and what a game gave a frequency alone, and so do nothing for how stiff these may be.
-        var unrelaxed = SpringSettings.JointCyclesPerSubstep(iterations);
-        Joints = new(SpringSettings.JointCyclesPerSubstep(iterations, relaxations) * steadiness, unrelaxed);
-        Servos = new(unrelaxed * steadiness, unrelaxed);
-        Contacts = new(SpringSettings.ContactCyclesPerSubstep(iterations, relaxations) * steadiness, SpringSettings.ContactCyclesPerSubstep(iterations));
-        Hubs = Contacts;
+        var joint = SpringSettings.JointCyclesPerSubstep(iterations, relaxations);
+        var unrelaxedJoint = SpringSettings.JointCyclesPerSubstep(iterations);
+        var contact = SpringSettings.ContactCyclesPerSubstep(iterations, relaxations);
+        var unrelaxedContact = SpringSettings.ContactCyclesPerSubstep(iterations);
+        Joints = new(joint * forJoints, unrelaxedJoint * forJoints);
+        Servos = new(unrelaxedJoint * forJoints, unrelaxedJoint * forJoints);
+        Hubs = new(contact * forHubs, unrelaxedContact * forHubs);
+        Contacts = new(contact * forContacts, unrelaxedContact * forContacts);
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;
@@ -59,7 +73,7 @@ public readonly struct Substep
 /// <param name="greatestCycles">Upper limit of frequencies that a game gives, in periods per substep.</param>
 public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
 {
-    /// <summary>Angular frequency of rigid constraints times the length of the substep. Less after longer substeps, and more with relaxations.</summary>
+    /// <summary>Angular frequency of rigid constraints times the length of the substep: that of the usual substep, and more with relaxations.</summary>
     public readonly float RigidFrequencyDt = MathF.Tau * rigidCycles;
     /// <summary>Greatest angular frequency that a game may give, times the length of the substep: at it the sweeps are stable without relaxations.</summary>
     public readonly float GreatestFrequencyDt = MathF.Tau * greatestCycles;

@@ -127,7 +127,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         pair.Overlap = 0;
         pair.Overlaps = false;
         var isLoaded = IsLoaded(pair, contacts);
-        var earliest = isLoaded ? 0 : -dt * solver.SubstepCount;
+        var earliest = isLoaded ? 0 : -dt * solver.LastSubstepCount;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             var row = contacts.NormalRow(i);
@@ -155,7 +155,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             MathF.Abs(row.Along(pair.GainA, pair.GainB)),
             MathHelper.Max(MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal))));
         var moving = MathF.Sqrt(Exact.LengthSquared(contacts.VelocityA.Linear) + Exact.LengthSquared(contacts.VelocityB.Linear));
-        return MathHelper.Max(RestingSteps * solver.SubstepCount * gained, RoundingShare * moving);
+        return MathHelper.Max(RestingSteps * solver.LastSubstepCount * gained, RoundingShare * moving);
     }
 
     static bool IsLoaded(in BouncingPair pair, in ContactRows contacts)
