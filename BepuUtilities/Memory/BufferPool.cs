@@ -79,6 +79,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         CheckPower(power);
         TakeBlock(Math.Max(power, MinimumPower), out var memory, out var id);
+        NoteOwner(id, typeof(byte));
         buffer = new Buffer<byte>(memory, 1 << power, id);
     }
 
