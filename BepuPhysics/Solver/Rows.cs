@@ -104,13 +104,13 @@ public struct RowMatrix3(in Symmetric3x3Wide m) : IRowMatrix<RowMatrix3, Rows3>
     public static Rows3 Solve(in RowMatrix3 matrix, in Rows3 rightSide)
     {
         var solution = Symmetric3x3Wide.InvertWithDeterminant(matrix.M, out var determinant) * rightSide.V;
-        var least = new Vector<float>(LeastDeterminant);
-        if (Vector.LessThanOrEqualAny(determinant, least))
+        var isSingular = Vector.LessThanOrEqual(determinant, new Vector<float>(LeastDeterminant));
+        if (!Vector.EqualsAll(isSingular, Vector<int>.Zero))
         {
             // Copies: a local whose address is taken is in memory all the time.
             Symmetric3x3Wide singular = matrix.M;
             Vector3Wide right = rightSide.V, regular = solution;
-            SolveSingular(singular, right, Vector.LessThanOrEqual(determinant, least), ref regular);
+            SolveSingular(singular, right, isSingular, ref regular);
             solution = regular;
         }
         return new(solution);
