@@ -24,6 +24,9 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
     /// <summary>C, from its definition.</summary>
     private protected abstract double[] Error(TDescription description, DoublePose[] poses);
 
+    /// <summary>The same, where it depends on the inertia of the bodies at which point they are held.</summary>
+    private protected virtual double[] Error(TDescription description, DoublePose[] poses, SampleBody[] bodies) => Error(description, poses);
+
     /// <summary>Moves the last body to where the rows that hold something are satisfied.</summary>
     private protected virtual void Settle(TDescription description, SampleBody[] bodies) { }
 
@@ -34,7 +37,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
 
     [Fact]
     public void ErrorIsTheDefinition() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
-        AssertClose(Error(description, Poses(bodies)), probe.PositionError(lane), 2e-5));
+        AssertClose(Error(description, Poses(bodies), bodies), probe.PositionError(lane), 2e-5));
 
     [Fact]
     public void RelativeVelocityIsTheDerivativeOfTheError() => ForEachSample(settled: true, (probe, lane, description, bodies, samples) =>
@@ -44,7 +47,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
     [Fact]
     public void ErrorShrinksAtTheRelativeVelocity() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
     {
-        var error = Error(description, Poses(bodies));
+        var error = Error(description, Poses(bodies), bodies);
         var change = Times(Jacobian(description, bodies), probe.Velocity(lane));
         var velocity = probe.RelativeVelocity(lane);
         var linear = Math.Min(3, error.Length);
@@ -283,7 +286,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
             {
                 var poses = Poses(bodies);
                 poses[k / 6] = poses[k / 6].Moved(k % 6, step);
-                return Error(description, poses);
+                return Error(description, poses, bodies);
             }
             var forward = At(Step);
             var back = At(-Step);
