@@ -58,7 +58,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies = new Bodies(bufferPool, sizes.Bodies, world);
         Statics = new Statics(bufferPool, BroadPhase, Shapes, sizes.Statics, world);
         Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
-            { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
+        { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
         Bodies.Connect(Solver, BroadPhase, Shapes);
         Quarantine = new Quarantine(Bodies, bufferPool);

@@ -58,7 +58,12 @@ static unsafe class OverlapFinder
         var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
         var work = new FindWork<THandler>
         {
-            World = world, Handler = handler, ActiveTree = activeTree, StaticTree = staticTree, Runs = runs, Pieces = pieces
+            World = world,
+            Handler = handler,
+            ActiveTree = activeTree,
+            StaticTree = staticTree,
+            Runs = runs,
+            Pieces = pieces
         };
         try
         {

@@ -224,7 +224,12 @@ public sealed unsafe partial class Solver
             if (blocks > 0)
                 work.Stages.Add(new()
                 {
-                    Kind = StageKind.Optional, Substep = substep, Iterations = work.Iterations, Point = point, Optional = i, BlockCount = blocks,
+                    Kind = StageKind.Optional,
+                    Substep = substep,
+                    Iterations = work.Iterations,
+                    Point = point,
+                    Optional = i,
+                    BlockCount = blocks,
                 }, pool);
         }
     }
@@ -258,7 +263,12 @@ public sealed unsafe partial class Solver
             return;
         work.Stages.Add(new()
         {
-            Kind = kind, Substep = substep, Iterations = work.Iterations, Batch = batch, FirstBlock = firstBlock, BlockCount = blockCount,
+            Kind = kind,
+            Substep = substep,
+            Iterations = work.Iterations,
+            Batch = batch,
+            FirstBlock = firstBlock,
+            BlockCount = blockCount,
         }, pool);
         if (batch == FallbackBatchThreshold)
             work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);

@@ -92,7 +92,11 @@ static unsafe class PairTraversal<THandler, TConsumer> where TConsumer : IPairCo
         var results = stackalloc int[2 * ResultCapacity];
         var search = new Search
         {
-            Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler
+            Stack = stack,
+            ResultsA = results,
+            ResultsB = results + ResultCapacity,
+            WorkerIndex = workerIndex,
+            Handler = ref handler
         };
         for (var node = 0; node < tree.NodeCount; ++node)
         {
@@ -110,7 +114,11 @@ static unsafe class PairTraversal<THandler, TConsumer> where TConsumer : IPairCo
         var results = stackalloc int[2 * ResultCapacity];
         var search = new Search
         {
-            Stack = stack, ResultsA = results, ResultsB = results + ResultCapacity, WorkerIndex = workerIndex, Handler = ref handler
+            Stack = stack,
+            ResultsA = results,
+            ResultsB = results + ResultCapacity,
+            WorkerIndex = workerIndex,
+            Handler = ref handler
         };
         // The second side of a tree with a single leaf is nothing.
         var sidesA = treeA.LeafCount < 2 ? treeA.LeafCount : 2;

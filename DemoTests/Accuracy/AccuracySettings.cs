@@ -41,8 +41,11 @@ sealed record AccuracySettings
         ? new()
         : new()
         {
-            SubstepCount = 16, RelaxationCount = EngineTraits.AccurateRelaxationCount, AngularMode = EngineTraits.AccurateAngularMode,
-            SubstepsForFreeBodies = true, Stiff = true,
+            SubstepCount = 16,
+            RelaxationCount = EngineTraits.AccurateRelaxationCount,
+            AngularMode = EngineTraits.AccurateAngularMode,
+            SubstepsForFreeBodies = true,
+            Stiff = true,
         };
 
     public override string ToString() =>

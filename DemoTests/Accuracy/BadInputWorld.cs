@@ -152,7 +152,11 @@ sealed class BadInputWorld : IDisposable
         var axis = Vector3.UnitZ;
         Join(2, new Hinge
         {
-            LocalOffsetA = half, LocalHingeAxisA = axis, LocalOffsetB = -half, LocalHingeAxisB = axis, SpringSettings = spring,
+            LocalOffsetA = half,
+            LocalHingeAxisA = axis,
+            LocalOffsetB = -half,
+            LocalHingeAxisB = axis,
+            SpringSettings = spring,
         });
         Join(3, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f, SpringSettings = spring });
         var basis = Quaternion.Identity;
@@ -161,7 +165,9 @@ sealed class BadInputWorld : IDisposable
         var pulled = world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, 5)));
         joints.Add(typeof(OneBodyLinearServo), Solver.Add(pulled, new OneBodyLinearServo
         {
-            Target = new Vector3(-5, 5, 5), ServoSettings = ServoSettings.Default, SpringSettings = new SpringSettings(5, 1),
+            Target = new Vector3(-5, 5, 5),
+            ServoSettings = ServoSettings.Default,
+            SpringSettings = new SpringSettings(5, 1),
         }));
     }
 

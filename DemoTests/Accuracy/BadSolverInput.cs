@@ -77,8 +77,11 @@ static class BadSolverInput
 
         var hinge = new Hinge
         {
-            LocalOffsetA = Vector3.UnitX, LocalHingeAxisA = Vector3.UnitY,
-            LocalOffsetB = -Vector3.UnitX, LocalHingeAxisB = Vector3.UnitY, SpringSettings = new(30, 1),
+            LocalOffsetA = Vector3.UnitX,
+            LocalHingeAxisA = Vector3.UnitY,
+            LocalOffsetB = -Vector3.UnitX,
+            LocalHingeAxisB = Vector3.UnitY,
+            SpringSettings = new(30, 1),
         };
         Constraint(list, "LocalOffsetA.Y", offset, BadInputList.NotReasonable, hinge, static (ref d, v) => d.LocalOffsetA.Y = v);
         Constraint(list, "LocalHingeAxisA.X", axis, BadInputList.NotFinite, hinge, static (ref d, v) => d.LocalHingeAxisA.X = v);
@@ -98,8 +101,11 @@ static class BadSolverInput
 
         var twist = new TwistLimit
         {
-            LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity,
-            MinimumAngle = -1, MaximumAngle = 1, SpringSettings = new(30, 1),
+            LocalBasisA = Quaternion.Identity,
+            LocalBasisB = Quaternion.Identity,
+            MinimumAngle = -1,
+            MaximumAngle = 1,
+            SpringSettings = new(30, 1),
         };
         Constraint(list, "LocalBasisA.X", ["basis"], BadInputList.NotFinite, twist, static (ref d, v) => d.LocalBasisA.X = v);
         Constraint(list, "length of LocalBasisB", ["basis"], [0, 2], twist, static (ref d, v) => d.LocalBasisB = new(0, 0, 0, v));

@@ -1,9 +1,9 @@
 using System;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using Demos.Scenes;
 using DemoTests.Scenes;
 using DemoTests.Support;
-using Demos.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 

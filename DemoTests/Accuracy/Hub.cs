@@ -96,7 +96,7 @@ sealed class Hub
             solver.Add(hub, arm, new BallSocket { LocalOffsetA = offsetHub, LocalOffsetB = offsetArm });
         else
             solver.Add(hub, arm, new Hinge
-                { LocalOffsetA = offsetHub, LocalHingeAxisA = side, LocalOffsetB = offsetArm, LocalHingeAxisB = Vector3.UnitZ });
+            { LocalOffsetA = offsetHub, LocalHingeAxisA = side, LocalOffsetB = offsetArm, LocalHingeAxisB = Vector3.UnitZ });
     }
 
     static Double3 Moments(double mass, double x, double y, double z) =>

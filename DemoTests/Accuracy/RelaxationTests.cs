@@ -63,7 +63,10 @@ public class RelaxationTests(ITestOutputHelper output)
         {
             var settings = new AccuracySettings
             {
-                SubstepCount = substeps, VelocityIterationCount = iterations, RelaxationCount = relaxations, Contacts = ContactScope.None,
+                SubstepCount = substeps,
+                VelocityIterationCount = iterations,
+                RelaxationCount = relaxations,
+                Contacts = ContactScope.None,
             };
             using var world = new AccuracyWorld(settings);
             const int linkCount = 60;
@@ -108,7 +111,9 @@ public class RelaxationTests(ITestOutputHelper output)
         var spring = frequency > 0 ? new SpringSettings(frequency, dampingRatio) : SpringSettings.Rigid;
         var servo = new OneBodyLinearServo
         {
-            Target = new Vector3(0, 1, 0), ServoSettings = new ServoSettings(maximumSpeed, 0, float.MaxValue), SpringSettings = spring,
+            Target = new Vector3(0, 1, 0),
+            ServoSettings = new ServoSettings(maximumSpeed, 0, float.MaxValue),
+            SpringSettings = spring,
         };
         using var relaxed = World(1);
         using var unrelaxed = World(0);

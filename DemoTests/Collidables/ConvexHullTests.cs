@@ -109,11 +109,13 @@ public sealed class ConvexHullTests : IDisposable
             let phi = (sign & 2) == 0 ? golden : -golden
             from turn in Enumerable.Range(0, 3)
             select turn == 0 ? new Vector3(0, one, phi) : turn == 1 ? new(one, phi, 0) : new(phi, 0, one)];
-        var dodecahedron = HullInputs.Box(2, 2, 2).Concat(from sign in Enumerable.Range(0, 4)
+        var onFaces =
+            from sign in Enumerable.Range(0, 4)
             let one = ((sign & 1) == 0 ? 1 : -1) / golden
             let phi = (sign & 2) == 0 ? golden : -golden
             from turn in Enumerable.Range(0, 3)
-            select turn == 0 ? new Vector3(0, one, phi) : turn == 1 ? new(one, phi, 0) : new(phi, 0, one)).ToArray();
+            select turn == 0 ? new Vector3(0, one, phi) : turn == 1 ? new(one, phi, 0) : new(phi, 0, one);
+        var dodecahedron = HullInputs.Box(2, 2, 2).Concat(onFaces).ToArray();
         AssertSolid(tetrahedron, 4, 4, 8 / 3.0, new Double3(1, 1, 1) * (8 / 20.0));
         AssertSolid(octahedron, 6, 8, 32 / 3.0, new Double3(1, 1, 1) * (8 / 10.0));
         // Edge 2: volume 5 (3 + sqrt 5) / 12 a^3, moment phi^2 a^2 / 10.

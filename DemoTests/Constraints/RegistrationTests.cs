@@ -113,7 +113,9 @@ public class RegistrationTests
         var body = world.AddDynamic(new Sphere(1), 1, RigidPose.Identity);
         var handle = world.Solver.Add(body, new OneBodyLinearServo
         {
-            Target = new Vector3(1, 2, 3), ServoSettings = new ServoSettings(2, 0, 50), SpringSettings = new SpringSettings(5, 1),
+            Target = new Vector3(1, 2, 3),
+            ServoSettings = new ServoSettings(2, 0, 50),
+            SpringSettings = new SpringSettings(5, 1),
         });
         Refuses(nameof(Impostor), () => world.Solver.GetDescription<Impostor>(handle, out _));
         Refuses(nameof(Impostor), () => world.Solver.ApplyDescription(handle, default(Impostor)));

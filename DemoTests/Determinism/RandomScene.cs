@@ -154,7 +154,10 @@ sealed class RandomScene
                 3 => solver.Add(a, b, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f }),
                 4 => solver.Add(a, b, new TwistLimit
                 {
-                    LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = -1, MaximumAngle = 1,
+                    LocalBasisA = Quaternion.Identity,
+                    LocalBasisB = Quaternion.Identity,
+                    MinimumAngle = -1,
+                    MaximumAngle = 1,
                 }),
                 5 => solver.Add(a, b, new DistanceLimit { MinimumDistance = .5f, MaximumDistance = 3 }),
                 _ => solver.Add(a, new OneBodyLinearServo { Target = offset, ServoSettings = new ServoSettings(2, 0, 50), SpringSettings = new(5, 1) }),

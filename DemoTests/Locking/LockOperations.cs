@@ -61,7 +61,8 @@ static class LockOperations
         {
             var nothing = new Nothing();
             w.Simulation.Bodies.EnumerateConnectedBodies(w.Body, ref nothing);
-        }));
+        }
+        ));
 
         void Change(string name, Action<LockedWorld> act) => list.Add(name, (OperationKind.Change, act));
     }
@@ -125,19 +126,22 @@ static class LockOperations
         {
             var nothing = new Nothing();
             w.Simulation.BroadPhase.FindOverlaps(ref nothing);
-        }));
+        }
+        ));
         list.Add("BroadPhase.RayCast", (OperationKind.Query, w =>
         {
             var nothing = new Nothing();
             using var pool = new BepuUtilities.Memory.BufferPool();
             w.Simulation.BroadPhase.RayCast(new Vector3(0, 50, 0), -Vector3.UnitY, 100, pool, ref nothing);
-        }));
+        }
+        ));
         list.Add("BroadPhase.GetOverlaps", (OperationKind.Query, w =>
         {
             var nothing = new Nothing();
             using var pool = new BepuUtilities.Memory.BufferPool();
             w.Simulation.BroadPhase.GetOverlaps(-Vector3.One, Vector3.One, pool, ref nothing);
-        }));
+        }
+        ));
     }
 
     static void Whole(Dictionary<string, (OperationKind, Action<LockedWorld>)> list)
@@ -155,7 +159,8 @@ static class LockOperations
             var nothing = new Nothing();
             using var pool = new BepuUtilities.Memory.BufferPool();
             w.Simulation.RayCast(new Vector3(0, 50, 0), -Vector3.UnitY, 100, pool, ref nothing);
-        }));
+        }
+        ));
         list.Add("Simulation.StateHash", (OperationKind.Query, w => w.Simulation.StateHash()));
     }
 

@@ -56,5 +56,6 @@ readonly struct PlainIntegrator : IPoseIntegratorCallbacks
 
     public void IntegrateVelocity(
         Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia, Vector<int> integrationMask,
-        int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity) { }
+        int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
+    { }
 }

@@ -78,7 +78,7 @@ public class LimitsTests
         Refuses(() => simulation.Solver.Add(a, b, new BallSocket { SpringSettings = damped }));
         Refuses(() => simulation.Solver.Add(a, b, new DistanceLimit(default, default, Limits.MaximumDistance * beyond, float.MaxValue, default)));
         Refuses(() => simulation.Solver.Add(a, new OneBodyLinearServo
-            { Target = new(Limits.MaximumPosition * beyond), ServoSettings = ServoSettings.Default }));
+        { Target = new(Limits.MaximumPosition * beyond), ServoSettings = ServoSettings.Default }));
         Refuses(() => simulation.Solver.Add(a, new OneBodyLinearServo { ServoSettings = new(1, Limits.MaximumServoBaseSpeed * beyond, 1) }));
         Refuses(() => simulation.Timestep(Limits.MaximumTimestep * beyond));
         Refuses(() => simulation.Timestep(Limits.MinimumTimestep / beyond));
@@ -155,14 +155,14 @@ public class LimitsTests
                 break;
             case Scene.Hinge:
                 solver.Add(a, b, new Hinge
-                    { LocalOffsetA = offsetA, LocalOffsetB = offsetB, LocalHingeAxisA = axisA, LocalHingeAxisB = axisB, SpringSettings = spring });
+                { LocalOffsetA = offsetA, LocalOffsetB = offsetB, LocalHingeAxisA = axisA, LocalHingeAxisB = axisB, SpringSettings = spring });
                 break;
             case Scene.SwingLimit:
                 solver.Add(a, b, new SwingLimit { AxisLocalA = axisA, AxisLocalB = axisB, MinimumDot = 0.9f, SpringSettings = spring });
                 break;
             case Scene.TwistLimit:
                 solver.Add(a, b, new TwistLimit
-                    { LocalBasisA = draw.Turn(), LocalBasisB = draw.Turn(), MinimumAngle = -0.1f, MaximumAngle = 0.1f, SpringSettings = spring });
+                { LocalBasisA = draw.Turn(), LocalBasisB = draw.Turn(), MinimumAngle = -0.1f, MaximumAngle = 0.1f, SpringSettings = spring });
                 break;
             case Scene.DistanceLimit:
                 solver.Add(a, b, new DistanceLimit(offsetA, offsetB, least, draw.Below(3) == 0 ? float.MaxValue : 2 * least, spring));

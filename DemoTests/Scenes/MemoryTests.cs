@@ -1,5 +1,5 @@
-using DemoTests.Support;
 using Demos.Scenes;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Scenes;

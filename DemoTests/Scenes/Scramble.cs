@@ -214,12 +214,19 @@ sealed class Scramble : IDisposable
             1 => solver.Add(a, b, new Weld { LocalOffset = new Vector3(1, 0, 0), LocalOrientation = Quaternion.Identity, SpringSettings = spring }),
             2 => solver.Add(a, b, new Hinge
             {
-                LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY, LocalOffsetB = Vector3.UnitX, SpringSettings = spring,
+                LocalHingeAxisA = Vector3.UnitY,
+                LocalHingeAxisB = Vector3.UnitY,
+                LocalOffsetB = Vector3.UnitX,
+                SpringSettings = spring,
             }),
             3 => solver.Add(a, b, new SwingLimit { AxisLocalA = Vector3.UnitX, AxisLocalB = Vector3.UnitX, MinimumDot = .5f, SpringSettings = spring }),
             4 => solver.Add(a, b, new TwistLimit
             {
-                LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = spring,
+                LocalBasisA = Quaternion.Identity,
+                LocalBasisB = Quaternion.Identity,
+                MinimumAngle = -1,
+                MaximumAngle = 1,
+                SpringSettings = spring,
             }),
             5 => solver.Add(a, b, new DistanceLimit { MinimumDistance = .5f, MaximumDistance = 3, SpringSettings = spring }),
             _ => solver.Add(a, new OneBodyLinearServo { Target = new Vector3(0, 3, 0), ServoSettings = new ServoSettings(2, 0, 50), SpringSettings = spring }),

@@ -1,8 +1,8 @@
 using System;
 using System.Linq;
+using Demos.Scenes;
 using DemoTests.Accuracy;
 using DemoTests.Support;
-using Demos.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 

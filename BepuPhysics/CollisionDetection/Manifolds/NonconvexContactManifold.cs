@@ -72,12 +72,12 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     /// <summary>Adds a contact of a convex part.</summary>
     public static void Add(NonconvexContactManifold* manifold, ref Vector3 normal, ref ConvexContact convexContact) =>
         Allocate(manifold) = new()
-    {
-        Offset = convexContact.Offset,
-        Depth = convexContact.Depth,
-        Normal = normal,
-        FeatureId = convexContact.FeatureId,
-    };
+        {
+            Offset = convexContact.Offset,
+            Depth = convexContact.Depth,
+            Normal = normal,
+            FeatureId = convexContact.FeatureId,
+        };
 
     /// <summary>Makes room for a contact, which the caller writes.</summary>
     /// <exception cref="InvalidOperationException">The manifold is full.</exception>

@@ -15,10 +15,12 @@ sealed class RoundedBox
     public RoundedBox(Sphere sphere, Vector3 position) : this(position, Quaternion.Identity, [0, 0, 0], sphere.Radius) { }
 
     public RoundedBox(Capsule capsule, Vector3 position, Quaternion orientation) :
-        this(position, orientation, [0, capsule.HalfLength, 0], capsule.Radius) { }
+        this(position, orientation, [0, capsule.HalfLength, 0], capsule.Radius)
+    { }
 
     public RoundedBox(Box box, Vector3 position, Quaternion orientation) :
-        this(position, orientation, [box.HalfWidth, box.HalfHeight, box.HalfLength], 0) { }
+        this(position, orientation, [box.HalfWidth, box.HalfHeight, box.HalfLength], 0)
+    { }
 
     RoundedBox(Vector3 position, Quaternion orientation, double[] half, double radius)
     {

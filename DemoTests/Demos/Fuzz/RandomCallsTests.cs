@@ -1,7 +1,7 @@
 using System.IO;
 using System.Threading;
-using DemoTests.Support;
 using Demos.Fuzz;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Runner;

@@ -1,8 +1,8 @@
 using System;
 using System.Numerics;
-using DemoTests.Support;
 using Demos.Running;
 using Demos.Scenes;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Runner;
