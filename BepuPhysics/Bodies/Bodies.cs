@@ -52,6 +52,9 @@ public sealed unsafe partial class Bodies
         }
     }
 
+    /// <summary>The same without the question whether the simulation lives, for the inside of a step.</summary>
+    internal ref BodySet Awake => ref Sets[0];
+
     internal Bodies(BufferPool pool, int initialCapacity, WorldLock world)
     {
         this.world = world;

@@ -86,7 +86,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     {
         var a = pair.A;
         var b = pair.B;
-        ref var set = ref Simulation.Bodies.ActiveSet;
+        ref var set = ref Simulation.Bodies.Awake;
         var locations = Simulation.Bodies.Locations;
         var indexA = locations[a.Slot].Index;
         ref var collidableA = ref set.Collidables[indexA];

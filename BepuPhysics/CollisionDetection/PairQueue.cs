@@ -66,7 +66,7 @@ unsafe struct PairQueue
         if (collidable.Mobility == CollidableMobility.Static)
             return;
         var index = bodies.Locations[collidable.Slot].Index;
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         Prefetch.Read(set.MotionStates.Memory + index);
         Prefetch.Read(set.Collidables.Memory + index);
     }

@@ -25,7 +25,7 @@ unsafe struct BoundsPredictor : IStagedWork
 
     public readonly int GetBlockCount(int stage) => (BundleCount + BundlesPerBlock - 1) / BundlesPerBlock;
 
-    readonly int BundleCount => BundleIndexing.GetBundleCount(Bodies.ActiveSet.Count);
+    readonly int BundleCount => BundleIndexing.GetBundleCount(Bodies.Awake.Count);
 
     public readonly void Execute(int stage, int block, int workerIndex)
     {
@@ -37,7 +37,7 @@ unsafe struct BoundsPredictor : IStagedWork
     readonly void Predict(int bundle, int workerIndex)
     {
         Integrator.PredictVelocities(bundle, Dt, workerIndex, out var pose, out var velocity);
-        ref var set = ref Bodies.ActiveSet;
+        ref var set = ref Bodies.Awake;
         var start = bundle * Vector<float>.Count;
         var count = Math.Min(Vector<float>.Count, set.Count - start);
         var collidables = set.Collidables.Memory + start;

@@ -56,7 +56,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         var motions = (float*)set.MotionStates.Memory;
         var localInertias = (float*)set.LocalInertias.Memory;
         var worldInertias = (float*)set.WorldInertias.Memory;
@@ -112,7 +112,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     void IPoseIntegrator.PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
         ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out pose, out velocity, out var localInertia);
         if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), exists, out var unsound))
@@ -131,7 +131,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     void StopAndRead(Vector<int> lanes, Vector<int> indices, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         quarantine.Stop(lanes, indices);
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out var stoppedPose, out _, out _);
         pose.Position = Vector3Wide.Select(lanes, stoppedPose.Position, pose.Position);
         pose.Orientation = QuaternionWide.Select(lanes, stoppedPose.Orientation, pose.Orientation);
@@ -167,7 +167,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     [MethodImpl(MethodImplOptions.NoInlining)]
     void WriteMovedInertia(Vector<int> indices, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         // The momentum stays as the solve has left it.
         if (set.Stiffness.Allocated)

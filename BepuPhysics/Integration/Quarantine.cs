@@ -53,10 +53,10 @@ public sealed unsafe class Quarantine
     internal void EnsureCapacity()
     {
         var previous = stopped.Length;
-        var needed = bodies.ActiveSet.Count;
+        var needed = bodies.Awake.Count;
         if (stopped.Allocated && previous >= needed)
             return;
-        pool.ResizeToAtLeast(ref stopped, Math.Max(64, bodies.ActiveSet.Capacity), 0);
+        pool.ResizeToAtLeast(ref stopped, Math.Max(64, bodies.Awake.Capacity), 0);
         stopped.Clear(0, stopped.Length);
     }
 
@@ -73,7 +73,7 @@ public sealed unsafe class Quarantine
 
     void Stop(int index)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         ref var motion = ref set.MotionStates[index];
         if (!Soundness.IsSound(motion.Pose))
             motion.Pose = set.SoundPoses[index];
@@ -88,7 +88,7 @@ public sealed unsafe class Quarantine
     internal void StopUnsound()
     {
         EnsureCapacity();
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         for (int i = 0; i < set.Count; ++i)
         {
             ref var motion = ref set.MotionStates[i];
@@ -102,7 +102,7 @@ public sealed unsafe class Quarantine
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void Remember(int bundle)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         var start = bundle * Vector<float>.Count;
         var motions = set.MotionStates.Memory + start;
         var poses = set.SoundPoses.Memory + start;
@@ -117,7 +117,7 @@ public sealed unsafe class Quarantine
         if (!anyStopped)
             return;
         anyStopped = false;
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         for (int i = 0; i < set.Count; ++i)
         {
             if (stopped[i] == 0)

@@ -84,7 +84,7 @@ public sealed unsafe partial class Solver
 
     internal void Step(float dt, IPoseIntegrator integrator, IThreadDispatcher? dispatcher)
     {
-        ref var set = ref bodies.ActiveSet;
+        ref var set = ref bodies.Awake;
         if (set.Count == 0)
         {
             drawnOrder = 0;
@@ -206,7 +206,7 @@ public sealed unsafe partial class Solver
 
     void AddIntegration(ref SolveWork work, IntegrationStage stage, int substep)
     {
-        var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.ActiveSet.Count), BodyBundlesPerBlock);
+        var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
         work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, Substep = substep, BlockCount = blocks }, pool);
     }
 
@@ -304,7 +304,7 @@ public sealed unsafe partial class Solver
             switch (stage.Kind)
             {
                 case StageKind.Integrate:
-                    var bundles = BundleIndexing.GetBundleCount(Solver.bodies.ActiveSet.Count);
+                    var bundles = BundleIndexing.GetBundleCount(Solver.bodies.Awake.Count);
                     var start = blockIndex * BodyBundlesPerBlock;
                     Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
                     break;
@@ -315,7 +315,7 @@ public sealed unsafe partial class Solver
                     break;
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;
-                    Split.Join(ref Solver.bodies.ActiveSet, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
+                    Split.Join(ref Solver.bodies.Awake, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
                     break;
                 case StageKind.Optional:
                     Solver.OptionalStages[stage.Optional].Execute(stage.Point, SubstepOf(stage), blockIndex);

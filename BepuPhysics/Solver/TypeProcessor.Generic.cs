@@ -22,11 +22,12 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        var places = PlaceMask;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out var slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(references, bodies, ref slots);
+            Scatter(references, places, bodies, ref slots);
             if (TConstraint.CarriesPointLoad && substep.Index == 0)
                 AddGeometricStiffness(references, bodies, substep, slots, prestep[i], impulses[i]);
         }
@@ -38,11 +39,12 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
+        var places = PlaceMask;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, bodies, TConstraint.SolveAccess, substep, out var slots);
+            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out var slots);
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(references, bodies, ref slots);
+            Scatter(references, places, bodies, ref slots);
         }
     }
 
@@ -55,7 +57,7 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out var slots);
             ScaleInverseMass(i, split, ref slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
@@ -71,7 +73,7 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, bodies, TConstraint.SolveAccess, substep, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess, substep, out var slots);
             ScaleInverseMass(i, split, ref slots);
             // Constraints of split bodies do not see each other's impulses until the parts are joined.
             BodySlots.At(ref slots, 0).HubMask = new(-1);
@@ -87,18 +89,18 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     {
         if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
             return;
-        bodies.AddStiffness(Places(references[0]), stiffnessA);
-        bodies.AddStiffness(Places(references[TBodies.Count - 1]), stiffnessB);
+        bodies.AddStiffness(references[0] & PlaceMask, stiffnessA);
+        bodies.AddStiffness(references[TBodies.Count - 1] & PlaceMask, stiffnessB);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Gather(Vector<int>* references, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
+    static void Gather(Vector<int>* references, Vector<int> places, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
     {
         Unsafe.SkipInit(out slots);
-        bodies.Gather(Places(references[0]), access, substep, out BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.Gather(Places(references[1]), access, substep, out BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.Gather(Places(references[2]), access, substep, out BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.Gather(Places(references[3]), access, substep, out BodySlots.At(ref slots, 3));
+        bodies.Gather(references[0] & places, access, substep, out BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.Gather(references[1] & places, access, substep, out BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.Gather(references[2] & places, access, substep, out BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.Gather(references[3] & places, access, substep, out BodySlots.At(ref slots, 3));
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
@@ -109,23 +111,25 @@ public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstrai
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter(Vector<int>* references, in SolverBodies bodies, ref TBodies slots)
+    static void Scatter(Vector<int>* references, Vector<int> places, in SolverBodies bodies, ref TBodies slots)
     {
-        bodies.ScatterVelocity(Places(references[0]), BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.ScatterVelocity(Places(references[1]), BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.ScatterVelocity(Places(references[2]), BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.ScatterVelocity(Places(references[3]), BodySlots.At(ref slots, 3));
+        bodies.ScatterVelocity(references[0] & places, BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.ScatterVelocity(references[1] & places, BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.ScatterVelocity(references[2] & places, BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.ScatterVelocity(references[3] & places, BodySlots.At(ref slots, 3));
     }
 
-    // References as gathers and scatters know them. Only joints that make hubs have the flag of a hub in theirs.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> Places(Vector<int> references) =>
-        TConstraint.MakesHubs ? references & new Vector<int>(~EncodedBody.HubFlag) : references;
+    // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have the flag of a hub in theirs. Read once
+    // per loop: one call more in the loop and the JIT inlines none of them.
+    static Vector<int> PlaceMask
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TConstraint.MakesHubs ? new Vector<int>(~EncodedBody.HubFlag) : new Vector<int>(-1);
+    }
 
     // All bits of an empty reference are set; what its lane holds means nothing.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> HubMask(Vector<int> references) =>
-        TConstraint.MakesHubs ? Vector.Equals(references & new Vector<int>(EncodedBody.HubFlag), new(EncodedBody.HubFlag)) : default;
+    static Vector<int> HubMask(Vector<int> references) => Vector.Equals(references & new Vector<int>(EncodedBody.HubFlag), new(EncodedBody.HubFlag));
 
     static void ScaleInverseMass(int bundle, in SplitBodies split, ref TBodies slots)
     {
