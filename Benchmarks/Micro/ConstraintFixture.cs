@@ -118,7 +118,7 @@ public sealed unsafe class ConstraintFixture : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        TypeProcessor.Dispose(ref batch, pool);
+        processor.Dispose(ref batch, pool);
         pool.Return(ref motions);
         pool.Return(ref inertias);
         pool.Return(ref stiffness);

@@ -16,18 +16,18 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.ApplyDescription");
         CheckHandle(handle);
         Validate(description);
-        var index = Locations[handle.Slot].Index;
+        ref var set = ref SetOf(handle, out var index);
         var shape = description.Collidable.Shape;
-        var bounds = PrepareBounds(index, description.Pose, shape);
-        ActiveSet.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
+        var bounds = PrepareBounds(ref set, index, description.Pose, shape);
+        set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
         ChangeInertia(handle, description.LocalInertia);
-        ref var motion = ref ActiveSet.MotionStates[index];
+        ref var motion = ref set.MotionStates[index];
         motion.Pose = description.Pose;
         motion.Velocity = description.Velocity;
-        ActiveSet.SoundPoses[index] = description.Pose;
-        shapes.ChangeUse(ActiveSet.Collidables[index].Shape, shape);
-        WriteSettings(index, description);
-        PlaceInBroadPhase(index, bounds);
+        set.SoundPoses[index] = description.Pose;
+        shapes.ChangeUse(set.Collidables[index].Shape, shape);
+        WriteSettings(ref set, index, description);
+        PlaceInBroadPhase(ref set, index, bounds);
     }
 
     /// <summary>Gives a body another shape; its inertia stays.</summary>
@@ -38,14 +38,14 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.SetShape");
         CheckHandle(handle);
         CheckShape(shape);
-        var index = Locations[handle.Slot].Index;
-        ref var collidable = ref ActiveSet.Collidables[index];
+        ref var set = ref SetOf(handle, out var index);
+        ref var collidable = ref set.Collidables[index];
         if (collidable.Shape == shape)
             return;
-        var bounds = PrepareBounds(index, ActiveSet.MotionStates[index].Pose, shape);
+        var bounds = PrepareBounds(ref set, index, set.MotionStates[index].Pose, shape);
         shapes.ChangeUse(collidable.Shape, shape);
         collidable.Shape = shape;
-        PlaceInBroadPhase(index, bounds);
+        PlaceInBroadPhase(ref set, index, bounds);
     }
 
     /// <summary>Gives a body another inertia. All zero makes it kinematic, which removes its constraints to other kinematic bodies.</summary>
@@ -55,7 +55,7 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.SetLocalInertia");
         CheckHandle(handle);
         BodyChecks.Inertia(localInertia);
-        ActiveSet.EnsurePrincipalFrames(localInertia.InverseInertiaTensor, Pool);
+        SetOf(handle, out _).EnsurePrincipalFrames(localInertia.InverseInertiaTensor, Pool);
         ChangeInertia(handle, localInertia);
     }
 
@@ -66,71 +66,79 @@ public sealed unsafe partial class Bodies
     {
         using var change = world.Change("Bodies.UpdateBounds");
         CheckHandle(handle);
-        UpdateBoundsAt(Locations[handle.Slot].Index);
+        UpdateBoundsAt(ref SetOf(handle, out var index), index);
+    }
+
+    /// <summary>The set of a body that exists, and its index there.</summary>
+    internal ref BodySet SetOf(BodyHandle handle, out int index)
+    {
+        ref var location = ref Locations[handle.Slot];
+        index = location.Index;
+        return ref Sets[location.SetIndex];
     }
 
     void ChangeInertia(BodyHandle handle, in BodyInertia localInertia)
     {
-        var index = Locations[handle.Slot].Index;
-        ref var current = ref ActiveSet.LocalInertias[index];
+        ref var set = ref SetOf(handle, out var index);
+        ref var current = ref set.LocalInertias[index];
         var changesKind = IsKinematic(current) != IsKinematic(localInertia);
         current = localInertia;
         if (!changesKind)
             return;
         solver.Recolor(handle);
         // The broad phase knows the kind of each collidable.
-        var leaf = ActiveSet.Collidables[index].BroadPhaseIndex;
+        var leaf = set.Collidables[index].BroadPhaseIndex;
         if (leaf >= 0)
-            broadPhase.ActiveLeaves[leaf] = ReferenceAt(index);
+            broadPhase.ActiveLeaves[leaf] = ReferenceAt(set, index);
     }
 
     // Everything about a change of bounds that can fail.
-    BoundingBox PrepareBounds(int index, in RigidPose pose, TypedIndex shape)
+    BoundingBox PrepareBounds(ref BodySet set, int index, in RigidPose pose, TypedIndex shape)
     {
         if (!shape.Exists)
             return default;
         shapes.UpdateBounds(pose, shape, out var bounds);
         if (!BoxMath.IsValid(bounds.Min, bounds.Max))
-            throw new InvalidOperationException($"There are no finite bounds of {ActiveSet.IndexToHandle[index]}: its pose is {pose}.");
-        if (ActiveSet.Collidables[index].BroadPhaseIndex < 0)
+            throw new InvalidOperationException($"There are no finite bounds of {set.IndexToHandle[index]}: its pose is {pose}.");
+        if (set.Collidables[index].BroadPhaseIndex < 0)
             broadPhase.MakeRoomFor(broadPhase.ActiveTree.LeafCount + 1, 0);
         return bounds;
     }
 
     // Brings the leaf of a body, if it is to have one, to its bounds.
-    void PlaceInBroadPhase(int index, BoundingBox bounds)
+    void PlaceInBroadPhase(ref BodySet set, int index, BoundingBox bounds)
     {
-        ref var collidable = ref ActiveSet.Collidables[index];
+        ref var collidable = ref set.Collidables[index];
         if (!collidable.Shape.Exists)
-            RemoveFromBroadPhase(index);
+            RemoveFromBroadPhase(ref set, index);
         else if (collidable.BroadPhaseIndex < 0)
-            collidable.BroadPhaseIndex = broadPhase.AddActiveLeaf(ReferenceAt(index), bounds);
+            collidable.BroadPhaseIndex = broadPhase.AddActiveLeaf(ReferenceAt(set, index), bounds);
         else
             // The whole tree at once: a query may come before the next step fits it.
             broadPhase.ActiveTree.UpdateBounds(collidable.BroadPhaseIndex, bounds.Min, bounds.Max);
     }
 
-    void RemoveFromBroadPhase(int index)
+    void RemoveFromBroadPhase(ref BodySet set, int index)
     {
-        ref var leaf = ref ActiveSet.Collidables[index].BroadPhaseIndex;
+        ref var leaf = ref set.Collidables[index].BroadPhaseIndex;
         if (leaf < 0)
             return;
         if (broadPhase.RemoveActiveLeafAt(leaf, out var moved))
-            ActiveSet.Collidables[Locations[moved.BodyHandle.Slot].Index].BroadPhaseIndex = leaf;
+            SetOf(moved.BodyHandle, out var movedIndex).Collidables[movedIndex].BroadPhaseIndex = leaf;
         leaf = -1;
     }
 
-    internal void UpdateBoundsAt(int index)
+    internal void UpdateBoundsAt(ref BodySet set, int index)
     {
-        ref var collidable = ref ActiveSet.Collidables[index];
-        PlaceInBroadPhase(index, PrepareBounds(index, ActiveSet.MotionStates[index].Pose, collidable.Shape));
+        ref var collidable = ref set.Collidables[index];
+        PlaceInBroadPhase(ref set, index, PrepareBounds(ref set, index, set.MotionStates[index].Pose, collidable.Shape));
     }
 
-    internal void GetBoundsPointers(int index, out Vector3* min, out Vector3* max)
+    internal void GetBoundsPointers(ref BodySet set, int index, out Vector3* min, out Vector3* max)
     {
-        var leaf = ActiveSet.Collidables[index].BroadPhaseIndex;
+        var leaf = set.Collidables[index].BroadPhaseIndex;
         if (leaf < 0)
-            throw new InvalidOperationException($"There are no bounds of {ActiveSet.IndexToHandle[index]}: it has no shape.");
+            throw new InvalidOperationException($"There are no bounds of {set.IndexToHandle[index]}: it has no shape.");
         broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
     }
 }

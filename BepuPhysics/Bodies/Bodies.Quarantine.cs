@@ -8,8 +8,7 @@ public sealed partial class Bodies
     /// <summary>The constraints of a body of the active set forget what they have pushed so far.</summary>
     internal void ForgetImpulses(int index)
     {
-        ref var constraints = ref ActiveSet.Constraints[index];
-        for (int i = 0; i < constraints.Count; ++i)
-            solver.ForgetImpulses(constraints[i].ConnectingConstraintHandle);
+        foreach (var constraint in new BodyConstraints(solver, ActiveSet.Constraints[index]))
+            solver.ForgetImpulses(constraint.ConnectingConstraintHandle);
     }
 }

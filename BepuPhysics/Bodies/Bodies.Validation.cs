@@ -6,7 +6,7 @@ namespace BepuPhysics;
 
 public sealed partial class Bodies
 {
-    /// <summary>Handles and places, numbers, leaves of the broad phase, and that listed constraints know their body.</summary>
+    /// <summary>Handles and places, numbers, leaves of the broad phase.</summary>
     internal void Validate()
     {
         int leafCount = 0;
@@ -22,7 +22,6 @@ public sealed partial class Bodies
                 Invariant.Require(location.SetIndex == setIndex && location.Index == index, "location of body", handle.Slot);
                 ValidateNumbers(ref set, index, handle.Slot);
                 ValidateCollidable(ref set, index, handle.Slot, ref leafCount);
-                ValidateConstraints(ref set, index, handle);
             }
             Invariant.Require(IsZeroBehindLast(ref set), "rows behind the last body of set", setIndex);
         }
@@ -57,18 +56,8 @@ public sealed partial class Bodies
         Invariant.Require(shapes.Exists(collidable.Shape), "shape of body", handle);
         Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)broadPhase.ActiveTree.LeafCount, "leaf of body", handle);
         // Also that the leaf knows whether the body is kinematic.
-        Invariant.Require(broadPhase.ActiveLeaves[collidable.BroadPhaseIndex] == ReferenceAt(index), "collidable of the leaf of body", handle);
+        Invariant.Require(broadPhase.ActiveLeaves[collidable.BroadPhaseIndex] == ReferenceAt(set, index), "collidable of the leaf of body", handle);
         ++leafCount;
-    }
-
-    void ValidateConstraints(ref BodySet set, int index, BodyHandle handle)
-    {
-        ref var constraints = ref set.Constraints[index];
-        for (int i = 0; i < constraints.Count; ++i)
-        {
-            Invariant.Require(solver.ConstraintExists(constraints[i].ConnectingConstraintHandle), "listed constraint of body", handle.Slot, i);
-            Invariant.Require(solver.IsBodyOf(constraints[i], index), "body of a listed constraint of body", handle.Slot, i);
-        }
     }
 
     // Passes over whole bundles read them.

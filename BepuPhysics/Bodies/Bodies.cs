@@ -3,7 +3,6 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics;
@@ -25,7 +24,8 @@ public sealed unsafe partial class Bodies
     public Buffer<BodySet> Sets;
     /// <summary>Memory of the bodies.</summary>
     public BufferPool Pool { get; }
-    /// <summary>Least number of constraints for which the list of a body has room; from 0 to a million.</summary>
+    /// <summary>Least number of constraints for which the list of a body has room; from 0 to a million. Nothing depends on it any more: lists of
+    /// constraints take no memory of bodies.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than a million; nothing was changed.</exception>
     public int MinimumConstraintCapacityPerBody
     {
@@ -102,7 +102,6 @@ public sealed unsafe partial class Bodies
         BoundingBox bounds = default;
         if (description.Collidable.Shape.Exists)
             shapes.UpdateBounds(description.Pose, description.Collidable.Shape, out bounds);
-        var constraints = new QuickList<BodyConstraintReference>(MinimumConstraintCapacityPerBody, Pool);
         // All memory has been taken: from here on nothing fails.
         var handle = new BodyHandle(owners.Claim(HandlePool.Take()));
         ref var set = ref ActiveSet;
@@ -112,11 +111,10 @@ public sealed unsafe partial class Bodies
         set.MotionStates[index] = new() { Pose = description.Pose, Velocity = description.Velocity };
         set.SoundPoses[index] = description.Pose;
         set.LocalInertias[index] = description.LocalInertia;
-        set.Constraints[index] = constraints;
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };
-        WriteSettings(index, description);
+        WriteSettings(ref set, index, description);
         shapes.BeginUse(description.Collidable.Shape);
-        PlaceInBroadPhase(index, bounds);
+        PlaceInBroadPhase(ref set, index, bounds);
         return handle;
     }
 
@@ -126,7 +124,8 @@ public sealed unsafe partial class Bodies
     {
         using var change = world.Change("Bodies.Remove");
         CheckHandle(handle);
-        RemoveBodyAt(Locations[handle.Slot].Index);
+        ref var location = ref Locations[handle.Slot];
+        RemoveBodyAt(location.SetIndex, location.Index);
     }
 
     /// <summary>Removes a body of the active set and all of its constraints.</summary>
@@ -136,24 +135,21 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.RemoveAt");
         if ((uint)activeBodyIndex >= (uint)ActiveSet.Count)
             throw new ArgumentOutOfRangeException(nameof(activeBodyIndex), activeBodyIndex, $"There are {ActiveSet.Count} active bodies.");
-        RemoveBodyAt(activeBodyIndex);
+        RemoveBodyAt(0, activeBodyIndex);
     }
 
-    void RemoveBodyAt(int activeBodyIndex)
+    void RemoveBodyAt(int setIndex, int index)
     {
-        ref var set = ref ActiveSet;
-        ref var constraints = ref set.Constraints[activeBodyIndex];
-        while (constraints.Count > 0)
-            solver.RemoveConstraint(constraints[constraints.Count - 1].ConnectingConstraintHandle);
-        constraints.Dispose(Pool);
-        RemoveFromBroadPhase(activeBodyIndex);
-        shapes.EndUse(set.Collidables[activeBodyIndex].Shape);
-        var handle = set.IndexToHandle[activeBodyIndex];
-        set.RemoveAt(activeBodyIndex);
-        if (activeBodyIndex < set.Count)
+        ref var set = ref Sets[setIndex];
+        solver.RemoveConstraintsOf(ref set.Constraints[index]);
+        RemoveFromBroadPhase(ref set, index);
+        shapes.EndUse(set.Collidables[index].Shape);
+        var handle = set.IndexToHandle[index];
+        set.RemoveAt(index);
+        if (index < set.Count)
         {
-            Locations[set.IndexToHandle[activeBodyIndex].Slot].Index = activeBodyIndex;
-            solver.UpdateBodyIndex(activeBodyIndex);
+            Locations[set.IndexToHandle[index].Slot].Index = index;
+            solver.UpdateBodyIndex(set, index);
         }
         Locations[handle.Slot].SetIndex = -1;
         owners.Release(handle.Slot);
@@ -165,8 +161,7 @@ public sealed unsafe partial class Bodies
     public void GetDescription(BodyHandle handle, out BodyDescription description)
     {
         CheckHandle(handle);
-        var index = Locations[handle.Slot].Index;
-        ref var set = ref ActiveSet;
+        ref var set = ref SetOf(handle, out var index);
         ref var collidable = ref set.Collidables[index];
         description.Pose = set.MotionStates[index].Pose;
         description.Velocity = set.MotionStates[index].Velocity;
@@ -189,9 +184,8 @@ public sealed unsafe partial class Bodies
     {
         using var reading = world.Read("Bodies.EnumerateConnectedBodies");
         CheckHandle(handle);
-        ref var constraints = ref ActiveSet.Constraints[Locations[handle.Slot].Index];
-        for (int i = 0; i < constraints.Count; ++i)
-            solver.EnumerateOtherBodies(constraints[i], ref enumerator);
+        foreach (var constraint in GetConstraints(handle))
+            solver.EnumerateOtherBodies(constraint, ref enumerator);
     }
 
     /// <summary>Makes room for bodies.</summary>
@@ -210,21 +204,12 @@ public sealed unsafe partial class Bodies
             ActiveSet.Resize(capacity, Pool);
     }
 
-    internal void AddConstraint(BodyHandle body, ConstraintHandle constraint, int bodyIndexInConstraint) =>
-        ActiveSet.Constraints[Locations[body.Slot].Index].Add(
-            new() { ConnectingConstraintHandle = constraint, BodyIndexInConstraint = bodyIndexInConstraint }, Pool);
-
-    internal void RemoveConstraint(int bodyIndex, ConstraintHandle constraint)
+    /// <summary>The constraints of a body.</summary>
+    /// <exception cref="ArgumentException">There is no such body.</exception>
+    internal BodyConstraints GetConstraints(BodyHandle handle)
     {
-        ref var constraints = ref ActiveSet.Constraints[bodyIndex];
-        for (int i = 0; i < constraints.Count; ++i)
-        {
-            if (constraints[i].ConnectingConstraintHandle == constraint)
-            {
-                constraints.FastRemoveAt(i);
-                return;
-            }
-        }
+        CheckHandle(handle);
+        return new(solver, SetOf(handle, out var index).Constraints[index]);
     }
 
     void MakeRoom(in BodyDescription description)
@@ -260,10 +245,10 @@ public sealed unsafe partial class Bodies
         CheckShape(description.Collidable.Shape);
     }
 
-    void WriteSettings(int index, in BodyDescription description)
+    static void WriteSettings(ref BodySet set, int index, in BodyDescription description)
     {
         var settings = description.Collidable;
-        ref var collidable = ref ActiveSet.Collidables[index];
+        ref var collidable = ref set.Collidables[index];
         // The margin of the coming step is set by its prediction of bounds.
         collidable = new()
         {
@@ -274,33 +259,34 @@ public sealed unsafe partial class Bodies
             MinimumSpeculativeMargin = settings.MinimumSpeculativeMargin,
             MaximumSpeculativeMargin = settings.MaximumSpeculativeMargin,
         };
-        ActiveSet.Activity[index] = new()
+        set.Activity[index] = new()
         {
             SleepThreshold = description.Activity.SleepThreshold,
             MinimumTimestepsUnderThreshold = description.Activity.MinimumTimestepCountUnderThreshold,
         };
     }
 
-    internal CollidableReference ReferenceAt(int index) => new(
-        IsKinematic(ActiveSet.LocalInertias[index]) ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, ActiveSet.IndexToHandle[index]);
+    internal static CollidableReference ReferenceAt(in BodySet set, int index) => new(
+        IsKinematic(set.LocalInertias[index]) ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, set.IndexToHandle[index]);
 
     internal void Clear()
     {
-        ref var set = ref ActiveSet;
-        for (int i = 0; i < set.Count; ++i)
+        EndUses();
+        for (int i = 0; i < Sets.Length; ++i)
         {
-            shapes.EndUse(set.Collidables[i].Shape);
-            Locations[set.IndexToHandle[i].Slot].SetIndex = -1;
+            for (int j = 0; j < Sets[i].Count; ++j)
+                Locations[Sets[i].IndexToHandle[j].Slot].SetIndex = -1;
+            Sets[i].Clear();
         }
         owners.ReleaseAll();
-        set.Clear(Pool);
         HandlePool.Clear();
     }
 
     internal void Dispose()
     {
         EndUses();
-        ActiveSet.Dispose(Pool);
+        for (int i = 0; i < Sets.Length; ++i)
+            Sets[i].Dispose(Pool);
         Pool.Return(ref Sets);
         Pool.Return(ref Locations);
         owners.Dispose(Pool);
@@ -319,8 +305,10 @@ public sealed unsafe partial class Bodies
 
     void EndUses()
     {
-        ref var set = ref Sets[0];
-        for (int i = 0; i < set.Count; ++i)
-            shapes.EndUse(set.Collidables[i].Shape);
+        for (int i = 0; i < Sets.Length; ++i)
+        {
+            for (int j = 0; j < Sets[i].Count; ++j)
+                shapes.EndUse(Sets[i].Collidables[j].Shape);
+        }
     }
 }

@@ -2,7 +2,6 @@ using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Collections;
 
 namespace BepuPhysics;
 
@@ -48,7 +47,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Progress towards sleep.</summary>
     public readonly ref BodyActivity Activity => ref Find(out var index).Activity[index];
     /// <summary>Constraints of the body.</summary>
-    public readonly ref QuickList<BodyConstraintReference> Constraints => ref Find(out var index).Constraints[index];
+    public readonly BodyConstraints Constraints => Owner.GetConstraints(Handle);
     /// <summary>The body as the collision detection names it.</summary>
     public readonly CollidableReference CollidableReference => new(Kinematic ? CollidableMobility.Kinematic : CollidableMobility.Dynamic, Handle);
     /// <summary>Whether nothing moves the body.</summary>
@@ -89,7 +88,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Pointers to the bounds of the body in the broad phase; valid until collidables are added or removed.</summary>
     /// <exception cref="InvalidOperationException">The body has no shape, hence no bounds.</exception>
     public readonly unsafe void GetBoundsReferencesFromBroadPhase(out Vector3* min, out Vector3* max) =>
-        Owner.GetBoundsPointers(MemoryLocation.Index, out min, out max);
+        Owner.GetBoundsPointers(ref Find(out var index), index, out min, out max);
 
     /// <summary>Inverse inertia tensor in world axes.</summary>
     public readonly void ComputeInverseInertia(out Symmetric3x3 inverseInertia) =>

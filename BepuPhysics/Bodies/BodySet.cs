@@ -2,7 +2,6 @@ using System.Numerics;
 using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics;
@@ -14,15 +13,6 @@ public struct BodyMemoryLocation
     public int SetIndex;
     /// <summary>Index within the set.</summary>
     public int Index;
-}
-
-/// <summary>A constraint as its body knows it.</summary>
-public struct BodyConstraintReference
-{
-    /// <summary>The constraint.</summary>
-    public ConstraintHandle ConnectingConstraintHandle;
-    /// <summary>Which of the constraint's bodies this one is.</summary>
-    public int BodyIndexInConstraint;
 }
 
 /// <summary>What the integrator keeps of a body beside its state: a row of 32 bytes.</summary>
@@ -74,14 +64,13 @@ public struct BodySet
     /// <summary>Number of each body's joints that make hubs; allocated with the first of them.</summary>
     internal Buffer<int> JointCounts;
     /// <summary>Principal frames of the bodies, as far as they are known; allocated only once a body's inertia is not diagonal.</summary>
-    // They say themselves what they are of: they need not move with the bodies.
     internal Buffer<PrincipalFrame> PrincipalFrames;
     /// <summary>Shape and collision settings of each body.</summary>
     public Buffer<Collidable> Collidables;
     /// <summary>Progress of each body towards sleep.</summary>
     public Buffer<BodyActivity> Activity;
-    /// <summary>Constraints of each body.</summary>
-    public Buffer<QuickList<BodyConstraintReference>> Constraints;
+    /// <summary>Where the list of each body's constraints begins (<see cref="Bodies.GetConstraints"/>).</summary>
+    internal Buffer<ConstraintList> Constraints;
 
     /// <summary>Whether the set has memory.</summary>
     public readonly bool Allocated => IndexToHandle.Allocated;
@@ -91,40 +80,47 @@ public struct BodySet
 
     internal readonly int Capacity => IndexToHandle.Length;
 
+    /// <summary>Every column of the set, in one place: what is done to a body as a whole is done to each of them.</summary>
+    // The handles tell the capacity, so they come last, should the system refuse memory in between.
+    void VisitColumns<TVisitor>(ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
+    {
+        visitor.Visit(ref MotionStates);
+        visitor.Visit(ref LocalInertias);
+        visitor.Visit(ref WorldInertias);
+        visitor.Visit(ref Displacements);
+        visitor.Visit(ref Origins);
+        visitor.Visit(ref SoundPoses);
+        visitor.Visit(ref Collidables);
+        visitor.Visit(ref Activity);
+        visitor.Visit(ref Constraints);
+        if (Stiffness.Allocated)
+            visitor.Visit(ref Stiffness);
+        if (JointCounts.Allocated)
+            visitor.Visit(ref JointCounts);
+        if (PrincipalFrames.Allocated)
+            visitor.Visit(ref PrincipalFrames);
+        visitor.Visit(ref IndexToHandle);
+    }
+
     internal void Resize(int capacity, BufferPool pool)
     {
         capacity = (capacity + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
-        ResizeZeroed(ref MotionStates, capacity, Count, pool);
-        ResizeZeroed(ref LocalInertias, capacity, Count, pool);
-        ResizeZeroed(ref WorldInertias, capacity, Count, pool);
-        ResizeZeroed(ref Displacements, capacity, Count, pool);
-        ResizeZeroed(ref Origins, capacity, Count, pool);
-        ResizeZeroed(ref SoundPoses, capacity, Count, pool);
-        if (Stiffness.Allocated)
-            ResizeZeroed(ref Stiffness, capacity, Count, pool);
-        if (JointCounts.Allocated)
-            ResizeZeroed(ref JointCounts, capacity, Count, pool);
-        if (PrincipalFrames.Allocated)
-            ResizeZeroed(ref PrincipalFrames, capacity, Count, pool);
-        ResizeZeroed(ref Collidables, capacity, Count, pool);
-        ResizeZeroed(ref Activity, capacity, Count, pool);
-        ResizeZeroed(ref Constraints, capacity, Count, pool);
-        // It tells the capacity, so it comes last, should the system refuse memory in between.
-        ResizeZeroed(ref IndexToHandle, capacity, Count, pool);
+        var resize = new ResizeColumns(capacity, Count, pool);
+        VisitColumns(ref resize);
     }
 
     /// <summary>Makes room for geometric stiffness, from the first joint on that can add to it.</summary>
     internal void EnsureStiffness(BufferPool pool)
     {
         if (!Stiffness.Allocated)
-            ResizeZeroed(ref Stiffness, Capacity, 0, pool);
+            new ResizeColumns(Capacity, 0, pool).Visit(ref Stiffness);
     }
 
     /// <summary>Makes room for counts of joints, from the first joint on that is counted.</summary>
     internal void EnsureJointCounts(BufferPool pool)
     {
         if (!JointCounts.Allocated)
-            ResizeZeroed(ref JointCounts, Capacity, 0, pool);
+            new ResizeColumns(Capacity, 0, pool).Visit(ref JointCounts);
     }
 
     /// <summary>Makes room for principal frames, if this is the first body whose inertia is not diagonal.</summary>
@@ -132,19 +128,7 @@ public struct BodySet
     {
         var isDiagonal = inverseInertia.YX == 0 && inverseInertia.ZX == 0 && inverseInertia.ZY == 0;
         if (!isDiagonal && !PrincipalFrames.Allocated)
-            ResizeZeroed(ref PrincipalFrames, Capacity, 0, pool);
-    }
-
-    static void ResizeZeroed<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged
-    {
-        pool.Take<T>(length, out var larger);
-        if (buffer.Allocated)
-        {
-            buffer.CopyTo(0, larger, 0, used);
-            pool.Return(ref buffer);
-        }
-        larger.Clear(used, length - used);
-        buffer = larger;
+            new ResizeColumns(Capacity, 0, pool).Visit(ref PrincipalFrames);
     }
 
     /// <summary>Makes what the integrator keeps of a body agree with a pose that was written in the middle of a step.</summary>
@@ -156,83 +140,25 @@ public struct BodySet
             Stiffness[index] = default;
     }
 
-    // Moves the last body into the place of a removed one.
+    /// <summary>Moves the last body into the place of a removed one. Its own row is zero then, as all rows behind the last body.</summary>
     internal void RemoveAt(int index)
     {
-        var last = --Count;
-        if (index != last)
-        {
-            IndexToHandle[index] = IndexToHandle[last];
-            MotionStates[index] = MotionStates[last];
-            LocalInertias[index] = LocalInertias[last];
-            WorldInertias[index] = WorldInertias[last];
-            Displacements[index] = Displacements[last];
-            Origins[index] = Origins[last];
-            SoundPoses[index] = SoundPoses[last];
-            if (Stiffness.Allocated)
-                Stiffness[index] = Stiffness[last];
-            if (JointCounts.Allocated)
-                JointCounts[index] = JointCounts[last];
-            Collidables[index] = Collidables[last];
-            Activity[index] = Activity[last];
-            Constraints[index] = Constraints[last];
-        }
-        IndexToHandle[last] = default;
-        MotionStates[last] = default;
-        LocalInertias[last] = default;
-        WorldInertias[last] = default;
-        Displacements[last] = default;
-        Origins[last] = default;
-        if (Stiffness.Allocated)
-            Stiffness[last] = default;
-        if (JointCounts.Allocated)
-            JointCounts[last] = default;
-        Collidables[last] = default;
-        Activity[last] = default;
-        Constraints[last] = default;
+        var remove = new MoveRow(--Count, index);
+        VisitColumns(ref remove);
     }
 
     /// <summary>Removes all bodies. No row keeps anything of them, or it would be found by those that come after.</summary>
-    internal void Clear(BufferPool pool)
+    internal void Clear()
     {
-        for (int i = 0; i < Count; ++i)
-            Constraints[i].Dispose(pool);
-        IndexToHandle.Clear(0, Count);
-        MotionStates.Clear(0, Count);
-        LocalInertias.Clear(0, Count);
-        WorldInertias.Clear(0, Count);
-        Displacements.Clear(0, Count);
-        Origins.Clear(0, Count);
-        if (Stiffness.Allocated)
-            Stiffness.Clear(0, Count);
-        if (JointCounts.Allocated)
-            JointCounts.Clear(0, Count);
-        Collidables.Clear(0, Count);
-        Activity.Clear(0, Count);
-        Constraints.Clear(0, Count);
+        var clear = new ClearRows(0, Count);
+        VisitColumns(ref clear);
         Count = 0;
     }
 
     internal void Dispose(BufferPool pool)
     {
-        for (int i = 0; i < Count; ++i)
-            Constraints[i].Dispose(pool);
-        pool.Return(ref IndexToHandle);
-        pool.Return(ref MotionStates);
-        pool.Return(ref LocalInertias);
-        pool.Return(ref WorldInertias);
-        pool.Return(ref Displacements);
-        pool.Return(ref Origins);
-        pool.Return(ref SoundPoses);
-        if (Stiffness.Allocated)
-            pool.Return(ref Stiffness);
-        if (JointCounts.Allocated)
-            pool.Return(ref JointCounts);
-        if (PrincipalFrames.Allocated)
-            pool.Return(ref PrincipalFrames);
-        pool.Return(ref Collidables);
-        pool.Return(ref Activity);
-        pool.Return(ref Constraints);
+        var dispose = new ReturnColumns(pool);
+        VisitColumns(ref dispose);
         Count = 0;
     }
 }

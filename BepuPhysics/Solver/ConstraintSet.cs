@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -12,19 +13,19 @@ public struct ConstraintLocation
     public int SetIndex;
     /// <summary>Batch within the set.</summary>
     public int BatchIndex;
-    /// <summary>Type batch within the batch.</summary>
-    public int TypeBatchIndex;
+    /// <summary>Id of the constraint's type, which tells the type batch within the batch.</summary>
+    public int TypeId;
     /// <summary>Index within the type batch.</summary>
     public int IndexInTypeBatch;
-    /// <summary>Id of the constraint's type.</summary>
-    public int TypeId;
 }
 
 /// <summary>Constraints that can be solved at the same time: no dynamic body occurs in two of them (except in the fallback batch).</summary>
 public struct ConstraintBatch
 {
-    /// <summary>The constraints, by type.</summary>
+    /// <summary>The constraints, by type; none of them is empty. In no particular order.</summary>
     public QuickList<TypeBatch> TypeBatches;
+    // One more than the place of each type in the list; 0 where the batch has none of it.
+    TypePlaces places;
     /// <summary>Slots of the dynamic bodies that occur in the batch; not kept for the fallback batch.</summary>
     public IndexSet DynamicBodies;
 
@@ -38,25 +39,37 @@ public struct ConstraintBatch
     }
 
     /// <summary>Index of the type batch of a type; -1 if there is none.</summary>
-    internal readonly int Find(int typeId)
+    internal readonly int Find(int typeId) => places[typeId] - 1;
+
+    /// <summary>The type batch of a type, created if there is none.</summary>
+    internal ref TypeBatch FindOrCreate(int typeId, BufferPool pool)
     {
-        for (int i = 0; i < TypeBatches.Count; ++i)
+        if (places[typeId] == 0)
         {
-            if (TypeBatches[i].TypeId == typeId)
-                return i;
+            TypeBatches.Add(new TypeBatch { TypeId = typeId }, pool);
+            places[typeId] = (byte)TypeBatches.Count;
         }
-        return -1;
+        return ref TypeBatches[Find(typeId)];
     }
 
-    /// <summary>Index of the type batch of a type, created if there is none.</summary>
-    internal int FindOrCreate(int typeId, BufferPool pool)
+    /// <summary>Gives up a type batch; the last one takes its place.</summary>
+    internal void RemoveTypeBatch(TypeProcessor processor, BufferPool pool)
     {
-        var index = Find(typeId);
-        if (index >= 0)
-            return index;
-        TypeBatches.Add(new TypeBatch { TypeId = typeId }, pool);
-        return TypeBatches.Count - 1;
+        var index = Find(processor.TypeId);
+        var last = TypeBatches.Count - 1;
+        places[TypeBatches[last].TypeId] = (byte)(index + 1);
+        places[processor.TypeId] = 0;
+        processor.Dispose(ref TypeBatches[index], pool);
+        TypeBatches[index] = TypeBatches[last];
+        TypeBatches.Count = last;
     }
+}
+
+/// <summary>A small number per constraint type.</summary>
+[InlineArray(TypeProcessor.MaximumTypeCount)]
+struct TypePlaces
+{
+    byte first;
 }
 
 /// <summary>A set of constraints that are active or asleep together.</summary>

@@ -139,19 +139,6 @@ public sealed unsafe partial class Solver
         public void LoopBody(float i) => Sum += i * i;
     }
 
-    internal void EnumerateOtherBodies<TEnumerator>(in BodyConstraintReference constraint, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
-    {
-        ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
-        var processor = Processor(location.TypeId);
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-        {
-            if (slot == constraint.BodyIndexInConstraint)
-                continue;
-            var index = processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
-            enumerator.LoopBody(bodies.ActiveSet.IndexToHandle[index]);
-        }
-    }
-
     /// <summary>Adds a constraint of a registered type; the caller writes its description.</summary>
     internal ConstraintHandle AddUnwritten(ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
     {
@@ -165,7 +152,7 @@ public sealed unsafe partial class Solver
         var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
         Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
         for (int i = 0; i < bodyHandles.Length; ++i)
-            bodies.AddConstraint(bodyHandles[i], handle, i);
+            Edges.Add(ref bodies.SetOf(bodyHandles[i], out var index).Constraints[index], Edges.EdgeOf(handle.Slot, i));
         if (Processor(typeId).CarriesPointLoad)
             bodies.ActiveSet.EnsureStiffness(pool);
         if (Processor(typeId).MakesHubs)
@@ -180,8 +167,7 @@ public sealed unsafe partial class Solver
         int dynamicCount = 0;
         for (int i = 0; i < bodyHandles.Length; ++i)
         {
-            var bodyIndex = bodies.Locations[bodyHandles[i].Slot].Index;
-            var kinematic = Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]);
+            var kinematic = Bodies.IsKinematic(bodies.SetOf(bodyHandles[i], out var bodyIndex).LocalInertias[bodyIndex]);
             encoded[i] = kinematic ? bodyIndex | EncodedBody.KinematicFlag : bodyIndex;
             if (!kinematic)
                 dynamics[dynamicCount++] = bodyHandles[i].Slot;
@@ -193,10 +179,9 @@ public sealed unsafe partial class Solver
             for (int i = 0; i < dynamicCount; ++i)
                 batch.DynamicBodies.Add(dynamics[i], pool);
         }
-        var typeBatchIndex = batch.FindOrCreate(typeId, pool);
         var index = Processor(typeId).Allocate(
-            ref batch.TypeBatches[typeBatchIndex], handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool);
-        return new() { SetIndex = 0, BatchIndex = batchIndex, TypeBatchIndex = typeBatchIndex, IndexInTypeBatch = index, TypeId = typeId };
+            ref batch.FindOrCreate(typeId, pool), handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool);
+        return new() { SetIndex = 0, BatchIndex = batchIndex, TypeId = typeId, IndexInTypeBatch = index };
     }
 
     int FindBatch(Span<int> dynamics)
@@ -219,10 +204,12 @@ public sealed unsafe partial class Solver
         return FallbackBatchThreshold;
     }
 
+    /// <summary>Takes a constraint out of its batch; type batches, and batches at the end, that have none left go too.</summary>
     void RemoveFromBatch(in ConstraintLocation location)
     {
-        ref var batch = ref Sets[location.SetIndex].Batches[location.BatchIndex];
-        ref var typeBatch = ref batch.TypeBatches[location.TypeBatchIndex];
+        ref var batches = ref Sets[location.SetIndex].Batches;
+        ref var batch = ref batches[location.BatchIndex];
+        ref var typeBatch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
         if (location.BatchIndex < FallbackBatchThreshold)
         {
@@ -230,79 +217,20 @@ public sealed unsafe partial class Solver
             {
                 var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
                 if ((reference & EncodedBody.KinematicFlag) == 0)
-                    batch.DynamicBodies.Remove(bodies.ActiveSet.IndexToHandle[reference & EncodedBody.IndexMask].Slot);
+                    batch.DynamicBodies.Remove(bodies.Sets[location.SetIndex].IndexToHandle[reference & EncodedBody.IndexMask].Slot);
             }
         }
         var index = location.IndexInTypeBatch;
         var moved = processor.Remove(ref typeBatch, index);
         if (moved.Value >= 0)
             Locations[moved.Slot].IndexInTypeBatch = index;
-    }
-
-    void RemoveFromBodies(ConstraintHandle handle)
-    {
-        ref var location = ref Locations[handle.Slot];
-        ref var typeBatch = ref TypeBatchAt(location);
-        var processor = Processor(location.TypeId);
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        if (typeBatch.ConstraintCount == 0)
+            batch.RemoveTypeBatch(processor, pool);
+        // The batches before keep their indices, which tell colours.
+        while (batches.Count > 0 && batches[batches.Count - 1].TypeBatches.Count == 0)
         {
-            var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
-            bodies.RemoveConstraint(reference, handle);
-            if (processor.MakesHubs)
-                ChangeJointCount(reference, -1);
-        }
-    }
-
-    /// <summary>
-    /// Puts the constraints of a body into batches anew, after it became kinematic or dynamic. Impulses and descriptions stay. Constraints
-    /// that are left without a dynamic body are removed.
-    /// </summary>
-    internal void Recolor(BodyHandle body)
-    {
-        var recolored = bodies.Locations[body.Slot].Index;
-        ref var constraints = ref bodies.ActiveSet.Constraints[recolored];
-        ChangeKindOfHub(recolored);
-        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
-        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
-        for (int i = constraints.Count - 1; i >= 0; --i)
-        {
-            var handle = constraints[i].ConnectingConstraintHandle;
-            var old = Locations[handle.Slot];
-            var processor = Processor(old.TypeId);
-            ref var typeBatch = ref TypeBatchAt(old);
-            bool anyDynamic = false;
-            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-            {
-                var index = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
-                handles[slot] = bodies.ActiveSet.IndexToHandle[index];
-                anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[index]);
-            }
-            if (!anyDynamic)
-            {
-                RemoveConstraint(handle);
-                continue;
-            }
-            processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
-            RemoveFromBatch(old);
-            var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
-            Locations[handle.Slot] = location;
-            processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
-            if (processor.MakesHubs)
-                MarkHubs(location);
-        }
-    }
-
-    /// <summary>Follows a body that moved to another index of the active set.</summary>
-    internal void UpdateBodyIndex(int newIndex)
-    {
-        ref var constraints = ref bodies.ActiveSet.Constraints[newIndex];
-        for (int i = 0; i < constraints.Count; ++i)
-        {
-            ref var constraint = ref constraints[i];
-            ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
-            ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
-                constraint.BodyIndexInConstraint);
-            reference = reference & ~EncodedBody.IndexMask | newIndex;
+            DisposeBatch(ref batches[batches.Count - 1]);
+            batches.Count -= 1;
         }
     }
 
@@ -328,7 +256,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < handles.Length; ++i)
         {
             bodies.CheckHandle(handles[i]);
-            anyDynamic |= !Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodies.Locations[handles[i].Slot].Index]);
+            anyDynamic |= !Bodies.IsKinematic(bodies.SetOf(handles[i], out var index).LocalInertias[index]);
             for (int j = 0; j < i; ++j)
             {
                 if (handles[i] == handles[j])

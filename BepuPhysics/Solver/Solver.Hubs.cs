@@ -44,10 +44,9 @@ public sealed unsafe partial class Solver
         CountHub(before, after);
         if (before >= JointsOfHub == after >= JointsOfHub)
             return;
-        ref var constraints = ref bodies.ActiveSet.Constraints[bodyIndex];
-        for (int i = 0; i < constraints.Count; ++i)
+        foreach (var constraint in new BodyConstraints(this, bodies.ActiveSet.Constraints[bodyIndex]))
         {
-            ref var location = ref Locations[constraints[i].ConnectingConstraintHandle.Slot];
+            ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
             if (Processor(location.TypeId).MakesHubs)
                 MarkHubs(location);
         }

@@ -5,16 +5,6 @@ namespace BepuPhysics;
 
 public sealed partial class Solver
 {
-    /// <summary>Whether a constraint has, in the slot that a body's list names, the body at an index of the active set.</summary>
-    internal bool IsBodyOf(in BodyConstraintReference constraint, int bodyIndex)
-    {
-        ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
-        var processor = Processor(location.TypeId);
-        return (uint)constraint.BodyIndexInConstraint < (uint)processor.BodiesPerConstraint &&
-            (processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint) &
-            EncodedBody.IndexMask) == bodyIndex;
-    }
-
     /// <summary>Handles and places, bodies of constraints both ways, batches without common bodies, flags, lanes, impulses.</summary>
     internal void Validate()
     {
@@ -28,7 +18,11 @@ public sealed partial class Solver
         }
         int listedCount = 0;
         for (int i = 0; i < bodies.ActiveSet.Count; ++i)
+        {
+            ValidateList(bodies.ActiveSet.Constraints[i], i);
             listedCount += bodies.ActiveSet.Constraints[i].Count;
+        }
+        // No edge is in a list twice or in two lists, so none is missing either.
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
         ValidateHubs();
         Invariant.Ids(HandlePool, Locations.Length, "constraints", id => Locations[id].SetIndex >= 0);
@@ -46,10 +40,10 @@ public sealed partial class Solver
             ref var typeBatch = ref batch.TypeBatches[typeBatchIndex];
             Invariant.Require((uint)typeBatch.TypeId < MaximumTypeCount && processors[typeBatch.TypeId] is not null, "type of type batch",
                 batchIndex, typeBatchIndex);
-            for (int other = 0; other < typeBatchIndex; ++other)
-                Invariant.Require(batch.TypeBatches[other].TypeId != typeBatch.TypeId, "second type batch of a type", batchIndex, typeBatch.TypeId);
+            Invariant.Require(batch.Find(typeBatch.TypeId) == typeBatchIndex, "place of the type batch of a type", batchIndex, typeBatch.TypeId);
+            Invariant.Require(typeBatch.ConstraintCount > 0, "type batch without constraints", batchIndex, typeBatch.TypeId);
             ValidateCapacity(ref typeBatch, batchIndex);
-            var location = new ConstraintLocation { SetIndex = setIndex, BatchIndex = batchIndex, TypeBatchIndex = typeBatchIndex, TypeId = typeBatch.TypeId };
+            var location = new ConstraintLocation { SetIndex = setIndex, BatchIndex = batchIndex, TypeId = typeBatch.TypeId };
             for (int index = 0; index < typeBatch.ConstraintCount; ++index)
             {
                 location.IndexInTypeBatch = index;
@@ -82,7 +76,7 @@ public sealed partial class Solver
         Invariant.Require(ConstraintExists(handle), "handle of a constraint of type", location.TypeId, location.IndexInTypeBatch);
         ref var known = ref Locations[handle.Slot];
         Invariant.Require(
-            known.SetIndex == location.SetIndex && known.BatchIndex == location.BatchIndex && known.TypeBatchIndex == location.TypeBatchIndex &&
+            known.SetIndex == location.SetIndex && known.BatchIndex == location.BatchIndex &&
             known.IndexInTypeBatch == location.IndexInTypeBatch && known.TypeId == location.TypeId, "location of constraint", handle.Slot);
         var processor = Processor(location.TypeId);
         bool anyDynamic = false;
@@ -93,7 +87,6 @@ public sealed partial class Solver
             Invariant.Require(reference >= 0 && bodyIndex < bodies.ActiveSet.Count, "body of constraint", handle.Slot, slot);
             var kinematic = (reference & EncodedBody.KinematicFlag) != 0;
             Invariant.Require(kinematic == Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]), "kinematic flag of constraint", handle.Slot, slot);
-            Invariant.Require(IsListed(bodyIndex, handle, slot), "list of the body of constraint", handle.Slot, slot);
             for (int other = 0; other < slot; ++other)
             {
                 var otherReference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, other);
@@ -112,21 +105,43 @@ public sealed partial class Solver
             Invariant.Require(float.IsFinite(processor.Impulse(ref typeBatch, location.IndexInTypeBatch, i)), "impulse of constraint", handle.Slot, i);
     }
 
+    // The list is a ring, both ways, of as many edges as it says, each of a constraint that has the body in the place that the edge says.
+    void ValidateList(ConstraintList list, int bodyIndex)
+    {
+        var edge = list.First;
+        for (int i = 0; i < list.Count; ++i)
+        {
+            Invariant.Require(i == 0 || edge != list.First, "length of the list of constraints of body", bodyIndex, list.Count);
+            Invariant.Require(Edges.Contains(edge) && Edges.Contains(Edges.Next(edge)) && Edges.Previous(Edges.Next(edge)) == edge,
+                "list of constraints of body", bodyIndex, i);
+            var slot = Edges.ConstraintSlot(edge);
+            Invariant.Require(slot < Locations.Length && Locations[slot].SetIndex >= 0, "listed constraint of body", bodyIndex, i);
+            ref var location = ref Locations[slot];
+            var processor = Processor(location.TypeId);
+            var bodySlot = Edges.BodySlot(edge);
+            Invariant.Require(bodySlot < processor.BodiesPerConstraint && bodyIndex == (EncodedBody.IndexMask &
+                processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, bodySlot)),
+                "body of a listed constraint of body", bodyIndex, i);
+            edge = Edges.Next(edge);
+        }
+        Invariant.Require(list.Count == 0 || edge == list.First, "end of the list of constraints of body", bodyIndex);
+    }
+
     void ValidateHubs()
     {
         int drawnForOneSweep = 0, drawnForSweeps = 0;
         for (int i = 0; bodies.ActiveSet.JointCounts.Allocated && i < bodies.ActiveSet.Count; ++i)
         {
-            ref var constraints = ref bodies.ActiveSet.Constraints[i];
             int joints = 0;
-            for (int j = 0; j < constraints.Count; ++j)
+            foreach (var constraint in new BodyConstraints(this, bodies.ActiveSet.Constraints[i]))
             {
-                ref var location = ref Locations[constraints[j].ConnectingConstraintHandle.Slot];
+                ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
                 var reference = Processor(location.TypeId).BodyReference(
-                    ref TypeBatchAt(location), location.IndexInTypeBatch, constraints[j].BodyIndexInConstraint);
+                    ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint);
                 var makesHubs = Processor(location.TypeId).MakesHubs;
                 joints += makesHubs ? 1 : 0;
-                Invariant.Require((reference & EncodedBody.HubFlag) != 0 == (makesHubs && Degree(i) >= JointsOfHub), "flag of a hub of body", i, j);
+                var isHub = makesHubs && Degree(i) >= JointsOfHub;
+                Invariant.Require((reference & EncodedBody.HubFlag) != 0 == isHub, "flag of a hub of body", i, location.TypeId);
             }
             Invariant.Require(bodies.ActiveSet.JointCounts[i] == joints, "number of joints of body", i, joints);
             drawnForOneSweep += Degree(i) >= JointsToDrawForOneSweep ? 1 : 0;
@@ -134,17 +149,6 @@ public sealed partial class Solver
         }
         Invariant.Require(hubsToDrawForOneSweep == drawnForOneSweep && hubsToDrawForSweeps == drawnForSweeps, "number of hubs",
             hubsToDrawForOneSweep, hubsToDrawForSweeps);
-    }
-
-    bool IsListed(int bodyIndex, ConstraintHandle handle, int slot)
-    {
-        ref var constraints = ref bodies.ActiveSet.Constraints[bodyIndex];
-        for (int i = 0; i < constraints.Count; ++i)
-        {
-            if (constraints[i].ConnectingConstraintHandle == handle && constraints[i].BodyIndexInConstraint == slot)
-                return true;
-        }
-        return false;
     }
 
     // Unused lanes are gathered from and scattered to: only an empty reference keeps them from touching a body.

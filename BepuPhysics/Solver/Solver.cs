@@ -21,7 +21,7 @@ public delegate int SubstepVelocityIterationScheduler(int substepIndex);
 // occur any number of times: there each occurrence is a body of its own with its share of the mass (SplitBodies).
 public sealed unsafe partial class Solver
 {
-    const int MaximumTypeCount = 128;
+    const int MaximumTypeCount = TypeProcessor.MaximumTypeCount;
 
     readonly WorldLock world;
     readonly Bodies bodies;
@@ -175,8 +175,11 @@ public sealed unsafe partial class Solver
         return new((TypeBatch*)Unsafe.AsPointer(ref TypeBatchAt(location)), location.IndexInTypeBatch);
     }
 
-    internal ref TypeBatch TypeBatchAt(in ConstraintLocation location) =>
-        ref Sets[location.SetIndex].Batches[location.BatchIndex].TypeBatches[location.TypeBatchIndex];
+    internal ref TypeBatch TypeBatchAt(in ConstraintLocation location)
+    {
+        ref var batch = ref Sets[location.SetIndex].Batches[location.BatchIndex];
+        return ref batch.TypeBatches[batch.Find(location.TypeId)];
+    }
 
     internal TypeProcessor Processor(int typeId) => processors[typeId]!;
 
@@ -204,6 +207,7 @@ public sealed unsafe partial class Solver
             for (int i = previous; i < Locations.Length; ++i)
                 Locations[i].SetIndex = -1;
         }
+        Edges.EnsureCapacity(Locations.Length, pool);
         owners.EnsureCapacity(Locations.Length, pool);
         HandlePool.EnsureCapacity(Locations.Length, pool);
     }
@@ -230,7 +234,7 @@ public sealed unsafe partial class Solver
     void DisposeBatch(ref ConstraintBatch batch)
     {
         for (int i = 0; i < batch.TypeBatches.Count; ++i)
-            TypeProcessor.Dispose(ref batch.TypeBatches[i], pool);
+            Processor(batch.TypeBatches[i].TypeId).Dispose(ref batch.TypeBatches[i], pool);
         batch.TypeBatches.Dispose(pool);
         if (batch.DynamicBodies.Flags.Allocated)
             batch.DynamicBodies.Dispose(pool);
@@ -243,6 +247,7 @@ public sealed unsafe partial class Solver
             Sets[i].Batches.Dispose(pool);
         pool.Return(ref Sets);
         pool.Return(ref Locations);
+        Edges.Dispose(pool);
         owners.Dispose(pool);
         HandlePool.Dispose(pool);
     }
@@ -252,6 +257,7 @@ public sealed unsafe partial class Solver
     {
         Sets = default;
         Locations = default;
+        Edges = default;
         owners = default;
         HandlePool = default;
     }

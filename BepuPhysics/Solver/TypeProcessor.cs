@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuUtilities;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
@@ -12,6 +13,9 @@ namespace BepuPhysics.Constraints;
 /// </remarks>
 public abstract class TypeProcessor
 {
+    /// <summary>Ids of types are below this.</summary>
+    internal const int MaximumTypeCount = 128;
+
     /// <summary>Id of the type; set when the type is registered with a solver, -1 before.</summary>
     public int TypeId { get; internal set; } = -1;
     /// <summary>Number of bodies that a constraint of this type connects.</summary>
@@ -70,11 +74,8 @@ public abstract class TypeProcessor
         if (index != last)
         {
             moved = batch.IndexToHandle[last];
-            batch.IndexToHandle[index] = moved;
-            CopyColumn(ref batch.Prestep, PrestepFloats, last, index);
-            CopyColumn(ref batch.AccumulatedImpulses, ImpulseFloats, last, index);
-            for (int slot = 0; slot < BodiesPerConstraint; ++slot)
-                BodyReference(ref batch, index, slot) = BodyReference(ref batch, last, slot);
+            var move = new MoveInBundles(last, index);
+            VisitColumns(ref batch, ref move);
         }
         for (int slot = 0; slot < BodiesPerConstraint; ++slot)
             BodyReference(ref batch, last, slot) = EncodedBody.Empty;
@@ -111,43 +112,32 @@ public abstract class TypeProcessor
             Impulse(ref batch, index, i) = column[PrestepFloats + i];
     }
 
-    internal static void Dispose(ref TypeBatch batch, BufferPool pool)
+    /// <summary>Every column of a type batch, in one place, with the number of values that a constraint has in it.</summary>
+    // The handles tell the capacity, so they come last, should the system refuse memory in between.
+    void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IBundleColumnVisitor
     {
+        visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
+        visitor.Visit(ref batch.Prestep, PrestepFloats);
+        visitor.Visit(ref batch.AccumulatedImpulses, ImpulseFloats);
+        visitor.Visit(ref batch.IndexToHandle, 1);
+    }
+
+    internal void Dispose(ref TypeBatch batch, BufferPool pool)
+    {
+        var dispose = new ReturnBundles(pool);
         if (batch.IndexToHandle.Allocated)
-        {
-            pool.Return(ref batch.IndexToHandle);
-            pool.Return(ref batch.BodyReferences);
-            pool.Return(ref batch.Prestep);
-            pool.Return(ref batch.AccumulatedImpulses);
-        }
+            VisitColumns(ref batch, ref dispose);
         batch = default;
     }
 
     internal void Resize(ref TypeBatch batch, int capacity, BufferPool pool)
     {
-        // Whole bundles are addressed, so all buffers hold whole bundles.
-        var lanes = Vector<float>.Count;
-        var bundles = (capacity + lanes - 1) / lanes;
-        var used = batch.BundleCount * lanes;
-        ResizeExactly(ref batch.BodyReferences, bundles * lanes * BodiesPerConstraint, used * BodiesPerConstraint, pool);
-        ResizeExactly(ref batch.Prestep, bundles * lanes * PrestepFloats, used * PrestepFloats, pool);
-        ResizeExactly(ref batch.AccumulatedImpulses, bundles * lanes * ImpulseFloats, used * ImpulseFloats, pool);
-        // It tells the capacity, so it comes last, should the system refuse memory in between.
-        ResizeExactly(ref batch.IndexToHandle, bundles * lanes, batch.ConstraintCount, pool);
+        // Whole bundles are addressed, so all columns hold whole bundles.
+        var resize = new ResizeBundles(BundleIndexing.GetBundleCount(capacity), batch.BundleCount, pool);
+        VisitColumns(ref batch, ref resize);
     }
 
-    static void ResizeExactly<T>(ref Buffer<T> buffer, int length, int used, BufferPool pool) where T : unmanaged
-    {
-        pool.Take<T>(length, out var larger);
-        if (buffer.Allocated)
-        {
-            buffer.CopyTo(0, larger, 0, used);
-            pool.Return(ref buffer);
-        }
-        buffer = larger;
-    }
-
-    static int ColumnStart(int floats, int index) =>
+    internal static int ColumnStart(int floats, int index) =>
         index / Vector<float>.Count * floats * Vector<float>.Count + index % Vector<float>.Count;
 
     // Unused lanes are computed with and never stored. Zeros keep them from being slow denormals or from trapping in a checked build.
@@ -165,13 +155,5 @@ public abstract class TypeProcessor
         var start = ColumnStart(floats, index);
         for (int i = 0; i < floats; ++i)
             buffer[start + i * Vector<float>.Count] = 0;
-    }
-
-    static void CopyColumn(ref Buffer<float> buffer, int floats, int source, int target)
-    {
-        var from = ColumnStart(floats, source);
-        var to = ColumnStart(floats, target);
-        for (int i = 0; i < floats; ++i)
-            buffer[to + i * Vector<float>.Count] = buffer[from + i * Vector<float>.Count];
     }
 }

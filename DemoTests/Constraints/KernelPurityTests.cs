@@ -102,7 +102,7 @@ public unsafe class KernelPurityTests
             }
             outcomes.Add(constraint, [.. outcome]);
         }
-        TypeProcessor.Dispose(ref batch, pool);
+        processor.Dispose(ref batch, pool);
         pool.Return(ref motions);
         pool.Return(ref inertias);
         pool.Return(ref stiffness);

@@ -55,7 +55,7 @@ public unsafe class InliningTests
         // Once a step, in its first substep.
         processor.WarmStart(ref batch, bodies, new Substep(0, 1 / 240f), 0, 1);
         processor.Solve(ref batch, bodies, substep, 0, 1);
-        TypeProcessor.Dispose(ref batch, pool);
+        processor.Dispose(ref batch, pool);
         pool.Return(ref motions);
         pool.Return(ref inertias);
         pool.Return(ref stiffness);

@@ -37,8 +37,10 @@ public class ValidationTests
         ["rows behind the last body"] = world => Set(
             ref world.Bodies.ActiveSet.MotionStates[world.Bodies.ActiveSet.Count].Velocity.Linear.X, 1,
             value => world.Bodies.ActiveSet.MotionStates[world.Bodies.ActiveSet.Count].Velocity.Linear.X = value),
-        ["body of a listed constraint"] = world => Set(
-            ref world.Bodies[new(1)].Constraints[0].BodyIndexInConstraint, 7, value => world.Bodies[new(1)].Constraints[0].BodyIndexInConstraint = value),
+        ["body of a listed constraint"] = world => Set(ref List(world, 1), List(world, 5), value => List(world, 1) = value),
+        ["end of the list"] = world => Set(ref List(world, 1).Count, 1, value => List(world, 1).Count = value),
+        ["length of the list"] = world => Set(ref List(world, 1).Count, 9, value => List(world, 1).Count = value),
+        ["list of constraints of body"] = world => Set(ref List(world, 1).First, 1 << 30, value => List(world, 1).First = value),
         ["index of static"] = world => Set(ref world.Statics.HandleToIndex[0], 1, value => world.Statics.HandleToIndex[0] = value),
         ["orientation of static"] = world => Set(ref world.Statics[0].Pose.Orientation.W, float.NaN, value => world.Statics[0].Pose.Orientation.W = value),
         ["collidable of the leaf of static"] = world => Set(ref world.Statics[0].BroadPhaseIndex, 1, value => world.Statics[0].BroadPhaseIndex = value),
@@ -168,6 +170,9 @@ public class ValidationTests
     }
 
     static int Removed(TestWorld world) => world.Bodies.HandlePool.HighestPossiblyClaimedId;
+
+    static ref ConstraintList List(TestWorld world, int body) =>
+        ref world.Bodies.ActiveSet.Constraints[world.Bodies[new(body)].MemoryLocation.Index];
 
     static int Joint(TestWorld world) => world.Bodies[new(5)].Constraints[0].ConnectingConstraintHandle.Value;
 

@@ -35,7 +35,13 @@ static class FuzzFingerprint
         Add(ref hash, set.Collidables, set.Count);
         Add(ref hash, set.Activity, set.Count);
         for (int i = 0; i < set.Count; ++i)
-            Add(ref hash, set.Constraints[i].Span, set.Constraints[i].Count);
+        {
+            foreach (var constraint in bodies[set.IndexToHandle[i]].Constraints)
+            {
+                hash.Add(constraint.ConnectingConstraintHandle.Value);
+                hash.Add(constraint.BodyIndexInConstraint);
+            }
+        }
         AddIds(ref hash, bodies.HandlePool);
         hash.Add(bodies.MinimumConstraintCapacityPerBody);
     }

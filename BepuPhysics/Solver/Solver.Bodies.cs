@@ -1,0 +1,107 @@
+using System;
+using BepuPhysics.Constraints;
+using BepuUtilities;
+
+namespace BepuPhysics;
+
+// From bodies to their constraints and back.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Which constraints each body has.</summary>
+    internal ConstraintEdges Edges;
+
+    /// <summary>What an edge says to a game.</summary>
+    internal BodyConstraintReference ReferenceOf(int edge) => new()
+    {
+        ConnectingConstraintHandle = new(owners.ValueAt(Edges.ConstraintSlot(edge))),
+        BodyIndexInConstraint = Edges.BodySlot(edge),
+    };
+
+    internal void EnumerateOtherBodies<TEnumerator>(in BodyConstraintReference constraint, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
+    {
+        ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            if (slot == constraint.BodyIndexInConstraint)
+                continue;
+            var index = processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+            enumerator.LoopBody(bodies.Sets[location.SetIndex].IndexToHandle[index]);
+        }
+    }
+
+    /// <summary>Removes all constraints of a body, from the last to the first.</summary>
+    internal void RemoveConstraintsOf(ref ConstraintList list)
+    {
+        while (list.Count > 0)
+            RemoveConstraint(ReferenceOf(Edges.Previous(list.First)).ConnectingConstraintHandle);
+    }
+
+    void RemoveFromBodies(ConstraintHandle handle)
+    {
+        ref var location = ref Locations[handle.Slot];
+        ref var typeBatch = ref TypeBatchAt(location);
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+            Edges.Remove(ref bodies.Sets[location.SetIndex].Constraints[reference], Edges.EdgeOf(handle.Slot, slot));
+            if (processor.MakesHubs)
+                ChangeJointCount(reference, -1);
+        }
+    }
+
+    /// <summary>
+    /// Puts the constraints of a body into batches anew, after it became kinematic or dynamic. Impulses and descriptions stay. Constraints
+    /// that are left without a dynamic body are removed.
+    /// </summary>
+    internal void Recolor(BodyHandle body)
+    {
+        ref var set = ref bodies.SetOf(body, out var recolored);
+        ref var constraints = ref set.Constraints[recolored];
+        var edge = constraints.First;
+        ChangeKindOfHub(recolored);
+        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        for (int i = constraints.Count; i > 0; --i)
+        {
+            // From the last to the first; those that follow stay where they are when one is removed.
+            edge = Edges.Previous(edge);
+            var handle = ReferenceOf(edge).ConnectingConstraintHandle;
+            var old = Locations[handle.Slot];
+            var processor = Processor(old.TypeId);
+            ref var typeBatch = ref TypeBatchAt(old);
+            bool anyDynamic = false;
+            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+            {
+                var index = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+                handles[slot] = set.IndexToHandle[index];
+                anyDynamic |= !Bodies.IsKinematic(set.LocalInertias[index]);
+            }
+            if (!anyDynamic)
+            {
+                RemoveConstraint(handle);
+                continue;
+            }
+            processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+            RemoveFromBatch(old);
+            var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
+            Locations[handle.Slot] = location;
+            processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+            if (processor.MakesHubs)
+                MarkHubs(location);
+        }
+    }
+
+    /// <summary>Follows a body that moved to another index of its set.</summary>
+    internal void UpdateBodyIndex(in BodySet set, int newIndex)
+    {
+        foreach (var constraint in new BodyConstraints(this, set.Constraints[newIndex]))
+        {
+            ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
+            ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
+                constraint.BodyIndexInConstraint);
+            reference = reference & ~EncodedBody.IndexMask | newIndex;
+        }
+    }
+}
