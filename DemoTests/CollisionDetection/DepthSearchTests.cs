@@ -77,7 +77,9 @@ public class DepthSearchTests(ITestOutputHelper output)
                 // Among garbage, in another order.
                 var slots = Enumerable.Range(0, a.Count * 3).OrderBy(_ => random.Next()).Take(a.Count).ToArray();
                 var otherStates = new DepthSearchState[a.Count];
-                Assert.Equal(expected, DepthSearchShape.Find(a, b, places, margins, otherStates, slots));
+                var outcomes = DepthSearchShape.Find(a, b, places, margins, otherStates, slots);
+                Assert.Equal(expected, outcomes);
+                Assert.Equal(Bits(expected), Bits(outcomes));
                 Assert.Equal(states, otherStates);
             }
             // And with states.
@@ -86,6 +88,12 @@ public class DepthSearchTests(ITestOutputHelper output)
             Assert.Equal(again, DepthSearchShape.Find(a, b, places, margins, [.. states], shuffled));
         }
     }
+
+    // Equal numbers may be zeros of different signs.
+    static int[] Bits(SearchOutcome[] outcomes) => [.. outcomes.Where(outcome => outcome.Near).SelectMany<SearchOutcome, float>(outcome =>
+    [
+        outcome.Depth, outcome.Normal.X, outcome.Normal.Y, outcome.Normal.Z, outcome.PointOnA.X, outcome.PointOnA.Y, outcome.PointOnA.Z,
+    ]).Select(BitConverter.SingleToInt32Bits)];
 
     [Fact]
     public void Remembered_pairs_keep_their_simplex_beside_new_ones()
@@ -103,7 +111,9 @@ public class DepthSearchTests(ITestOutputHelper output)
             DepthSearchState[] aloneStates = [.. states];
             int[] slots = [.. Enumerable.Range(0, a.Count).Select(i => i * Vector<float>.Count)];
             var alone = DepthSearchShape.Find(a, b, places, margins, aloneStates, slots);
-            Assert.Equal(alone, DepthSearchShape.Find(a, b, places, margins, states));
+            var together = DepthSearchShape.Find(a, b, places, margins, states);
+            Assert.Equal(alone, together);
+            Assert.Equal(Bits(alone), Bits(together));
             Assert.Equal(aloneStates, states);
         }
     }

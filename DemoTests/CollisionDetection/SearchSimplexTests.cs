@@ -75,6 +75,33 @@ public class SearchSimplexTests
         Assert.InRange((found - new Vector3(target)).Length, 0, distance + 2 * Tolerance);
     }
 
+    // In the simplex of a hull's corner the weights are one and two zeros, whose signs are those of the way to the target.
+    [Fact]
+    public void Weights_of_points_have_the_same_bits_beside_triangles_that_the_target_is_beside_of()
+    {
+        var triangle = new SearchSimplex();
+        triangle.A.Point = Vector3Wide.Broadcast(new(-3, 0, 0));
+        triangle.B.Point = Vector3Wide.Broadcast(new(-2, 0, 0));
+        triangle.C.Point = Vector3Wide.Broadcast(new(-3, 1, 0));
+        var isPoint = Vector.Equals(Vector<int>.Indices & Vector<int>.One, Vector<int>.Zero);
+        for (int signs = 0; signs < 8; ++signs)
+        {
+            var corner = new Vector3((signs & 1) == 0 ? .3f : -.3f, (signs & 2) == 0 ? .5f : -.5f, (signs & 4) == 0 ? .7f : -.7f);
+            var point = new SearchSimplex();
+            point.A.Point = point.B.Point = point.C.Point = Vector3Wide.Broadcast(corner);
+            var mixed = triangle;
+            mixed.A.Keep(Vector.OnesComplement(isPoint), point.A);
+            mixed.B.Keep(Vector.OnesComplement(isPoint), point.B);
+            mixed.C.Keep(Vector.OnesComplement(isPoint), point.C);
+            var alone = point.GetWeights(Vector3Wide.Zero);
+            var beside = mixed.GetWeights(Vector3Wide.Zero);
+            Assert.Equal(Bits(alone), Bits(beside));
+        }
+
+        static int[] Bits(Vector3Wide weights) =>
+            [BitConverter.SingleToInt32Bits(weights.X[0]), BitConverter.SingleToInt32Bits(weights.Y[0]), BitConverter.SingleToInt32Bits(weights.Z[0])];
+    }
+
     // Over the plane of the triangle as its corners were rounded.
     static double Height(Vector3 point, Vector3 a, Vector3 b, Vector3 c)
     {

@@ -222,7 +222,8 @@ struct SearchSimplex
             var side = longEdge - shortEdge;
             var alongSide = Wide.Clamp(Wide.DivideOrZero(Vector3Wide.Dot(q - shortEdge, side), side.LengthSquared()), zero, one);
             var alongShort = Wide.Clamp(Wide.DivideOrZero(Vector3Wide.Dot(q, shortEdge), squaredShort), zero, one);
-            longWeight = Wide.Select(beyondMask, alongSide, Wide.Max(longWeight, zero));
+            // Not by a maximum: in lanes that are neither, that would turn a zero that is negative.
+            longWeight = Wide.Select(beyondMask, alongSide, Wide.Mask(Vector.OnesComplement(beforeMask), longWeight));
             shortWeight = Wide.Select(beyondMask, one - alongSide, Wide.Select(beforeMask, alongShort, shortWeight));
         }
         return new(one - longWeight - shortWeight, Wide.Select(longIsB, longWeight, shortWeight), Wide.Select(longIsB, shortWeight, longWeight));
