@@ -73,6 +73,20 @@ public sealed class FaceShapePairTests : IDisposable
             HullAt, i => HullAt(i * 7));
     }
 
+    // Every third has a corner of two to four degrees.
+    static Triangle SometimesNeedleAt(int i) => i % 3 != 0
+        ? TriangleAt(i)
+        : new(new(-1.5f, 0.1f, 0.2f), new(Varied(i, 5), 0.3f, -0.3f), new(Varied(i, 5), 0.3f, -0.16f)) { TwoSided = true };
+
+    [Fact]
+    public void LanesArePureBesideNeedles()
+    {
+        FaceShapePairs<Box, BoxWide, BoxFeature, Triangle, TriangleWide, TriangleFeature>.AssertLanesArePure(BoxAt, SometimesNeedleAt);
+        FaceShapePairs<Capsule, CapsuleWide, CapsuleFeature, Triangle, TriangleWide, TriangleFeature>.AssertLanesArePure(CapsuleAt, SometimesNeedleAt);
+        FaceShapePairs<Triangle, TriangleWide, TriangleFeature, Triangle, TriangleWide, TriangleFeature>.AssertLanesArePure(
+            i => SometimesNeedleAt(i + 1), SometimesNeedleAt);
+    }
+
     [Fact]
     public void ContactsLieOnBothFeatures()
     {

@@ -4,7 +4,9 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using BepuUtilities.Memory;
+using DemoTests.Numerics;
 using Xunit;
 
 namespace DemoTests.Constraints;
@@ -66,7 +68,10 @@ public unsafe class KernelPurityTests
         stiffness.Clear(0, stiffness.Length);
         var batch = default(TypeBatch);
         for (int body = 0; body < motions.Length; ++body)
+        {
             FillBody(new Random(1000 + body), out motions[body], out inertias[body], out displacements[body]);
+            MakeUncommon(body / bodiesPerConstraint, body % bodiesPerConstraint, ref inertias[body]);
+        }
         var references = new int[bodiesPerConstraint];
         foreach (var constraint in order)
         {
@@ -99,6 +104,8 @@ public unsafe class KernelPurityTests
             {
                 ref var velocity = ref motions[constraint * bodiesPerConstraint + slot].Velocity;
                 outcome.AddRange([velocity.Linear.X, velocity.Linear.Y, velocity.Linear.Z, velocity.Angular.X, velocity.Angular.Y, velocity.Angular.Z]);
+                ref var load = ref stiffness[constraint * bodiesPerConstraint + slot].InverseInertiaTensor;
+                outcome.AddRange([load.XX, load.YX, load.YY, load.ZX, load.ZY, load.ZZ]);
             }
             outcomes.Add(constraint, [.. outcome]);
         }
@@ -123,6 +130,51 @@ public unsafe class KernelPurityTests
         inertia.InverseInertiaTensor.YX = random.NextSingle() * 0.3f;
         displacement = new(Vector(random, 0.01f), Vector(random, 0.01f));
     }
+
+    // What some lanes branch for: bodies that are by far easier to turn than what they are joined to, so that welds hold them by their centre and
+    // point joints load them, and bodies that nothing but rotations can move.
+    static void MakeUncommon(int constraint, int slot, ref BodyInertia inertia)
+    {
+        var tensor = inertia.InverseInertiaTensor;
+        if (constraint % 4 == 1 && slot == 0)
+            inertia.InverseInertiaTensor = tensor + tensor * 20;
+        else if (constraint % 4 == 3)
+            inertia = slot == 0 ? new() { InverseInertiaTensor = tensor } : default;
+    }
+
+    [Fact]
+    public void A_load_that_stiffens_one_body_leaves_those_beside_it_alone()
+    {
+        var random = new Random(5);
+        for (int trial = 0; trial < 50; ++trial)
+        {
+            var inertias = new Symmetric3x3Wide();
+            var loads = new Symmetric3x3Wide();
+            var velocities = new Vector3Wide();
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                FillBody(random, out var motion, out var inertia, out _);
+                Lanes.Write(inertia.InverseInertiaTensor, ref inertias, lane);
+                Lanes.Write(motion.Velocity.Angular, ref velocities, lane);
+                // Nothing, what a substep resolves, what it does not, and what has no bounds.
+                var load = inertia.InverseInertiaTensor * (random.Next(4) switch { 0 => 0, 1 => 10, 2 => 1e7f, _ => 1e30f });
+                Lanes.Write(load, ref loads, lane);
+            }
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                var (inertia, velocity) = (inertias, velocities);
+                GeometricStiffness.Apply(loads, new Vector<float>(1 / 240f), ref inertia, ref velocity);
+                var aloneInertia = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref inertias, lane));
+                var aloneVelocity = Lanes.Broadcast<Vector3, Vector3Wide>(Lanes.Read<Vector3, Vector3Wide>(ref velocities, lane));
+                var aloneLoad = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref loads, lane));
+                GeometricStiffness.Apply(aloneLoad, new Vector<float>(1 / 240f), ref aloneInertia, ref aloneVelocity);
+                Assert.Equal(Bits(aloneInertia, 0), Bits(inertia, lane));
+                Assert.Equal(Bits(aloneVelocity, 0), Bits(velocity, lane));
+            }
+        }
+    }
+
+    static long[] Bits<T>(T wide, int lane) where T : unmanaged => [.. WideSamples.Lane(wide, lane).Select(BitConverter.DoubleToInt64Bits)];
 
     static Vector3 Vector(Random random, float size) => (new Vector3(random.NextSingle(), random.NextSingle(), random.NextSingle()) * 2 - Vector3.One) * size;
 
