@@ -1,5 +1,6 @@
 using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
@@ -39,6 +40,19 @@ static unsafe class OverlapFinder
         {
             runs.Dispose(pool);
         }
+    }
+
+    /// <summary>Compiles what is generic over a handler.</summary>
+    internal static void Compile<THandler>() where THandler : struct, IBroadPhaseOverlapHandler
+    {
+        Precompilation.Compile(typeof(OverlapFinder), nameof(Find), typeof(THandler));
+        Precompilation.Compile(typeof(OverlapFinder), nameof(FindOnCaller), typeof(THandler));
+        Precompilation.Compile(typeof(OverlapFinder), nameof(FindOnWorkers), typeof(THandler));
+        Precompilation.Compile(typeof(ActiveConsumer<THandler>));
+        Precompilation.Compile(typeof(StaticConsumer<THandler>));
+        StagedWork.Compile<FindWork<THandler>>();
+        Precompilation.Compile(typeof(RunTraversal<THandler, ActiveConsumer<THandler>>));
+        Precompilation.Compile(typeof(RunTraversal<THandler, StaticConsumer<THandler>>));
     }
 
     static void FindOnCaller<THandler>(in Tree activeTree, in Tree staticTree, in LeafRuns runs, ref THandler handler)

@@ -192,6 +192,9 @@ public sealed partial class Shapes
         pool.RemoveUser(this);
     }
 
+    /// <summary>Whether there is any shape of a type.</summary>
+    internal bool HasAny(int typeIndex) => typeIndex < batches.Length && batches[typeIndex] is { Count: > 0 };
+
     /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
     internal ShapeBatch GetBatch(int typeIndex) => batches[typeIndex]!;
 

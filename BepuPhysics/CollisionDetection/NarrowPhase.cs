@@ -68,6 +68,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
     internal abstract void Flush();
     internal abstract void DisposeCallbacks();
+    /// <summary>Compiles what is generic over the callbacks of a game, without calling them.</summary>
+    /// <param name="shapeTypes">Ids of the shape types whose tests are compiled.</param>
+    internal abstract void Compile(ReadOnlySpan<int> shapeTypes);
 
     internal void Clear()
     {

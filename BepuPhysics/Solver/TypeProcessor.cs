@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints;
 /// One call per type batch and stage goes through this class; everything inside a call is specialised for the type. Storing and moving
 /// constraints needs no specialisation: a constraint is a column of numbers.
 /// </remarks>
-public abstract class TypeProcessor
+public abstract partial class TypeProcessor
 {
     /// <summary>Ids of types are below this.</summary>
     internal const int MaximumTypeCount = 128;

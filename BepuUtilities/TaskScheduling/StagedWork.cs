@@ -1,6 +1,7 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.ExceptionServices;
+using BepuUtilities.Diagnostics;
 
 namespace BepuUtilities.TaskScheduling;
 
@@ -44,6 +45,15 @@ public static unsafe class StagedWork
         }
         if (stage < stageCount)
             Dispatch(ref work, dispatcher!, workerCount, stage, stageCount, blockCount);
+    }
+
+    /// <summary>Compiles what <see cref="Run"/> needs for a kind of work.</summary>
+    public static void Compile<TWork>() where TWork : struct, IStagedWork
+    {
+        foreach (var name in (ReadOnlySpan<string>)[nameof(Run), nameof(Dispatch), nameof(RunWorker)])
+            Precompilation.Compile(typeof(StagedWork), name, typeof(TWork));
+        Precompilation.Compile(typeof(StagedRun<TWork>));
+        Precompilation.Compile(typeof(TWork));
     }
 
     static void Dispatch<TWork>(ref TWork work, IThreadDispatcher dispatcher, int workerCount, int stage, int stageCount, int blockCount)

@@ -1,0 +1,36 @@
+using System;
+using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.CollisionDetection;
+
+// What is compiled for the callbacks of a game: this class, and what it is handed to.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    internal override void Compile(ReadOnlySpan<int> shapeTypes)
+    {
+        var manifold = typeof(ConvexContactManifold);
+        Precompilation.Compile(typeof(NarrowPhase<TCallbacks>));
+        Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(Complete), manifold);
+        Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(OnPairCompleted), manifold);
+        Precompilation.Compile(typeof(Completion), nameof(ICollisionCallbacks.OnPairCompleted), manifold);
+        Precompilation.Compile(typeof(TCallbacks));
+        Precompilation.Compile(typeof(TCallbacks), nameof(INarrowPhaseCallbacks.ConfigureContactManifold), manifold);
+        Precompilation.Compile(typeof(CollisionBatcher<Completion>));
+        Precompilation.Compile(typeof(BroadPhase), nameof(BroadPhase.FindOverlapsOfLeaves), typeof(Overlaps));
+        StagedWork.Compile<FlushWork>();
+        Precompilation.Compile(typeof(QuickList<PendingPair>));
+        Precompilation.Compile(typeof(QuickList<BouncingPair>));
+        Precompilation.Compile(typeof(QuickList<PairKey>));
+        OverlapFinder.Compile<Overlaps>();
+        foreach (var a in shapeTypes)
+        {
+            foreach (var b in shapeTypes)
+            {
+                if (a <= b && CollisionTaskRegistry.TryGetTask(a, b, out var task))
+                    Precompilation.Compile(task.GetType(), nameof(CollisionTask.Execute), typeof(Completion));
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Diagnostics;
+
+namespace BepuPhysics;
+
+// Before the first step.
+public sealed partial class Simulation
+{
+    static readonly int[] convexTypes = [Sphere.Id, Capsule.Id, Box.Id, Triangle.Id, Cylinder.Id, ConvexHull.Id];
+
+    /// <summary>
+    /// Compiles what steps will need, so that no step of a game waits for the compiler when shapes or joints of two types meet for the first time.
+    /// </summary>
+    /// <remarks>
+    /// Takes from half a second to a few, once per process and type; later calls, also of other simulations, only compile what is new. Changes nothing
+    /// in the simulation: a small world of its own takes some steps, constraints of all registered types are solved for no body, and what is compiled
+    /// for the game's callbacks is compiled without calling them. Of shapes it takes the types that <see cref="Shapes"/> has when it is called, or
+    /// all if there are none yet; shape types and collision tasks of a game's own come into it with their first pair. Where nothing is compiled
+    /// at run time, it does nothing.
+    /// </remarks>
+    /// <param name="threadDispatcher">Threads that steps will use; null for the calling thread alone.</param>
+    public void WarmUp(IThreadDispatcher? threadDispatcher = null)
+    {
+        using var change = world.Change("Simulation.WarmUp");
+        if (!RuntimeFeature.IsDynamicCodeCompiled)
+            return;
+        var used = Array.FindAll(convexTypes, Shapes.HasAny);
+        Rehearsal.Run(used.Length > 0 ? used : convexTypes, threadDispatcher);
+        Solver.Rehearse();
+        NarrowPhase.Compile(used.Length > 0 ? used : convexTypes);
+        Precompilation.Compile(PoseIntegrator.GetType());
+    }
+}

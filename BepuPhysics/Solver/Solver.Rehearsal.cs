@@ -1,0 +1,12 @@
+namespace BepuPhysics;
+
+// Code of constraints, compiled ahead of time.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Runs the loops of each registered type over a bundle without constraints.</summary>
+    internal void Rehearse()
+    {
+        foreach (var processor in processors)
+            processor?.Rehearse(pool);
+    }
+}

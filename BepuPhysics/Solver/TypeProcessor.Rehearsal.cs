@@ -1,0 +1,47 @@
+using System;
+using System.Numerics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints;
+
+// A bundle of unused lanes: they read body 0 and write nothing.
+public abstract partial class TypeProcessor
+{
+    // As many calls as a runtime that compiles in tiers wants to see before it compiles a method well.
+    const int RehearsalCount = 40;
+
+    /// <summary>Runs every loop of the type over a bundle without constraints, so that it is compiled.</summary>
+    internal unsafe void Rehearse(BufferPool pool)
+    {
+        var batch = default(TypeBatch);
+        Span<int> none = stackalloc int[BodiesPerConstraint];
+        none.Fill(EncodedBody.Empty);
+        Allocate(ref batch, new(0), none, Vector<float>.Count, pool);
+        var parts = BodiesPerConstraint * Vector<float>.Count;
+        pool.Take<float>(parts, out var shares);
+        pool.Take<BodyVelocity>(parts, out var velocities);
+        shares.AsSpan().Fill(1);
+        // Aligned as rows of bodies are; all of them zero but the rotation.
+        pool.Take<MotionState>(1, out var motions);
+        pool.Take<BodyInertia>(3, out var inertias);
+        motions[0] = new() { Pose = RigidPose.Identity };
+        inertias.Clear(0, 3);
+        var bodies = new SolverBodies(
+            motions.Memory, inertias.Memory, (BodyVelocity*)(inertias.Memory + 1), inertias.Memory + 2);
+        var split = new SplitBodies(shares.Memory, velocities.Memory);
+        for (int i = 0; i < RehearsalCount; ++i)
+        {
+            // Of the first substep, of a later one, and of a relaxation.
+            var substep = new Substep(i % 2, 1 / 240f, relaxations: i % 3, isRelaxation: i % 3 == 2);
+            WarmStart(ref batch, bodies, substep, 0, 1);
+            Solve(ref batch, bodies, substep, 0, 1);
+            WarmStartSplit(ref batch, bodies, split, substep, 0, 1);
+            SolveSplit(ref batch, bodies, split, substep, 0, 1);
+        }
+        Dispose(ref batch, pool);
+        pool.Return(ref shares);
+        pool.Return(ref velocities);
+        pool.Return(ref motions);
+        pool.Return(ref inertias);
+    }
+}
