@@ -220,6 +220,21 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
 
     internal override void Flush()
     {
+        try
+        {
+            ApplyPending();
+        }
+        finally
+        {
+            // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
+            if (order.Span.Allocated)
+                order.Dispose(Pool);
+            ReleaseWorkers();
+        }
+    }
+
+    void ApplyPending()
+    {
         RemoveUnseenPairs();
         order = new QuickList<PairKey>(64, Pool);
         for (int i = 0; i < workers.Length; ++i)
@@ -234,8 +249,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
         }
         WatchBouncingPairs();
-        order.Dispose(Pool);
-        ReleaseWorkers();
     }
 
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
