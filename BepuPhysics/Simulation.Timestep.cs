@@ -83,6 +83,12 @@ public sealed partial class Simulation
             if (Solver.EndsWithVelocities)
                 Quarantine.StopUnsound();
         }
+        catch
+        {
+            // A callback threw in the middle of a substep: what constraints have made of velocities would have been looked at when it ends.
+            Quarantine.StopUnsound();
+            throw;
+        }
         finally
         {
             Quarantine.Collect();
