@@ -21,6 +21,7 @@ static class FuzzFingerprint
         AddTree(ref hash, simulation.BroadPhase.ActiveTree);
         AddTree(ref hash, simulation.BroadPhase.StaticTree);
         hash.Add(simulation.NarrowPhase.PairCount);
+        hash.Add(MemoryMarshal.AsBytes(simulation.Quarantine.Bodies));
         hash.Add(simulation.Deterministic ? 1 : 0);
         return hash.Value;
     }

@@ -22,6 +22,9 @@ sealed class FuzzPlan
     /// <summary>Whether pairs are refused.</summary>
     public bool RefusesPairs;
 
+    /// <summary>Whether one thread makes the step: nothing else goes on while it is in a callback.</summary>
+    public bool IsAlone;
+
     /// <summary>Does something in a callback to come, once.</summary>
     public void Do(int afterCalls, Action what)
     {

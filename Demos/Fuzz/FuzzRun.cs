@@ -15,12 +15,13 @@ namespace Demos.Fuzz;
 sealed class FuzzRun : IDisposable
 {
     const int CallsAfterDispose = 20;
+    const int ThreadCount = 3;
 
     readonly FuzzSettings settings;
     readonly TextWriter output;
-    readonly ThreadDispatcher dispatcher = new(3);
     readonly FuzzTrace trace;
-    long calls, refusals, unfinished;
+    ThreadDispatcher dispatcher = new(ThreadCount);
+    long calls, refusals, stopped;
 
     public FuzzRun(FuzzSettings settings, TextWriter output)
     {
@@ -29,8 +30,8 @@ sealed class FuzzRun : IDisposable
         trace = new FuzzTrace(settings.TracePath);
     }
 
-    /// <summary>Calls that were made, and those of them that were refused; worlds that ended early, because of a state that is not finite.</summary>
-    public (long Calls, long Refusals, long Unfinished) Counts => (calls, refusals, unfinished);
+    /// <summary>Calls that were made, and those of them that were refused; how often steps stopped bodies because of their numbers.</summary>
+    public (long Calls, long Refusals, long Stopped) Counts => (calls, refusals, stopped);
 
     /// <summary>Runs all worlds, or the one that is asked for, and returns the number of those that failed.</summary>
     public int Run(CancellationToken stop)
@@ -75,7 +76,40 @@ sealed class FuzzRun : IDisposable
     Failure? RunWorld(int number, ulong seed, bool[]? included, List<string>? list)
     {
         trace.BeginWorld(settings.Seed, number);
-        using var world = new FuzzWorld(seed, settings.Scope, dispatcher) { IsVerbose = list is not null };
+        var world = new FuzzWorld(seed, settings.Scope, dispatcher) { IsVerbose = list is not null };
+        Failure? failure = CallWorld(world, seed, included, list);
+        stopped += world.StoppedCount;
+        try
+        {
+            world.Dispose();
+        }
+        catch (InvalidOperationException error)
+        {
+            // Somebody takes a world at rest for a busy one.
+            failure ??= new Failure(settings.CallsPerWorld, "disposal of the pool", error);
+        }
+        if (failure is not null)
+            RenewDispatcher();
+        return failure;
+    }
+
+    // What a failure has left in the memory of the workers must not fail the worlds that come after it.
+    void RenewDispatcher()
+    {
+        ThreadDispatcher used = dispatcher;
+        dispatcher = new(ThreadCount);
+        try
+        {
+            used.Dispose();
+        }
+        catch (InvalidOperationException error)
+        {
+            output.WriteLine("the workers' pools are held after a failure: " + error.Message);
+        }
+    }
+
+    Failure? CallWorld(FuzzWorld world, ulong seed, bool[]? included, List<string>? list)
+    {
         int call = 0;
         string name = "creation";
         try
@@ -93,11 +127,6 @@ sealed class FuzzRun : IDisposable
                 var outcome = Call(world, operation);
                 if (list is not null)
                     list[^1] += world.Arguments + (outcome is null ? "" : " -> " + outcome.Message);
-                if (!world.IsFinite() && !settings.Scope.HasFlag(FuzzScope.Finite))
-                {
-                    ++unfinished;
-                    break;
-                }
                 ulong after = FuzzFingerprint.Of(world.Simulation);
                 if (outcome is not null && after != state && !world.Plan.WasCalled)
                     throw new FuzzFailure($"refused ({outcome.Message}), but changed something");

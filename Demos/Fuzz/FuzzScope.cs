@@ -23,9 +23,5 @@ enum FuzzScope
     BadCounts = 64,
     /// <summary>Calls after the simulation was disposed.</summary>
     AfterDispose = 128,
-    /// <summary>Whatever was accepted must be simulated: a state that is not finite is a failure.</summary>
-    Finite = 256,
-    All = 511,
-    /// <summary>What the library bears as it is: bodies that become infinite end a world without a failure.</summary>
-    Held = All & ~Finite,
+    All = 255,
 }

@@ -12,7 +12,7 @@ sealed record FuzzSettings
     /// <summary>The one world to run; all when null.</summary>
     public int? World { get; init; }
 
-    public FuzzScope Scope { get; init; } = FuzzScope.Held;
+    public FuzzScope Scope { get; init; } = FuzzScope.All;
 
     /// <summary>Failures after which a run ends.</summary>
     public int MaximumFailures { get; init; } = 1;

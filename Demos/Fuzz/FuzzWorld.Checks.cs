@@ -1,4 +1,4 @@
-using System.Numerics;
+using System;
 using BepuPhysics;
 using BepuUtilities.Diagnostics;
 
@@ -18,30 +18,22 @@ sealed partial class FuzzWorld
             throw new FuzzFailure($"{Simulation.Bodies.CountBodies()} bodies, {Bodies.Live.Count} handles");
         if (Statics.Live.Count != Simulation.Statics.Count)
             throw new FuzzFailure($"{Simulation.Statics.Count} statics, {Statics.Live.Count} handles");
-        if (call % CallsPerValidation != 0)
-            return;
-        try
-        {
-            Simulation.Validate();
-        }
-        catch (PhysicsInvariantException error)
-        {
-            throw new FuzzFailure("invalid state: " + error.Message, error);
-        }
+        CheckWorkers();
+        CheckNumbers();
+        if (call % CallsPerValidation == 0)
+            Validate();
     }
 
-    /// <summary>Whether the state of every body is made of numbers.</summary>
-    public bool IsFinite()
+    // They hold memory for no longer than a stage of a step, however that ends.
+    void CheckWorkers()
     {
-        ref BodySet set = ref Simulation.Bodies.ActiveSet;
-        for (int i = 0; i < set.Count; ++i)
+        try
         {
-            ref MotionState motion = ref set.MotionStates[i];
-            Vector3 sum = motion.Pose.Position * 0 + motion.Velocity.Linear * 0 + motion.Velocity.Angular * 0;
-            Quaternion q = motion.Pose.Orientation * 0f;
-            if (sum != Vector3.Zero || q.X + q.Y + q.Z + q.W != 0)
-                return false;
+            dispatcher.WorkerPools.AssertEmpty();
         }
-        return true;
+        catch (InvalidOperationException error)
+        {
+            throw new FuzzFailure("memory of the workers was not returned: " + error.Message, error);
+        }
     }
 }

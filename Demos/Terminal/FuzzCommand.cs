@@ -13,7 +13,11 @@ static class FuzzCommand
     public static Command Create(Func<ParseResult, Func<int>, int> guard)
     {
         var seed = new Option<int>("--seed") { Description = "Seed of all that is drawn.", DefaultValueFactory = _ => defaults.Seed };
-        var count = new Option<long>("--count") { Description = "Number of calls.", DefaultValueFactory = _ => defaults.Calls };
+        var count = new Option<long>("--count")
+        {
+            Description = "Number of calls; a million take about five minutes.",
+            DefaultValueFactory = _ => defaults.Calls,
+        };
         var perWorld = new Option<int>("--calls-per-world")
         {
             Description = "Calls until a simulation is disposed of and the next created.",
@@ -23,8 +27,7 @@ static class FuzzCommand
         var scope = new Option<int>("--scope")
         {
             Description = "Kinds of misuse, added up: 1 stale references, 2 calls from callbacks, 4 bad values from callbacks, 8 callbacks that throw, "
-                + "16 removal of used shapes, 32 bad values written through references, 64 bad counts, 128 calls after disposal, 256 whatever "
-                + "is accepted must stay finite.",
+                + "16 removal of used shapes, 32 bad values written through references, 64 bad counts, 128 calls after disposal.",
             DefaultValueFactory = _ => (int)defaults.Scope,
         };
         var failures = new Option<int>("--failures") { Description = "Failures to end after.", DefaultValueFactory = _ => defaults.MaximumFailures };
@@ -58,9 +61,9 @@ static class FuzzCommand
         using var signal = new StopSignal();
         using var run = new FuzzRun(settings, output);
         int failed = run.Run(signal.Token);
-        (long calls, long refusals, long unfinished) = run.Counts;
+        (long calls, long refusals, long stopped) = run.Counts;
         output.WriteLine(FormattableString.Invariant(
-            $"{calls} calls, {refusals} refused, {unfinished} worlds not finite, {failed} failures, seed {settings.Seed}"));
+            $"{calls} calls, {refusals} refused, {stopped} bodies stopped, {failed} failures, seed {settings.Seed}"));
         return failed > 0 ? DemosCommand.Unsound : signal.Token.IsCancellationRequested ? DemosCommand.Stopped : DemosCommand.Finished;
     }
 }

@@ -25,6 +25,7 @@ public class RandomCallsTests
         Assert.True(failures == 0, output.ToString());
         // Both kinds, or there was nothing to see.
         Assert.InRange(run.Counts.Refusals, run.Counts.Calls / 50, run.Counts.Calls * 3 / 4);
+        Assert.NotEqual(0, run.Counts.Stopped);
     }
 
     [Fact]

@@ -1,4 +1,6 @@
+using System;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -54,9 +56,21 @@ static class BodyOperations
         Of("ApplyAngularImpulse", 6, (w, body) => body.ApplyAngularImpulse(Spoiled(w, 2))),
         Of("Pose written", 4, (w, body) => body.Pose = w.AnyPose()),
         Of("Velocity written", 4, (w, body) => body.Velocity = new BodyVelocity(w.Random.Vector(6), w.Random.Vector(6))),
-        Of("Pose written badly", 1, (w, body) => body.Pose = w.Random.Spoil(w.AnyPose(), w.Has(FuzzScope.DirectWrites) ? 40 : 0)),
-        Of("Velocity written badly", 1, (w, body) => body.Velocity =
-            w.Random.Spoil(new BodyVelocity(w.Random.Vector(6), w.Random.Vector(6)), w.Has(FuzzScope.DirectWrites) ? 40 : 0)),
+        Of("Pose written badly", 1, (w, body) =>
+        {
+            RigidPose pose = w.Random.Spoil(w.AnyPose(), w.Has(FuzzScope.DirectWrites) ? 40 : 0);
+            w.Tell($"{pose.Position} {pose.Orientation}");
+            body.Pose = pose;
+            w.NoteWritten(body);
+        }),
+        Of("Velocity written badly", 1, (w, body) =>
+        {
+            var velocity = w.Random.Spoil(new BodyVelocity(w.Random.Vector(6), w.Random.Vector(6)), w.Has(FuzzScope.DirectWrites) ? 40 : 0);
+            w.Tell($"{velocity.Linear} {velocity.Angular}");
+            body.Velocity = velocity;
+            w.NoteWritten(body);
+        }),
+        Of("LocalInertia written", 1, WriteInertia),
     ];
 
     struct Counter : IForEach<BodyHandle>
@@ -87,6 +101,21 @@ static class BodyOperations
         w.Bodies.Live.Add(w.Simulation.Bodies.Add(description));
     }
 
+    // A reference must not make a body kinematic or dynamic; what is no number counts as dynamic.
+    static void WriteInertia(FuzzWorld w, BodyReference body)
+    {
+        BodyInertia inertia = Inertia(w);
+        int badPlace = w.Random.Percent(40) ? w.Random.Below(7) : -1;
+        float bad = w.Random.Of((ReadOnlySpan<float>)[float.NaN, float.PositiveInfinity, float.NegativeInfinity]);
+        if (badPlace >= 0 && w.Has(FuzzScope.DirectWrites))
+            MemoryMarshal.Cast<BodyInertia, float>(new Span<BodyInertia>(ref inertia))[badPlace] = bad;
+        w.Tell($"m {inertia.InverseMass} I {Entries(inertia.InverseInertiaTensor)}");
+        if (body.Kinematic || Bodies.IsKinematic(inertia))
+            return;
+        body.LocalInertia = inertia;
+        w.NoteWritten(body);
+    }
+
     static BodyDescription Describe(FuzzWorld w)
     {
         FuzzRandom random = w.Random;
@@ -111,7 +140,7 @@ static class BodyOperations
 
     static string Entries(in Symmetric3x3 t) => FormattableStringOf($"{t.XX} {t.YX} {t.YY} {t.ZX} {t.ZY} {t.ZZ}");
 
-    static string FormattableStringOf(System.FormattableString text) => System.FormattableString.Invariant(text);
+    static string FormattableStringOf(FormattableString text) => FormattableString.Invariant(text);
 
     // Cubes and rods, light and heavy, at times at an angle; some turn about one axis only, some not at all, some do not move.
     static BodyInertia Inertia(FuzzWorld w)

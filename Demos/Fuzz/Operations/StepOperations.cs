@@ -10,24 +10,25 @@ static class StepOperations
 {
     public static FuzzOperation[] All { get; } =
     [
-        new("Timestep", 60, w => w.Simulation.Timestep(Dt(w), w.AnyDispatcher())),
-        new("Timestep of bad length", 6, w => w.Simulation.Timestep(w.Random.Spoil(Dt(w), 60), w.AnyDispatcher())),
+        new("Timestep", 60, w => Timestep(w, Dt(w), w.AnyDispatcher())),
+        new("Timestep of bad length", 6, w => Timestep(w, w.Random.Spoil(Dt(w), 60), w.AnyDispatcher())),
         new("The stages of a step", 6, w =>
         {
             float dt = Dt(w);
             ThreadDispatcher? dispatcher = w.AnyDispatcher();
-            w.Simulation.PredictBoundingBoxes(dt, dispatcher);
-            w.Simulation.CollisionDetection(dt, dispatcher);
-            w.Simulation.Solve(dt, dispatcher);
+            w.Look(() => w.Simulation.PredictBoundingBoxes(dt, dispatcher), looksAtInertias: true);
+            w.Look(() => w.Simulation.CollisionDetection(dt, dispatcher));
+            w.Look(() => w.Simulation.Solve(dt, dispatcher));
         }),
         new("PredictBoundingBoxes", 1, w =>
         {
-            w.Simulation.PredictBoundingBoxes(w.Random.Spoil(Dt(w)), w.AnyDispatcher());
+            w.Look(() => w.Simulation.PredictBoundingBoxes(w.Random.Spoil(Dt(w)), w.AnyDispatcher()), looksAtInertias: true);
             // The tree is fitted by the stage that follows.
             w.Simulation.BroadPhase.Update();
         }),
-        new("CollisionDetection", 1, w => w.Simulation.CollisionDetection(w.Random.Spoil(Dt(w)), w.AnyDispatcher())),
-        new("Solve", 1, w => w.Simulation.Solve(w.Random.Spoil(Dt(w)), w.AnyDispatcher())),
+        new("CollisionDetection", 1, w => w.Look(() =>
+            w.Simulation.CollisionDetection(w.Random.Spoil(Dt(w)), w.AnyDispatcher()))),
+        new("Solve", 1, w => w.Look(() => w.Simulation.Solve(w.Random.Spoil(Dt(w)), w.AnyDispatcher()))),
         new("Timestep that refuses pairs", 2, w => Step(w, plan => plan.RefusesPairs = true)),
         new("Timestep with another material", 4, w => Step(w, plan => plan.Material = new(
             w.Random.Number(0, 2), w.Random.Number(0, 5), new SpringSettings(w.Random.Magnitude(1, 100), w.Random.Number(0, 2))))),
@@ -55,6 +56,12 @@ static class StepOperations
         return dt;
     }
 
+    static void Timestep(FuzzWorld w, float dt, ThreadDispatcher? dispatcher)
+    {
+        w.Look(() => w.Simulation.Timestep(dt, dispatcher), looksAtInertias: true);
+        w.StoppedCount += w.Simulation.Quarantine.Count;
+    }
+
     static FuzzOperation[] Bad(string what, Action<FuzzWorld, FuzzPlan> change) =>
     [
         new($"Timestep with a bad {what}", 2, w =>
@@ -68,10 +75,11 @@ static class StepOperations
     {
         float dt = Dt(w);
         ThreadDispatcher? dispatcher = w.AnyDispatcher();
+        w.Plan.IsAlone = dispatcher is null;
         change(w.Plan);
         try
         {
-            w.Simulation.Timestep(dt, dispatcher);
+            Timestep(w, dt, dispatcher);
         }
         finally
         {
@@ -90,6 +98,9 @@ static class StepOperations
         {
             FuzzRandom outer = w.Random;
             w.Random = new FuzzRandom(seed);
+            // Where other threads work at the step, what they change meanwhile cannot be told from what the call changes.
+            bool isAlone = w.Plan.IsAlone;
+            ulong before = isAlone ? FuzzFingerprint.Of(w.Simulation) : 0;
             try
             {
                 inner.Run(w);
@@ -98,6 +109,8 @@ static class StepOperations
             {
                 if (!FuzzRun.IsRefusal(error) && error is not FuzzCallbackException)
                     failure = error;
+                else if (isAlone && FuzzFingerprint.Of(w.Simulation) != before)
+                    failure = new FuzzFailure($"refused ({error.Message}), but changed something", error);
             }
             finally
             {

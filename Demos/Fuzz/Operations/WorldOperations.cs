@@ -1,4 +1,5 @@
 using BepuPhysics;
+using BepuUtilities.Diagnostics;
 
 namespace Demos.Fuzz.Operations;
 
@@ -8,7 +9,7 @@ static class WorldOperations
     public static FuzzOperation[] All { get; } =
     [
         new("Simulation.Clear", 1, w => w.Simulation.Clear()),
-        new("Simulation.Validate", 2, w => w.Simulation.Validate()),
+        new("Simulation.Validate", 2, Validate),
         new("Simulation.EnsureCapacity", 2, w => w.Simulation.EnsureCapacity(Sizes(w))),
         new("BroadPhase.EnsureCapacity", 1, w => w.Simulation.BroadPhase.EnsureCapacity(w.AnyCount(), w.AnyCount())),
         new("BroadPhase.Resize", 2, w => w.Simulation.BroadPhase.Resize(w.AnyCount(), w.AnyCount())),
@@ -20,6 +21,18 @@ static class WorldOperations
             other.Timestep(0.01f);
         }),
     ];
+
+    // It may say that there is a number that was written through a reference. What else it may have to say then is found after the call.
+    static void Validate(FuzzWorld w)
+    {
+        try
+        {
+            w.Simulation.Validate();
+        }
+        catch (PhysicsInvariantException) when (w.HasUnsoundNumbers)
+        {
+        }
+    }
 
     static SimulationAllocationSizes Sizes(FuzzWorld w) =>
         new(w.AnyCount(), w.AnyCount(), w.AnyCount(), w.AnyCount(), w.AnyCount(), w.AnyCount(), w.AnyCount());
