@@ -35,7 +35,10 @@ public class BrokenSolveTests
                 new SolveDescription(1, 4) { RelaxationIterationCount = relaxations });
             BodyHandle last = default;
             for (int i = 0; i < BodyCount; ++i)
-                last = simulation.Bodies.Add(BodyDescription.CreateDynamic(new Vector3(3 * i, 0, 0), new Sphere(1).ComputeInertia(1), default(TypedIndex), .01f));
+            {
+                var pose = new RigidPose(new Vector3(3 * i, 0, 0));
+                last = simulation.Bodies.Add(BodyDescription.CreateDynamic(pose, new Sphere(1).ComputeInertia(1), default(TypedIndex), .01f));
+            }
             simulation.Solver.Add(last, new Poison { Factor = float.NaN });
 
             plan.Do(callsBefore, () => throw new FuzzCallbackException());

@@ -1,6 +1,5 @@
 using System;
 using BepuPhysics;
-using BepuUtilities.Diagnostics;
 
 namespace Demos.Fuzz;
 
