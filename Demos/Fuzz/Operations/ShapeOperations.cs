@@ -68,11 +68,10 @@ static class ShapeOperations
                 throw new FuzzFailure("no hull, without a reason");
             return;
         }
+        TypedIndex name;
         try
         {
-            TypedIndex name = w.Shapes.Add(hull);
-            w.ShapeNames.Live.Add(name);
-            w.Hulls.Add(name, hull);
+            name = w.Shapes.Add(hull);
         }
         catch (Exception error)
         {
@@ -81,6 +80,8 @@ static class ShapeOperations
                 throw new FuzzFailure("a hull was created and then refused: " + error.Message, error);
             throw;
         }
+        w.ShapeNames.Live.Add(name);
+        w.Hulls.Add(name, hull);
     }
 
     static void MakeHull(FuzzWorld w)
