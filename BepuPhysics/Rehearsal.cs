@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Threading;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -12,6 +13,10 @@ readonly struct Rehearsal : IDisposable
     // A runtime that compiles in tiers counts to thirty before it compiles a method well, and starts to do so a tenth of a second later.
     const int StepCount = 40;
     const float Spacing = 10;
+    const int ThreadsBit = 1 << 31;
+
+    // Shape types that this process has rehearsed, as bits, and whether it did so with threads: what is compiled stays so.
+    static int rehearsed;
 
     readonly BufferPool pool;
     readonly Simulation simulation;
@@ -47,6 +52,11 @@ readonly struct Rehearsal : IDisposable
     /// <param name="dispatcher">Threads to use; null for the calling thread alone.</param>
     internal static void Run(ReadOnlySpan<int> types, IThreadDispatcher? dispatcher)
     {
+        var parts = dispatcher is null ? 0 : ThreadsBit;
+        foreach (var type in types)
+            parts |= 1 << type;
+        if ((Interlocked.Or(ref rehearsed, parts) & parts) == parts)
+            return;
         using var pool = new BufferPool();
         using var rehearsal = new Rehearsal(pool);
         var place = 0;

@@ -147,6 +147,7 @@ static class LockOperations
     static void Whole(Dictionary<string, (OperationKind, Action<LockedWorld>)> list)
     {
         list.Add("Simulation.Clear", (OperationKind.Change, w => w.Simulation.Clear()));
+        list.Add("Simulation.WarmUp", (OperationKind.Change, w => w.Simulation.WarmUp()));
         list.Add("Simulation.EnsureCapacity", (OperationKind.Change, w => w.Simulation.EnsureCapacity(new(5000, 5000, 0, 100, 5000, 16, 4))));
         list.Add("Simulation.PredictBoundingBoxes", (OperationKind.Stage, w => w.Simulation.PredictBoundingBoxes(LockedWorld.Dt, w.Dispatcher)));
         list.Add("Simulation.CollisionDetection", (OperationKind.Stage, w => w.Simulation.CollisionDetection(LockedWorld.Dt, w.Dispatcher)));
