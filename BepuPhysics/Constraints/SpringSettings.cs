@@ -12,9 +12,6 @@ namespace BepuPhysics.Constraints;
 /// </remarks>
 public struct SpringSettings
 {
-    // Beyond half a period per substep an implicit spring has no stiffness left to gain.
-    const float MaximumCycles = 0.5f;
-
     /// <summary>Undamped angular frequency, rad/s; 0 for rigid.</summary>
     public float AngularFrequency;
     /// <summary>Twice the damping ratio; unused when rigid, which is critically damped.</summary>
@@ -36,22 +33,12 @@ public struct SpringSettings
     /// <remarks>Joints of a dynamic body that has three or more of them take <see cref="ContactCyclesPerSubstep"/>, if that is less.</remarks>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
     /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
-    // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either
-    // kind, moves a load over one more joint and is worth another 0.125 up to three, and half as much from there. Joints of bodies that have
-    // three or more are no stiffer than contacts (Solver.Hubs.cs).
-    public static float JointCyclesPerSubstep(int iterations, int relaxations = 0)
-    {
-        var sweeps = iterations + relaxations;
-        return MathF.Min(MathF.Min(0.125f * sweeps, 0.0625f * (sweeps + 3)), MaximumCycles);
-    }
+    public static float JointCyclesPerSubstep(int iterations, int relaxations = 0) => SubstepStiffness.JointCycles(iterations, relaxations);
 
     /// <summary>Frequency of rigid contacts in periods per substep; without relaxations, the upper limit of every contact's.</summary>
     /// <param name="iterations">Sweeps per substep, at least 1.</param>
     /// <param name="relaxations">Sweeps without correction of position, at least 0.</param>
-    // The worst case is a heap of many boxes: pyramids of 20 layers stay where they are with these values, and begin to shift at 0.25 with
-    // two sweeps, 0.4 with four and 0.5 with six.
-    public static float ContactCyclesPerSubstep(int iterations, int relaxations = 0) =>
-        MathF.Min(0.0625f * (iterations + relaxations + 1), MaximumCycles);
+    public static float ContactCyclesPerSubstep(int iterations, int relaxations = 0) => SubstepStiffness.ContactCycles(iterations, relaxations);
 
     /// <summary>Undamped frequency, Hz; 0 for rigid.</summary>
     public float Frequency

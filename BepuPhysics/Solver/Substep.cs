@@ -52,10 +52,10 @@ public readonly struct Substep
         var forJoints = MathHelper.Min(length, GreatestJointLength);
         var forContacts = MathHelper.Min(length, GreatestContactLength);
         // Relaxations leave servos and what a game gave a frequency alone, and so do nothing for how stiff these may be.
-        var joint = SpringSettings.JointCyclesPerSubstep(iterations, relaxations);
-        var unrelaxedJoint = SpringSettings.JointCyclesPerSubstep(iterations);
-        var contact = SpringSettings.ContactCyclesPerSubstep(iterations, relaxations);
-        var unrelaxedContact = SpringSettings.ContactCyclesPerSubstep(iterations);
+        var joint = SubstepStiffness.JointCycles(iterations, relaxations);
+        var unrelaxedJoint = SubstepStiffness.JointCycles(iterations);
+        var contact = SubstepStiffness.ContactCycles(iterations, relaxations);
+        var unrelaxedContact = SubstepStiffness.ContactCycles(iterations);
         Joints = new(joint * forJoints, unrelaxedJoint * forJoints);
         Servos = new(unrelaxedJoint * forJoints, unrelaxedJoint * forJoints);
         Hubs = new(contact * forHubs, unrelaxedContact * forHubs);
@@ -73,8 +73,26 @@ public readonly struct Substep
 /// <param name="greatestCycles">Upper limit of frequencies that a game gives, in periods per substep.</param>
 public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
 {
+    // Beyond half a period per substep an implicit spring has no stiffness left to gain.
+    const float MaximumCycles = 0.5f;
+
     /// <summary>Angular frequency of rigid constraints times the length of the substep: that of the usual substep, and more with relaxations.</summary>
     public readonly float RigidFrequencyDt = MathF.Tau * rigidCycles;
     /// <summary>Greatest angular frequency that a game may give, times the length of the substep: at it the sweeps are stable without relaxations.</summary>
     public readonly float GreatestFrequencyDt = MathF.Tau * greatestCycles;
+
+    /// <summary>Frequency of joints that a number of sweeps can hold, in periods per substep.</summary>
+    // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either
+    // kind, moves a load over one more joint and is worth another 0.125 up to three, and half as much from there. Joints of bodies that have
+    // three or more are no stiffer than contacts (Solver.Hubs.cs).
+    internal static float JointCycles(int iterations, int relaxations = 0)
+    {
+        var sweeps = iterations + relaxations;
+        return MathF.Min(MathF.Min(0.125f * sweeps, 0.0625f * (sweeps + 3)), MaximumCycles);
+    }
+
+    /// <summary>Frequency of contacts that a number of sweeps can hold, in periods per substep.</summary>
+    // The worst case is a heap of many boxes: pyramids of 20 layers stay where they are with these values, and begin to shift at 0.25 with
+    // two sweeps, 0.4 with four and 0.5 with six.
+    internal static float ContactCycles(int iterations, int relaxations = 0) => MathF.Min(0.0625f * (iterations + relaxations + 1), MaximumCycles);
 }

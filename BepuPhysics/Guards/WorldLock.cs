@@ -67,7 +67,7 @@ sealed class WorldLock
     /// <summary>Refuses what comes after the end, where it is known that it does.</summary>
     [DoesNotReturn]
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal void ThrowEnded() => throw new ObjectDisposedException(nameof(Simulation), end);
+    internal void ThrowEnded() => throw new ObjectDisposedException("Simulation", end);
 
     /// <summary>Begins a change by the calling thread.</summary>
     /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
