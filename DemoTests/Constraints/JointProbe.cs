@@ -7,20 +7,64 @@ using BepuUtilities;
 namespace DemoTests.Constraints;
 
 /// <summary>Runs the parts of one type of joint for a sample in one lane, beside other samples in the other lanes.</summary>
-sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>
+/// <remarks>Written against the description alone: the types of the rows are found in the processor that it creates.</remarks>
+abstract class JointProbe<TDescription> where TDescription : unmanaged
+{
+    public abstract RowKind Kind { get; }
+    public abstract int BodyCount { get; }
+    public abstract int RowCount { get; }
+    public abstract void Set(int lane, TDescription description, ReadOnlySpan<SampleBody> samples);
+    public abstract void SetImpulse(int lane, ReadOnlySpan<double> values);
+    /// <summary>Copies a lane with everything in it.</summary>
+    public abstract void CopyLane(int lane, JointProbe<TDescription> target, int targetLane);
+    /// <summary>Bits of all that a sweep can change in a lane.</summary>
+    public abstract int[] LaneBits(int lane);
+    public abstract double[] Impulse(int lane);
+    /// <summary>Linear and angular velocity of each body.</summary>
+    public abstract double[] Velocity(int lane);
+    public abstract double[] PositionError(int lane);
+    public abstract double[] RelativeVelocity(int lane);
+    public abstract double[] Geometry(int lane);
+    public abstract void ApplyImpulse();
+    /// <summary>Inverse effective mass as a dense matrix.</summary>
+    public abstract double[,] InverseEffectiveMass(int lane);
+    public abstract void WarmStart(in Substep substep);
+    public abstract void Solve(in Substep substep);
+}
+
+/// <summary>Makes probes of joint types.</summary>
+static class JointProbes
+{
+    public static JointProbe<TDescription> New<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription> =>
+        (JointProbe<TDescription>)Activator.CreateInstance(TypeOf<TDescription>())!;
+
+    // TypeProcessor<TBodies, TWide, TRows, JointConstraint<TBodies, TWide, TGeometry, TRows, TMass, TJoint>>
+    static Type TypeOf<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        var constraint = TDescription.CreateTypeProcessor().GetType().GetGenericArguments()[3];
+        var parts = constraint.GetGenericArguments();
+        return typeof(JointProbe<,,,,,,>).MakeGenericType(typeof(TDescription), parts[1], parts[0], parts[2], parts[3], parts[4], parts[5]);
+    }
+}
+
+/// <summary>The same for the types that the rows consist of.</summary>
+sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> : JointProbe<TDescription>
     where TDescription : unmanaged where TWide : unmanaged, IWide<TDescription>
     where TBodies : unmanaged, IBodySlots where TGeometry : unmanaged
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
     where TJoint : unmanaged, IJoint<TBodies, TWide, TGeometry, TRows, TMass>
 {
-    public static readonly int RowCount = Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
-    public static readonly int Coordinates = TBodies.Count * 6;
+    static readonly int Coordinates = TBodies.Count * 6;
+
+    public override RowKind Kind => TJoint.Kind;
+    public override int BodyCount => TBodies.Count;
+    public override int RowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
 
     TBodies bodies;
     TWide prestep;
     TRows impulses;
 
-    public void Set(int lane, TDescription description, ReadOnlySpan<SampleBody> samples)
+    public override void Set(int lane, TDescription description, ReadOnlySpan<SampleBody> samples)
     {
         Lanes.Write(description, ref prestep, lane);
         for (int i = 0; i < TBodies.Count; ++i)
@@ -36,22 +80,21 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
         }
     }
 
-    public void SetImpulse(int lane, ReadOnlySpan<double> values)
+    public override void SetImpulse(int lane, ReadOnlySpan<double> values)
     {
         for (int i = 0; i < RowCount; ++i)
             Row(ref impulses, i) = Row(ref impulses, i).WithElement(lane, (float)values[i]);
     }
 
-    /// <summary>Copies a lane with everything in it.</summary>
-    public void CopyLane(int lane, JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> target, int targetLane)
+    public override void CopyLane(int lane, JointProbe<TDescription> target, int targetLane)
     {
-        Lanes.Copy(ref bodies, lane, ref target.bodies, targetLane);
-        Lanes.Copy(ref prestep, lane, ref target.prestep, targetLane);
-        Lanes.Copy(ref impulses, lane, ref target.impulses, targetLane);
+        var other = (JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>)target;
+        Lanes.Copy(ref bodies, lane, ref other.bodies, targetLane);
+        Lanes.Copy(ref prestep, lane, ref other.prestep, targetLane);
+        Lanes.Copy(ref impulses, lane, ref other.impulses, targetLane);
     }
 
-    /// <summary>Bits of all that a sweep can change in a lane.</summary>
-    public int[] LaneBits(int lane)
+    public override int[] LaneBits(int lane)
     {
         var bits = new int[RowCount + Coordinates];
         for (int i = 0; i < RowCount; ++i)
@@ -62,10 +105,9 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
         return bits;
     }
 
-    public double[] Impulse(int lane) => Read(ref impulses, RowCount, lane);
+    public override double[] Impulse(int lane) => Read(ref impulses, RowCount, lane);
 
-    /// <summary>Linear and angular velocity of each body.</summary>
-    public double[] Velocity(int lane)
+    public override double[] Velocity(int lane)
     {
         var result = new double[Coordinates];
         for (int i = 0; i < TBodies.Count; ++i)
@@ -77,44 +119,43 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
         return result;
     }
 
-    public double[] PositionError(int lane)
+    public override double[] PositionError(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         return Read(ref error, RowCount, lane);
     }
 
-    public double[] RelativeVelocity(int lane)
+    public override double[] RelativeVelocity(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         return Read(ref velocity, RowCount, lane);
     }
 
-    public double[] Geometry(int lane)
+    public override double[] Geometry(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         return Read(ref geometry, Unsafe.SizeOf<TGeometry>() / Unsafe.SizeOf<Vector<float>>(), lane);
     }
 
-    public void ApplyImpulse()
+    public override void ApplyImpulse()
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.ApplyImpulse(geometry, ref bodies, impulses);
     }
 
-    /// <summary>Inverse effective mass as a dense matrix.</summary>
-    public double[,] InverseEffectiveMass(int lane)
+    public override double[,] InverseEffectiveMass(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.InverseEffectiveMass(geometry, bodies, out var mass);
         return RowMatrices.Dense(mass, lane);
     }
 
-    public void WarmStart(in Substep substep) =>
+    public override void WarmStart(in Substep substep) =>
         JointConstraint<TBodies, TWide, TGeometry, TRows, TMass, TJoint>.WarmStart(ref bodies, substep, ref prestep, ref impulses);
 
-    public void Solve(in Substep substep) =>
+    public override void Solve(in Substep substep) =>
         JointConstraint<TBodies, TWide, TGeometry, TRows, TMass, TJoint>.Solve(ref bodies, substep, ref prestep, ref impulses);
 
     static ref Vector<float> Row<T>(ref T rows, int index) where T : unmanaged => ref Unsafe.Add(ref Unsafe.As<T, Vector<float>>(ref rows), index);

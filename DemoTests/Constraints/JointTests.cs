@@ -9,11 +9,7 @@ using Xunit;
 namespace DemoTests.Constraints;
 
 /// <summary>What holds for every type of joint. A type adds its C in double precision, random descriptions and its degenerate cases.</summary>
-public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>
-    where TDescription : unmanaged, IConstraintDescription<TDescription> where TWide : unmanaged, IWide<TDescription>
-    where TBodies : unmanaged, IBodySlots where TGeometry : unmanaged
-    where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
-    where TJoint : unmanaged, IJoint<TBodies, TWide, TGeometry, TRows, TMass>
+public abstract class JointTests<TDescription> where TDescription : unmanaged, IConstraintDescription<TDescription>
 {
     const int Samples = 200;
     const double Step = 1e-5;
@@ -130,9 +126,9 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         for (int i = 0; i < velocity.Length; ++i)
         {
             var wanted = -error[i] * frequency / (frequency * Substep.Dt + 2);
-            if (TJoint.Kind == RowKind.Inequality)
+            if (Kind == RowKind.Inequality)
                 wanted = Math.Min(wanted, -error[i] / Substep.Dt);
-            if (TJoint.Kind == RowKind.Inequality && velocity[i] > wanted)
+            if (Kind == RowKind.Inequality && velocity[i] > wanted)
                 continue;
             Assert.True(Math.Abs(velocity[i] - wanted) <= 1e-3 * scale, $"Row {i}: velocity {velocity[i]}, wanted {wanted}.");
         }
@@ -141,7 +137,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
     [Fact]
     public void InequalitiesOnlyPush()
     {
-        if (TJoint.Kind != RowKind.Inequality)
+        if (Kind != RowKind.Inequality)
             return;
         var pushed = 0;
         var rested = 0;
@@ -166,8 +162,8 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         var lanes = Vector<float>.Count;
         for (int trial = 0; trial < 20; ++trial)
         {
-            var first = new JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>();
-            var second = new JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>();
+            var first = JointProbes.New<TDescription>();
+            var second = JointProbes.New<TDescription>();
             for (int lane = 0; lane < lanes; ++lane)
                 Fill(first, lane, samples);
             // Half of the lanes get other company, all change places.
@@ -195,7 +191,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         var samples = new JointSamples(11);
         foreach (var (name, description, bodies) in DegenerateCases(samples).Concat(CommonCases(samples)))
         {
-            var probe = new JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>();
+            var probe = JointProbes.New<TDescription>();
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
                 probe.Set(lane, description, bodies);
             var moves = bodies.Any(b => b.InverseMass > 0);
@@ -224,7 +220,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
             yield return ("Nothing can move", description, Bodies((b, _) => b with { InverseMass = 0, InverseInertia = default }));
             yield return ("Only the first can move", description, Bodies((b, k) => k == 0 ? b : b with { InverseMass = 0, InverseInertia = default }));
             yield return ("Only the last can move", description,
-                Bodies((b, k) => k == TBodies.Count - 1 ? b : b with { InverseMass = 0, InverseInertia = default }));
+                Bodies((b, k) => k == TDescription.BodyCount - 1 ? b : b with { InverseMass = 0, InverseInertia = default }));
             yield return ("Nothing can turn", description, Bodies((b, _) => b with { InverseInertia = default }));
             yield return ("Turns about one axis only", description,
                 Bodies((b, _) => b with { InverseInertia = JointSamples.InWorld(new(0, 3, 0), b.Orientation) }));
@@ -237,21 +233,20 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
         }
     }
 
-    private protected static readonly int RowCount = JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>.RowCount;
+    static readonly RowKind Kind = JointProbes.New<TDescription>().Kind;
+    private protected static readonly int RowCount = JointProbes.New<TDescription>().RowCount;
 
-    private protected static SampleBody[] NewBodies(JointSamples samples) => [.. Enumerable.Range(0, TBodies.Count).Select(_ => samples.Body())];
+    private protected static SampleBody[] NewBodies(JointSamples samples) => [.. Enumerable.Range(0, TDescription.BodyCount).Select(_ => samples.Body())];
 
     private protected static DoublePose[] Poses(SampleBody[] bodies) => [.. bodies.Select(b => b.Pose)];
 
-    void Fill(JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> probe, int lane, JointSamples samples)
+    void Fill(JointProbe<TDescription> probe, int lane, JointSamples samples)
     {
         probe.Set(lane, Describe(samples, samples.Spring()), NewBodies(samples));
         probe.SetImpulse(lane, RandomImpulse(samples));
     }
 
-    private protected delegate void Check(
-        JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint> probe, int lane, TDescription description, SampleBody[] bodies,
-        JointSamples samples);
+    private protected delegate void Check(JointProbe<TDescription> probe, int lane, TDescription description, SampleBody[] bodies, JointSamples samples);
 
     private protected void ForEachSample(bool settled, Check check, SpringSettings? spring = null)
     {
@@ -266,7 +261,7 @@ public abstract class JointTests<TDescription, TWide, TBodies, TGeometry, TRows,
                 Settle(description, bodies);
             if (!IsSmooth(description, Poses(bodies)))
                 continue;
-            var probe = new JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, TJoint>();
+            var probe = JointProbes.New<TDescription>();
             probe.Set(i % Vector<float>.Count, description, bodies);
             check(probe, i % Vector<float>.Count, description, bodies, samples);
             ++checkedCount;

@@ -7,7 +7,7 @@ using Xunit;
 
 namespace DemoTests.Constraints;
 
-public class DistanceLimitTests : JointTests<DistanceLimit, DistanceLimitWide, TwoBodies, DistanceLimitGeometry, Rows1, Rows1, DistanceLimitJoint>
+public class DistanceLimitTests : JointTests<DistanceLimit>
 {
     private protected override DistanceLimit Describe(JointSamples samples, SpringSettings spring)
     {
@@ -51,7 +51,7 @@ public class DistanceLimitTests : JointTests<DistanceLimit, DistanceLimitWide, T
     {
         var bodies = NewBodies(new(1));
         bodies[0].Position = bodies[1].Position = default;
-        var probe = new JointProbe<DistanceLimit, DistanceLimitWide, TwoBodies, DistanceLimitGeometry, Rows1, Rows1, DistanceLimitJoint>();
+        var probe = JointProbes.New<DistanceLimit>();
         for (int sign = -1; sign <= 1; sign += 2)
         {
             bodies[1].Linear = new(0, sign * 10, 0);
@@ -62,7 +62,7 @@ public class DistanceLimitTests : JointTests<DistanceLimit, DistanceLimitWide, T
     }
 }
 
-public class SwingLimitTests : JointTests<SwingLimit, SwingLimitWide, TwoBodies, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>
+public class SwingLimitTests : JointTests<SwingLimit>
 {
     private protected override SwingLimit Describe(JointSamples samples, SpringSettings spring) =>
         new() { AxisLocalA = samples.Direction(), AxisLocalB = samples.Direction(), MinimumDot = samples.Uniform(-0.99f, 0.99f), SpringSettings = spring };
@@ -103,7 +103,7 @@ public class SwingLimitTests : JointTests<SwingLimit, SwingLimitWide, TwoBodies,
     {
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = bodies[1].Orientation = Quaternion.Identity;
-        var probe = new JointProbe<SwingLimit, SwingLimitWide, TwoBodies, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>();
+        var probe = JointProbes.New<SwingLimit>();
         probe.Set(0, new() { AxisLocalA = new(0, 0, 1), AxisLocalB = new(0, 0, axisB), MinimumDot = minimumDot }, bodies);
         AssertClose([expected], probe.PositionError(0), 1e-6);
     }
@@ -116,7 +116,7 @@ public class SwingLimitTests : JointTests<SwingLimit, SwingLimitWide, TwoBodies,
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = Quaternion.Identity;
         bodies[1].Orientation = new(1e-4f, 0, 0, 1);
-        var probe = new JointProbe<SwingLimit, SwingLimitWide, TwoBodies, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>();
+        var probe = JointProbes.New<SwingLimit>();
         probe.Set(0, limit, bodies);
         Assert.Equal(-2e-4, probe.PositionError(0)[0], 1e-9);
     }
@@ -132,7 +132,7 @@ public class SwingLimitTests : JointTests<SwingLimit, SwingLimitWide, TwoBodies,
     }
 }
 
-public class TwistLimitTests : JointTests<TwistLimit, TwistLimitWide, TwoBodies, TwistLimitGeometry, Rows1, Rows1, TwistLimitJoint>
+public class TwistLimitTests : JointTests<TwistLimit>
 {
     private protected override TwistLimit Describe(JointSamples samples, SpringSettings spring)
     {
@@ -223,7 +223,7 @@ public class TwistLimitTests : JointTests<TwistLimit, TwistLimitWide, TwoBodies,
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = Quaternion.Identity;
         bodies[1].Orientation = new(0, 0, MathF.Sin(angle / 2), MathF.Cos(angle / 2));
-        var probe = new JointProbe<TwistLimit, TwistLimitWide, TwoBodies, TwistLimitGeometry, Rows1, Rows1, TwistLimitJoint>();
+        var probe = JointProbes.New<TwistLimit>();
         probe.Set(0, new() { LocalBasisA = Quaternion.Identity, LocalBasisB = Quaternion.Identity, MinimumAngle = minimum, MaximumAngle = maximum }, bodies);
         return probe.PositionError(0)[0];
     }

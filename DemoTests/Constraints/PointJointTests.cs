@@ -7,7 +7,7 @@ using Xunit;
 
 namespace DemoTests.Constraints;
 
-public class BallSocketTests : JointTests<BallSocket, BallSocketWide, TwoBodies, BallSocketGeometry, Rows3, RowMatrix3, BallSocketJoint>
+public class BallSocketTests : JointTests<BallSocket>
 {
     private protected override BallSocket Describe(JointSamples samples, SpringSettings spring) =>
         new() { LocalOffsetA = samples.Vector(1), LocalOffsetB = samples.Vector(1), SpringSettings = spring };
@@ -23,7 +23,7 @@ public class BallSocketTests : JointTests<BallSocket, BallSocketWide, TwoBodies,
     }
 }
 
-public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>
+public class WeldTests : JointTests<Weld>
 {
     private protected override Weld Describe(JointSamples samples, SpringSettings spring) =>
         new() { LocalOffset = samples.Vector(1), LocalOrientation = samples.Rotation(), SpringSettings = spring };
@@ -79,7 +79,7 @@ public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Row
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = Quaternion.Identity;
         bodies[1].Orientation = new(0, 1, 0, 0);
-        var probe = new JointProbe<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>();
+        var probe = JointProbes.New<Weld>();
         probe.Set(0, new() { LocalOrientation = Quaternion.Identity }, bodies);
         AssertClose([0, -Math.PI, 0], probe.PositionError(0)[3..], 1e-6);
     }
@@ -101,7 +101,7 @@ public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Row
                 body.InverseInertia = JointSamples.InWorld(new(0, 4, 0), rotation);
                 body.Angular = Exact.Rotate(new(0, samples.Uniform(-3, 3), 0), rotation);
             }
-            var probe = new JointProbe<Weld, WeldWide, TwoBodies, WeldGeometry, Rows6, RowMatrix6, WeldJoint>();
+            var probe = JointProbes.New<Weld>();
             probe.Set(0, weld, bodies);
             for (int i = 0; i < 60; ++i)
             {
@@ -113,7 +113,7 @@ public class WeldTests : JointTests<Weld, WeldWide, TwoBodies, WeldGeometry, Row
     }
 }
 
-public class HingeTests : JointTests<Hinge, HingeWide, TwoBodies, HingeGeometry, Rows5, RowMatrix5, HingeJoint>
+public class HingeTests : JointTests<Hinge>
 {
     private protected override Hinge Describe(JointSamples samples, SpringSettings spring) => new()
     {
@@ -163,14 +163,13 @@ public class HingeTests : JointTests<Hinge, HingeWide, TwoBodies, HingeGeometry,
     {
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = bodies[1].Orientation = Quaternion.Identity;
-        var probe = new JointProbe<Hinge, HingeWide, TwoBodies, HingeGeometry, Rows5, RowMatrix5, HingeJoint>();
+        var probe = JointProbes.New<Hinge>();
         probe.Set(0, new() { LocalHingeAxisA = new(0, 0, 1), LocalHingeAxisB = new(0, 0, -1) }, bodies);
         AssertClose([Math.PI, 0], probe.PositionError(0)[3..], 1e-6);
     }
 }
 
-public class OneBodyLinearServoTests :
-    JointTests<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>
+public class OneBodyLinearServoTests : JointTests<OneBodyLinearServo>
 {
     private protected override OneBodyLinearServo Describe(JointSamples samples, SpringSettings spring) =>
         new() { LocalOffset = samples.Vector(1), Target = samples.Vector(2), SpringSettings = spring, ServoSettings = ServoSettings.Default };
@@ -199,8 +198,7 @@ public class OneBodyLinearServoTests :
             var bodies = NewBodies(samples);
             var servo = Describe(samples, samples.Spring());
             servo.ServoSettings = new(samples.Uniform(0.1f, 3), samples.Uniform(0, 0.1f), samples.Uniform(0.1f, 50));
-            var probe = new JointProbe<OneBodyLinearServo, OneBodyLinearServoWide, OneBody, OneBodyLinearServoGeometry, Rows3, RowMatrix3,
-                OneBodyLinearServoJoint>();
+            var probe = JointProbes.New<OneBodyLinearServo>();
             probe.Set(0, servo, bodies);
             for (int i = 0; i < 300; ++i)
             {

@@ -4,7 +4,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>One contact of a bundle of manifolds.</summary>
-public struct ContactPrestepWide
+struct ContactPrestepWide
 {
     /// <summary>Position of the contact relative to the centre of A, world axes.</summary>
     public Vector3Wide OffsetA;
@@ -13,7 +13,7 @@ public struct ContactPrestepWide
 }
 
 /// <summary>How a bundle of contact patches behaves.</summary>
-public struct ContactMaterialWide
+struct ContactMaterialWide
 {
     /// <summary>Coulomb coefficient of the patch.</summary>
     public Vector<float> FrictionCoefficient;
@@ -25,7 +25,7 @@ public struct ContactMaterialWide
 
 /// <summary>A bundle of convex manifolds: contacts that share a normal.</summary>
 /// <remarks>The order of the fields is known to <see cref="ContactPrestepLayout"/>, which writes single lanes for any number of contacts.</remarks>
-public struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<ContactPrestepWide>
+struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<ContactPrestepWide>
 {
     /// <summary>The contacts.</summary>
     public TContacts Contacts;
@@ -38,7 +38,7 @@ public struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, I
 }
 
 /// <summary>Accumulated impulses of a bundle of convex manifolds, N s.</summary>
-public struct ConvexContactImpulsesWide<TNormals> where TNormals : unmanaged, IFew<Vector<float>>
+struct ConvexContactImpulsesWide<TNormals> where TNormals : unmanaged, IFew<Vector<float>>
 {
     /// <summary>Along the normal, per contact.</summary>
     public TNormals Normals;

@@ -30,7 +30,7 @@ public struct BallSocket : ITwoBodyConstraintDescription<BallSocket>
 }
 
 /// <summary>A bundle of <see cref="BallSocket"/>.</summary>
-public struct BallSocketWide : IWide<BallSocket>
+struct BallSocketWide : IWide<BallSocket>
 {
     /// <inheritdoc cref="BallSocket.LocalOffsetA"/>
     public Vector3Wide LocalOffsetA;
@@ -41,7 +41,7 @@ public struct BallSocketWide : IWide<BallSocket>
 }
 
 /// <summary>Lever arms of a point joint in world axes.</summary>
-public struct BallSocketGeometry
+struct BallSocketGeometry
 {
     /// <summary>From the centre of A to its anchor.</summary>
     public Vector3Wide OffsetA;
@@ -53,7 +53,7 @@ public struct BallSocketGeometry
 // C = (xA + rA) - (xB + rB)
 // J = [ I, -skew(rA), -I, skew(rB) ]   over (vA, wA, vB, wB), with skew(r) w = r x w
 // K = (1/mA + 1/mB) I + skew(rA) IA^-1 skew(rA)^T + skew(rB) IB^-1 skew(rB)^T
-public readonly struct BallSocketJoint : IJoint<TwoBodies, BallSocketWide, BallSocketGeometry, Rows3, RowMatrix3>
+readonly struct BallSocketJoint : IJoint<TwoBodies, BallSocketWide, BallSocketGeometry, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

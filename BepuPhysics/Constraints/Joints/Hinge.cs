@@ -35,7 +35,7 @@ public struct Hinge : ITwoBodyConstraintDescription<Hinge>
 }
 
 /// <summary>A bundle of <see cref="Hinge"/>.</summary>
-public struct HingeWide : IWide<Hinge>
+struct HingeWide : IWide<Hinge>
 {
     /// <inheritdoc cref="Hinge.LocalOffsetA"/>
     public Vector3Wide LocalOffsetA;
@@ -50,7 +50,7 @@ public struct HingeWide : IWide<Hinge>
 }
 
 /// <summary>Lever arms and axes of a hinge in world axes.</summary>
-public struct HingeGeometry
+struct HingeGeometry
 {
     /// <summary>From the centre of A to its anchor.</summary>
     public Vector3Wide OffsetA;
@@ -72,7 +72,7 @@ public struct HingeGeometry
 //     KA = T (IA^-1 + IB^-1) T^T with the rows tx, ty in T
 // The angular rows are the derivative of e along e itself, whatever its length; across it they are where e = 0.
 // Axes that point exactly against each other are half a turn apart about any axis; it is tx by definition.
-public readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, Rows5, RowMatrix5>
+readonly struct HingeJoint : IJoint<TwoBodies, HingeWide, HingeGeometry, Rows5, RowMatrix5>
 {
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

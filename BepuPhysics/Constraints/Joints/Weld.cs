@@ -29,7 +29,7 @@ public struct Weld : ITwoBodyConstraintDescription<Weld>
 }
 
 /// <summary>A bundle of <see cref="Weld"/>.</summary>
-public struct WeldWide : IWide<Weld>
+struct WeldWide : IWide<Weld>
 {
     /// <inheritdoc cref="Weld.LocalOffset"/>
     public Vector3Wide LocalOffset;
@@ -40,7 +40,7 @@ public struct WeldWide : IWide<Weld>
 }
 
 /// <summary>Lever arms of a weld in world axes. One of them has no length: the weld holds the centre of one body at a point of the other.</summary>
-public struct WeldGeometry
+struct WeldGeometry
 {
     /// <summary>From the centre of A to where the centre of B belongs; zero where the centre of A is held.</summary>
     public Vector3Wide OffsetA;
@@ -61,7 +61,7 @@ public struct WeldGeometry
 // The angular rows are the derivative of e along e itself, whatever its length: d|e|/dt = (e / |e|) (wA - wB). Across it they are where
 // e = 0. So each sweep turns B along the shortest way, by the right angle.
 // At exactly half a turn both ways are equally long, and the axis in e is that of the quaternion with W = +0.
-public readonly struct WeldJoint : IJoint<TwoBodies, WeldWide, WeldGeometry, Rows6, RowMatrix6>
+readonly struct WeldJoint : IJoint<TwoBodies, WeldWide, WeldGeometry, Rows6, RowMatrix6>
 {
     // A is easier to turn by far from here on. No ratio of masses or sizes that a game would choose, so that rounding does not decide.
     const float EasierToTurn = 3.7f;

@@ -42,7 +42,7 @@ public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float mi
 }
 
 /// <summary>A bundle of <see cref="DistanceLimit"/>.</summary>
-public struct DistanceLimitWide : IWide<DistanceLimit>
+struct DistanceLimitWide : IWide<DistanceLimit>
 {
     /// <inheritdoc cref="DistanceLimit.LocalOffsetA"/>
     public Vector3Wide LocalOffsetA;
@@ -57,7 +57,7 @@ public struct DistanceLimitWide : IWide<DistanceLimit>
 }
 
 /// <summary>The side of a distance limit that is nearer, in world axes.</summary>
-public struct DistanceLimitGeometry
+struct DistanceLimitGeometry
 {
     /// <summary>Direction of the impulse on A: to B for the greatest distance, away from B for the least.</summary>
     public Vector3Wide Direction;
@@ -76,7 +76,7 @@ public struct DistanceLimitGeometry
 // K = 1/mA + 1/mB + (rA x n) IA^-1 (rA x n) + (rB x n) IB^-1 (rB x n)
 // A minimum of zero cannot be violated, so such a lane always watches its maximum: the anchors of a slack rope may pass through
 // each other. Anchors that coincide have no direction; it is the world's Y axis by definition.
-public readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, DistanceLimitGeometry, Rows1, Rows1>
+readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, DistanceLimitGeometry, Rows1, Rows1>
 {
     // Squares of lengths lose digits below this, so the direction is not a unit vector any more: what floats can hold, no size of a thing.
     const float LeastLengthSquared = 1e-30f;

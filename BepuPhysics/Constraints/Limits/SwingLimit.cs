@@ -39,7 +39,7 @@ public struct SwingLimit : ITwoBodyConstraintDescription<SwingLimit>
 }
 
 /// <summary>A bundle of <see cref="SwingLimit"/>.</summary>
-public struct SwingLimitWide : IWide<SwingLimit>
+struct SwingLimitWide : IWide<SwingLimit>
 {
     /// <inheritdoc cref="SwingLimit.AxisLocalA"/>
     public Vector3Wide AxisLocalA;
@@ -52,7 +52,7 @@ public struct SwingLimitWide : IWide<SwingLimit>
 }
 
 /// <summary>The two axes of a swing limit in world axes.</summary>
-public struct SwingLimitGeometry
+struct SwingLimitGeometry
 {
     /// <summary>Axis of A crossed with axis of B, made a unit vector.</summary>
     public Vector3Wide Axis;
@@ -68,7 +68,7 @@ public struct SwingLimitGeometry
 // J = [ 0, n^T, 0, -n^T ]   over (vA, wA, vB, wB), with n = a x b / |a x b|
 // K = n (IA^-1 + IB^-1) n
 // Axes that are parallel, either way, have no n of their own: it is a direction at right angles to a, by definition.
-public readonly struct SwingLimitJoint : IJoint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1>
+readonly struct SwingLimitJoint : IJoint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1>
 {
     // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
     const float ParallelSine = 1e-6f;

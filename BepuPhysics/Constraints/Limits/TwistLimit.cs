@@ -34,7 +34,7 @@ public struct TwistLimit : ITwoBodyConstraintDescription<TwistLimit>
 }
 
 /// <summary>A bundle of <see cref="TwistLimit"/>.</summary>
-public struct TwistLimitWide : IWide<TwistLimit>
+struct TwistLimitWide : IWide<TwistLimit>
 {
     /// <inheritdoc cref="TwistLimit.LocalBasisA"/>
     public QuaternionWide LocalBasisA;
@@ -49,7 +49,7 @@ public struct TwistLimitWide : IWide<TwistLimit>
 }
 
 /// <summary>The side of a twist limit that is nearer, in world axes.</summary>
-public struct TwistLimitGeometry
+struct TwistLimitGeometry
 {
     /// <summary>Angular Jacobian of A; of B it is the opposite.</summary>
     public Vector3Wide Axis;
@@ -66,7 +66,7 @@ public struct TwistLimitGeometry
 // K = t (IA^-1 + IB^-1) t
 // Axes that point against each other have no twist: it spins around the circle ever faster as they come near that. Within 3.6 degrees
 // of it the limit lets go (J = 0). A range of a whole turn or more limits nothing.
-public readonly struct TwistLimitJoint : IJoint<TwoBodies, TwistLimitWide, TwistLimitGeometry, Rows1, Rows1>
+readonly struct TwistLimitJoint : IJoint<TwoBodies, TwistLimitWide, TwistLimitGeometry, Rows1, Rows1>
 {
     // Square of the cosine of half the angle between the twist axes: (sin 1.8 degrees)^2. There, t is 32 times as long as at rest.
     const float LeastDefined = 1e-3f;

@@ -33,7 +33,7 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
 }
 
 /// <summary>A bundle of <see cref="OneBodyLinearServo"/>.</summary>
-public struct OneBodyLinearServoWide : IWide<OneBodyLinearServo>
+struct OneBodyLinearServoWide : IWide<OneBodyLinearServo>
 {
     /// <inheritdoc cref="OneBodyLinearServo.LocalOffset"/>
     public Vector3Wide LocalOffset;
@@ -46,7 +46,7 @@ public struct OneBodyLinearServoWide : IWide<OneBodyLinearServo>
 }
 
 /// <summary>Lever arm of a pulled point in world axes.</summary>
-public struct OneBodyLinearServoGeometry
+struct OneBodyLinearServoGeometry
 {
     /// <summary>From the centre of the body to the point.</summary>
     public Vector3Wide Offset;
@@ -56,7 +56,7 @@ public struct OneBodyLinearServoGeometry
 // C = (x + r) - target
 // J = [ I, -skew(r) ]   over (v, w), with skew(r) w = r x w
 // K = 1/m I + skew(r) I^-1 skew(r)^T
-public readonly struct OneBodyLinearServoJoint : IJoint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3>
+readonly struct OneBodyLinearServoJoint : IJoint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
