@@ -20,6 +20,8 @@ public static partial class DefaultTypes
         solver.Register<TwistLimit>();
         solver.Register<Weld>();
         solver.Register<DistanceLimit>();
+        solver.Register<AngularAxisMotor>();
+        solver.Register<OneBodyAngularMotor>();
         solver.Register<OneBodyLinearServo>();
         solver.Register<Hinge>();
     }

@@ -63,6 +63,21 @@ static class ConstraintChecks
                 $"{value.MaximumSpeed}, base speed {value.BaseSpeed}, maximum force {value.MaximumForce}.", name);
     }
 
+    internal static void Motor(in MotorSettings value, string name)
+    {
+        if (!MotorSettings.Validate(value))
+            throw new ArgumentException(
+                $"{name} must not be negative or NaN, not maximum force {value.MaximumForce}, damping {value.Damping}.", name);
+    }
+
+    internal static void AngularVelocity(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumAngularVelocity))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumAngularVelocity} rad/s.");
+    }
+
+    internal static void AngularVelocity(Vector3 value, string name) => Bounded(value, Limits.MaximumAngularVelocity, name);
+
     internal static void Order(float minimum, float maximum, string minimumName, string maximumName)
     {
         Finite(minimum, minimumName);

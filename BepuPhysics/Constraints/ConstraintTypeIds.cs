@@ -13,6 +13,8 @@ public static class ConstraintTypeIds
     internal const int TwistLimit = 27;
     internal const int Weld = 31;
     internal const int DistanceLimit = 34;
+    internal const int AngularAxisMotor = 41;
+    internal const int OneBodyAngularMotor = 43;
     internal const int OneBodyLinearServo = 44;
     internal const int Hinge = 47;
 

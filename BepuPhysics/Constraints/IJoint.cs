@@ -11,6 +11,8 @@ public enum RowKind
     Inequality,
     /// <summary>C = 0, approached no faster and pushed no harder than the joint's <see cref="ServoSettings"/> say.</summary>
     Servo,
+    /// <summary>J v = target velocity, whatever the position; pushed no harder than the joint's <see cref="MotorSettings"/> say.</summary>
+    Motor,
 }
 
 /// <summary>The mathematics of one type of joint, in the parts that every solver needs.</summary>
@@ -38,6 +40,9 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 
     /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the room that is left.</summary>
     static abstract void PositionError(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows error);
+
+    /// <summary>J v that a motor is to bring about; asked for only where <see cref="Kind"/> is <see cref="RowKind.Motor"/>.</summary>
+    static virtual void TargetVelocity(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows velocity) => velocity = default;
 
     /// <summary>J v.</summary>
     static abstract void RelativeVelocity(in TGeometry geometry, in TBodies bodies, out TRows velocity);
@@ -71,4 +76,7 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 
     /// <summary>Limits of a servo; asked for only where <see cref="Kind"/> is <see cref="RowKind.Servo"/>.</summary>
     static virtual ServoSettingsWide Servo(in TPrestep prestep) => default;
+
+    /// <summary>Limit and softness of a motor; asked for only where <see cref="Kind"/> is <see cref="RowKind.Motor"/>.</summary>
+    static virtual MotorSettingsWide Motor(in TPrestep prestep) => default;
 }

@@ -5,7 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>The sequential solver's way to hold a joint: one soft, clamped, block solve of all its rows per sweep.</summary>
-public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMass, TJoint> : IConstraint<TBodies, TPrestep, TRows>
+public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMass, TJoint> : IConstraint<TBodies, TPrestep, TRows>
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TGeometry : unmanaged
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
     where TJoint : unmanaged, IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
@@ -52,9 +52,19 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
     }
 
     /// <inheritdoc/>
+    // Two kernels of which the JIT keeps one: a branch inside would take locals that the largest joint has none left of.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
+    {
+        if (TJoint.Kind == RowKind.Motor)
+            SolveVelocity(ref bodies, substep, ref prestep, ref impulses);
+        else
+            SolvePosition(ref bodies, substep, ref prestep, ref impulses);
+    }
+
     // A kernel of this size is its own JIT root: inlined into the loop it would run out of the inliner's budget.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
+    static void SolvePosition(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
     {
         // A servo's velocity is what it was asked for, and not left over from a correction.
         if (TJoint.Kind == RowKind.Servo && substep.IsRelaxation)
@@ -96,6 +106,24 @@ public readonly struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMas
             change = impulses - previous;
         }
         TJoint.ApplyImpulse(geometry, ref bodies, change);
+    }
+
+    // A motor corrects no position: relaxation has nothing to take back, and hubs bear as much of it as chains.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void SolveVelocity(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
+    {
+        if (substep.IsRelaxation)
+            return;
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.TargetVelocity(bodies, prestep, geometry, out var wanted);
+        TJoint.RelativeVelocity(geometry, bodies, out var velocity);
+        TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
+        var motor = TJoint.Motor(prestep);
+        var softness = motor.ForSubstep(substep);
+        var previous = impulses;
+        impulses += TMass.Solve(inverseMass, (wanted - velocity) * softness.MassScale) - impulses * softness.ImpulseScale;
+        impulses *= LimitFactor(TRows.Length(impulses), motor.MaximumForce * substep.Dt);
+        TJoint.ApplyImpulse(geometry, ref bodies, impulses - previous);
     }
 
     // The speed of approach is at least the base speed, as long as that does not overshoot within the substep, and at most the maximum.

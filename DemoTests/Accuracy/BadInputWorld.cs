@@ -162,6 +162,7 @@ sealed class BadInputWorld : IDisposable
         var basis = Quaternion.Identity;
         Join(4, new TwistLimit { LocalBasisA = basis, LocalBasisB = basis, MinimumAngle = -1, MaximumAngle = 1, SpringSettings = spring });
         Join(5, new DistanceLimit { MinimumDistance = .5f, MaximumDistance = 1.5f, SpringSettings = spring });
+        Join(6, new AngularAxisMotor { LocalAxisA = axis, TargetVelocity = 1, Settings = new(5, 0) });
         var pulled = world.AddDynamic(new Sphere(.25f), 1, new RigidPose(new Vector3(-6, 5, 5)));
         joints.Add(typeof(OneBodyLinearServo), Solver.Add(pulled, new OneBodyLinearServo
         {

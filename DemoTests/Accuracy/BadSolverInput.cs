@@ -23,6 +23,7 @@ static class BadSolverInput
         Joints(list);
         Limits(list);
         Servos(list);
+        Motors(list);
         Handles(list);
     }
 
@@ -149,6 +150,23 @@ static class BadSolverInput
                 return description;
             }
         }
+    }
+
+    static void Motors(BadInputList list)
+    {
+        string[] settings = ["settings", "motor", "force"];
+        string[] velocity = ["velocity"];
+        float[] bad = [float.NaN, float.NegativeInfinity, -1];
+        var axisMotor = new AngularAxisMotor { LocalAxisA = Vector3.UnitY, TargetVelocity = 1, Settings = new(1, 0) };
+        Constraint(list, "LocalAxisA.X", axis, BadInputList.NotFinite, axisMotor, static (ref d, v) => d.LocalAxisA.X = v);
+        Constraint(list, "length of LocalAxisA", axis, [0, 2], axisMotor, static (ref d, v) => d.LocalAxisA = new(0, v, 0));
+        Constraint(list, "TargetVelocity", velocity, BadInputList.NotReasonable, axisMotor, static (ref d, v) => d.TargetVelocity = v);
+        Constraint(list, "MaximumForce", settings, bad, axisMotor, static (ref d, v) => d.Settings.MaximumForce = v);
+        Constraint(list, "Damping", settings, bad, axisMotor, static (ref d, v) => d.Settings.Damping = v);
+        list.Add("Solver.Add(OneBodyAngularMotor), TargetVelocity.Z", velocity, BadInputList.NotReasonable, static (w, v) =>
+            w.Solver.Add(w.FreeBody, new OneBodyAngularMotor { TargetVelocity = new(0, 0, v), Settings = new(1, 0) }));
+        list.Add("Solver.Add(OneBodyAngularMotor), MaximumForce", settings, bad, static (w, v) =>
+            w.Solver.Add(w.FreeBody, new OneBodyAngularMotor { Settings = new(v, 0) }));
     }
 
     static void Handles(BadInputList list)

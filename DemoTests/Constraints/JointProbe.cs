@@ -23,6 +23,7 @@ abstract class JointProbe<TDescription> where TDescription : unmanaged
     /// <summary>Linear and angular velocity of each body.</summary>
     public abstract double[] Velocity(int lane);
     public abstract double[] PositionError(int lane);
+    public abstract double[] TargetVelocity(int lane);
     public abstract double[] RelativeVelocity(int lane);
     public abstract double[] Geometry(int lane);
     public abstract void ApplyImpulse();
@@ -124,6 +125,13 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         return Read(ref error, RowCount, lane);
+    }
+
+    public override double[] TargetVelocity(int lane)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.TargetVelocity(bodies, prestep, geometry, out var velocity);
+        return Read(ref velocity, RowCount, lane);
     }
 
     public override double[] RelativeVelocity(int lane)

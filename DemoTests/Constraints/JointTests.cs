@@ -121,11 +121,10 @@ public abstract class JointTests<TDescription> where TDescription : unmanaged, I
         }
         var velocity = probe.RelativeVelocity(lane);
         var scale = 1 + error.Max(Math.Abs) / Substep.Dt;
-        // Frequency and damping of a rigid spring, as SpringSettings says: error to velocity w / (w h + 2).
-        var frequency = 2 * Math.PI * SpringSettings.JointCyclesPerSubstep(1) / Substep.Dt;
+        var wantedVelocity = Wanted(description, error);
         for (int i = 0; i < velocity.Length; ++i)
         {
-            var wanted = -error[i] * frequency / (frequency * Substep.Dt + 2);
+            var wanted = wantedVelocity[i];
             if (Kind == RowKind.Inequality)
                 wanted = Math.Min(wanted, -error[i] / Substep.Dt);
             if (Kind == RowKind.Inequality && velocity[i] > wanted)
@@ -271,8 +270,15 @@ public abstract class JointTests<TDescription> where TDescription : unmanaged, I
 
     static double[] RandomImpulse(JointSamples samples) => [.. Enumerable.Range(0, RowCount).Select(_ => (double)samples.Uniform(0, 2))];
 
-    // Row by row, the derivative of C by the coordinates of the bodies.
-    double[][] Jacobian(TDescription description, SampleBody[] bodies)
+    /// <summary>The velocity that a rigid joint is after: frequency and damping as SpringSettings says, error to velocity w / (w h + 2).</summary>
+    private protected virtual double[] Wanted(TDescription description, double[] error)
+    {
+        var frequency = 2 * Math.PI * SpringSettings.JointCyclesPerSubstep(1) / Substep.Dt;
+        return [.. error.Select(e => -e * frequency / (frequency * Substep.Dt + 2))];
+    }
+
+    /// <summary>Row by row, the derivative of C by the coordinates of the bodies.</summary>
+    private protected virtual double[][] Jacobian(TDescription description, SampleBody[] bodies)
     {
         var jacobian = Enumerable.Range(0, RowCount).Select(_ => new double[bodies.Length * 6]).ToArray();
         for (int k = 0; k < bodies.Length * 6; ++k)

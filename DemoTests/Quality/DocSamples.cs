@@ -226,3 +226,58 @@ public readonly struct CushionedSphereTester : IPairTester<SphereWide, SphereWid
         manifold.Contacts[0] = contact;
     }
 }
+
+// Docs/Recipes/AddAConstraint.md
+/// <summary>Lifts the centre of a body at a speed.</summary>
+public struct Lift : IOneBodyConstraintDescription<Lift>
+{
+    /// <summary>Speed upwards, m/s.</summary>
+    public float TargetVelocity;
+    /// <summary>Greatest force, N, and softness.</summary>
+    public MotorSettings Settings;
+
+    public static int ConstraintTypeId => 101;
+    public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
+        OneBody, LiftWide, Rows1, JointConstraint<OneBody, LiftWide, LiftGeometry, Rows1, Rows1, LiftJoint>>();
+
+    public static void Validate(in Lift description)
+    {
+        if (!float.IsFinite(description.TargetVelocity))
+            throw new ArgumentException($"{nameof(TargetVelocity)} must be finite, not {description.TargetVelocity}.", nameof(description));
+        if (!MotorSettings.Validate(description.Settings))
+            throw new ArgumentException($"{nameof(Settings)} must not be negative.", nameof(description));
+    }
+}
+
+/// <summary>A bundle of <see cref="Lift"/>.</summary>
+public struct LiftWide : IWide<Lift>
+{
+    public Vector<float> TargetVelocity;
+    public MotorSettingsWide Settings;
+}
+
+/// <summary>Nothing: the row is the same for all poses.</summary>
+public struct LiftGeometry;
+
+/// <summary>Row of <see cref="Lift"/>.</summary>
+// J v = v.y = target
+// J = [ 0 1 0, 0 0 0 ]   over (v, w)
+// K = 1/m
+public readonly struct LiftJoint : IMotor<OneBody, LiftWide, LiftGeometry, Rows1, Rows1>
+{
+    public static void Prepare(in OneBody bodies, in LiftWide prestep, out LiftGeometry geometry) => geometry = default;
+
+    public static void TargetVelocity(in OneBody bodies, in LiftWide prestep, in LiftGeometry geometry, out Rows1 velocity) =>
+        velocity.X = prestep.TargetVelocity;
+
+    public static void RelativeVelocity(in LiftGeometry geometry, in OneBody bodies, out Rows1 velocity) =>
+        velocity.X = bodies.A.Linear.Y;
+
+    public static void ApplyImpulse(in LiftGeometry geometry, ref OneBody bodies, in Rows1 impulse) =>
+        bodies.A.Linear.Y += impulse.X * bodies.A.InverseMass;
+
+    public static void InverseEffectiveMass(in LiftGeometry geometry, in OneBody bodies, out Rows1 inverseMass) =>
+        inverseMass.X = bodies.A.InverseMass;
+
+    public static MotorSettingsWide Motor(in LiftWide prestep) => prestep.Settings;
+}

@@ -184,6 +184,23 @@ public sealed class DocSamplesTests : IDisposable
     }
 
     [Fact]
+    public void The_motor_of_the_recipe_lifts_as_fast_as_its_force_allows()
+    {
+        using var simulation = Simulation.Create(
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        var strong = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(0, 3, 0), 1, simulation.Shapes, new Sphere(1)));
+        var weak = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(new Vector3(9, 3, 0), 1, simulation.Shapes, new Sphere(1)));
+        simulation.Solver.Add(strong, new Lift { TargetVelocity = 2, Settings = new(100, 0) });
+        // Half of its weight.
+        simulation.Solver.Add(weak, new Lift { TargetVelocity = 2, Settings = new(9.81f / 2, 0) });
+        for (int i = 0; i < 60; ++i)
+            simulation.Timestep(Dt);
+        Assert.Equal(2, simulation.Bodies[strong].Velocity.Linear.Y, 1e-3f);
+        Assert.Equal(-9.81f / 2, simulation.Bodies[weak].Velocity.Linear.Y, .1f);
+        Assert.Throws<ArgumentException>(() => simulation.Solver.Add(weak, new Lift { TargetVelocity = float.NaN }));
+    }
+
+    [Fact]
     public void The_pair_of_the_recipe_keeps_spheres_apart()
     {
         using var simulation = Simulation.Create(

@@ -1,0 +1,74 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>Turns a body at an angular velocity of the world.</summary>
+public struct OneBodyAngularMotor : IOneBodyConstraintDescription<OneBodyAngularMotor>
+{
+    /// <summary>Angular velocity in world axes, rad/s.</summary>
+    public Vector3 TargetVelocity;
+    /// <summary>Greatest torque about any axis, N m, and softness.</summary>
+    public MotorSettings Settings;
+
+    /// <inheritdoc/>
+    public static int ConstraintTypeId => ConstraintTypeIds.OneBodyAngularMotor;
+    /// <inheritdoc/>
+    public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
+        OneBody, OneBodyAngularMotorWide, Rows3,
+        JointConstraint<OneBody, OneBodyAngularMotorWide, OneBodyAngularMotorGeometry, Rows3, RowMatrix3, OneBodyAngularMotorJoint>>();
+    /// <inheritdoc/>
+    public static void Validate(in OneBodyAngularMotor description)
+    {
+        ConstraintChecks.AngularVelocity(description.TargetVelocity, nameof(TargetVelocity));
+        ConstraintChecks.Motor(description.Settings, nameof(Settings));
+    }
+}
+
+/// <summary>A bundle of <see cref="OneBodyAngularMotor"/>.</summary>
+struct OneBodyAngularMotorWide : IWide<OneBodyAngularMotor>
+{
+    /// <inheritdoc cref="OneBodyAngularMotor.TargetVelocity"/>
+    public Vector3Wide TargetVelocity;
+    /// <inheritdoc cref="OneBodyAngularMotor.Settings"/>
+    public MotorSettingsWide Settings;
+}
+
+/// <summary>Nothing: the rows are the axes of the world.</summary>
+struct OneBodyAngularMotorGeometry;
+
+/// <summary>Rows of <see cref="OneBodyAngularMotor"/>.</summary>
+// J v = w = target
+// J = [ 0, I ]   over (v, w)
+// K = I^-1, the inverse inertia
+readonly struct OneBodyAngularMotorJoint : IMotor<OneBody, OneBodyAngularMotorWide, OneBodyAngularMotorGeometry, Rows3, RowMatrix3>
+{
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Prepare(in OneBody bodies, in OneBodyAngularMotorWide prestep, out OneBodyAngularMotorGeometry geometry) => geometry = default;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void TargetVelocity(in OneBody bodies, in OneBodyAngularMotorWide prestep, in OneBodyAngularMotorGeometry geometry, out Rows3 velocity) =>
+        velocity.V = prestep.TargetVelocity;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void RelativeVelocity(in OneBodyAngularMotorGeometry geometry, in OneBody bodies, out Rows3 velocity) =>
+        velocity.V = bodies.A.Angular;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void ApplyImpulse(in OneBodyAngularMotorGeometry geometry, ref OneBody bodies, in Rows3 impulse) =>
+        bodies.A.Angular += bodies.A.InverseInertia * impulse.V;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void InverseEffectiveMass(in OneBodyAngularMotorGeometry geometry, in OneBody bodies, out RowMatrix3 inverseMass) =>
+        inverseMass.M = bodies.A.InverseInertia;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static MotorSettingsWide Motor(in OneBodyAngularMotorWide prestep) => prestep.Settings;
+}

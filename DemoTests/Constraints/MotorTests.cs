@@ -1,0 +1,103 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using BepuPhysics.Constraints;
+using Xunit;
+
+namespace DemoTests.Constraints;
+
+/// <summary>What holds for every motor: as for joints, with a target velocity instead of a position error. A type adds its J v in double precision.</summary>
+public abstract class MotorTests<TDescription> : JointTests<TDescription> where TDescription : unmanaged, IConstraintDescription<TDescription>
+{
+    /// <summary>J v of linear and angular velocities, six numbers per body.</summary>
+    private protected abstract double[] Velocity(TDescription description, DoublePose[] poses, double[] velocities);
+
+    private protected abstract double[] Target(TDescription description);
+
+    private protected abstract TDescription Describe(JointSamples samples, MotorSettings settings);
+
+    private protected sealed override TDescription Describe(JointSamples samples, SpringSettings spring) =>
+        Describe(samples, spring.AngularFrequency == 0 ? new(float.MaxValue, 0) : new(samples.Uniform(0, 20), samples.Uniform(0, 1)));
+
+    private protected sealed override double[] Error(TDescription description, DoublePose[] poses) => new double[RowCount];
+
+    private protected sealed override double[] Wanted(TDescription description, double[] error) => Target(description);
+
+    private protected sealed override double[][] Jacobian(TDescription description, SampleBody[] bodies)
+    {
+        var columns = Enumerable.Range(0, bodies.Length * 6).Select(k =>
+        {
+            var unit = new double[bodies.Length * 6];
+            unit[k] = 1;
+            return Velocity(description, Poses(bodies), unit);
+        }).ToArray();
+        return [.. Enumerable.Range(0, RowCount).Select(row => columns.Select(column => column[row]).ToArray())];
+    }
+
+    private protected override IEnumerable<(string, TDescription, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        foreach (var force in new[] { 0, 1, float.MaxValue, float.PositiveInfinity })
+        {
+            foreach (var softness in new[] { 0, 1e-45f, 1e-7f, 1, 1e7f, float.MaxValue, float.PositiveInfinity })
+                yield return ($"Force {force}, softness {softness}", Describe(samples, new MotorSettings(force, softness)), NewBodies(samples));
+        }
+    }
+
+    [Fact]
+    public void TargetIsTheDefinition() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
+        AssertClose(Target(description), probe.TargetVelocity(lane), 0));
+
+    [Fact]
+    public void ImpulsesKeepTheirLimit()
+    {
+        var samples = new JointSamples(9);
+        var limited = 0;
+        for (int trial = 0; trial < 200; ++trial)
+        {
+            var force = samples.Uniform(0.1f, 20);
+            var probe = JointProbes.New<TDescription>();
+            probe.Set(0, Describe(samples, new MotorSettings(force, samples.Uniform(0, 0.01f))), NewBodies(samples));
+            for (int i = 0; i < 10; ++i)
+            {
+                probe.WarmStart(new(0, 1 / 240f));
+                probe.Solve(new(0, 1 / 240f));
+                var length = Math.Sqrt(probe.Impulse(0).Sum(x => x * x));
+                Assert.True(length <= force / 240 * 1.0001, $"{length}");
+                limited += length >= force / 240 * 0.999 ? 1 : 0;
+            }
+        }
+        Assert.True(limited > 100, $"Only {limited} reached it.");
+    }
+
+    [Fact]
+    public void RelaxationLeavesItAlone() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
+    {
+        var before = probe.LaneBits(lane);
+        probe.Solve(new(0, 1 / 240f, relaxations: 1, isRelaxation: true));
+        Assert.Equal(before, probe.LaneBits(lane));
+    });
+}
+
+public class AngularAxisMotorTests : MotorTests<AngularAxisMotor>
+{
+    private protected override AngularAxisMotor Describe(JointSamples samples, MotorSettings settings) =>
+        new() { LocalAxisA = samples.Direction(), TargetVelocity = samples.Uniform(-5, 5), Settings = settings };
+
+    private protected override double[] Target(AngularAxisMotor d) => [d.TargetVelocity];
+
+    private protected override double[] Velocity(AngularAxisMotor d, DoublePose[] poses, double[] v)
+    {
+        var relative = new DoubleVector(v[3], v[4], v[5]) - new DoubleVector(v[9], v[10], v[11]);
+        return [DoubleVector.Dot(poses[0].ToWorld(d.LocalAxisA), relative)];
+    }
+}
+
+public class OneBodyAngularMotorTests : MotorTests<OneBodyAngularMotor>
+{
+    private protected override OneBodyAngularMotor Describe(JointSamples samples, MotorSettings settings) =>
+        new() { TargetVelocity = samples.Vector(5), Settings = settings };
+
+    private protected override double[] Target(OneBodyAngularMotor d) => new DoubleVector(d.TargetVelocity).ToArray();
+
+    private protected override double[] Velocity(OneBodyAngularMotor d, DoublePose[] poses, double[] v) => v[3..6];
+}
