@@ -19,14 +19,27 @@ public struct ConstraintLocation
     public int IndexInTypeBatch;
 }
 
-/// <summary>Constraints that can be solved at the same time: no dynamic body occurs in two of them (except in the fallback batch).</summary>
+/// <summary>How the constraints of a batch are solved.</summary>
+public enum BatchKind
+{
+    /// <summary>In the sweeps, all at the same time: no dynamic body occurs in two of them.</summary>
+    Coloured,
+    /// <summary>In the sweeps, on split bodies: a body may occur any number of times.</summary>
+    Fallback,
+    /// <summary>Not in the sweeps, but by a stage that was asked to: a body may occur any number of times.</summary>
+    Direct,
+}
+
+/// <summary>Constraints that can be solved at the same time: no dynamic body occurs in two of them, unless the batch is of another kind.</summary>
 public struct ConstraintBatch
 {
+    /// <summary>How the constraints are solved.</summary>
+    public BatchKind Kind;
     /// <summary>The constraints, by type; none of them is empty. In no particular order.</summary>
     public QuickList<TypeBatch> TypeBatches;
     // One more than the place of each type in the list; 0 where the batch has none of it.
     TypePlaces places;
-    /// <summary>Slots of the dynamic bodies that occur in the batch; not kept for the fallback batch.</summary>
+    /// <summary>Slots of the dynamic bodies that occur in the batch; kept for coloured batches only.</summary>
     public IndexSet DynamicBodies;
 
     /// <summary>Number of constraints of all types.</summary>

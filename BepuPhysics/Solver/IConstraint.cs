@@ -1,3 +1,5 @@
+using System;
+using System.Numerics;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
@@ -40,4 +42,18 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
 
     /// <summary>Moves the velocities of the bodies towards satisfying the constraint.</summary>
     static abstract void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
+
+    // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
+    internal static virtual int RowCount => 0;
+
+    internal static virtual RowLimit LimitOf(int row) => RowLimit.None;
+
+    internal static virtual void ReadRows(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses, Span<ConstraintRowWide> rows)
+    {
+    }
+
+    internal static virtual void WriteImpulses(in TPrestep prestep, ReadOnlySpan<Vector<float>> rows, Vector<int> lanes, ref TImpulses impulses)
+    {
+    }
 }

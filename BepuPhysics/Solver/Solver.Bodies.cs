@@ -57,40 +57,62 @@ public sealed unsafe partial class Solver
     /// </summary>
     internal void Recolor(BodyHandle body)
     {
-        ref var set = ref bodies.SetOf(body, out var recolored);
-        ref var constraints = ref set.Constraints[recolored];
+        ref var constraints = ref bodies.SetOf(body, out var recolored).Constraints[recolored];
         var edge = constraints.First;
         ChangeKindOfHub(recolored);
-        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
-        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
         for (int i = constraints.Count; i > 0; --i)
         {
             // From the last to the first; those that follow stay where they are when one is removed.
             edge = Edges.Previous(edge);
             var handle = ReferenceOf(edge).ConnectingConstraintHandle;
-            var old = Locations[handle.Slot];
-            var processor = Processor(old.TypeId);
-            ref var typeBatch = ref TypeBatchAt(old);
-            bool anyDynamic = false;
-            for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-            {
-                var index = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
-                handles[slot] = set.IndexToHandle[index];
-                anyDynamic |= !Bodies.IsKinematic(set.LocalInertias[index]);
-            }
-            if (!anyDynamic)
-            {
+            if (!TryMove(handle, IsSwept(handle)))
                 RemoveConstraint(handle);
-                continue;
-            }
-            processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
-            RemoveFromBatch(old);
-            var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId);
-            Locations[handle.Slot] = location;
-            processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
-            if (processor.MakesHubs)
-                MarkHubs(location);
         }
+    }
+
+    /// <summary>Whether a constraint that exists is solved by the sweeps.</summary>
+    internal bool IsSwept(ConstraintHandle handle)
+    {
+        ref var location = ref Locations[handle.Slot];
+        return Sets[location.SetIndex].Batches[location.BatchIndex].Kind != BatchKind.Direct;
+    }
+
+    /// <summary>
+    /// Leaves a constraint that exists out of the sweeps, or takes it in again. Whoever leaves it out solves it, by its rows
+    /// (<see cref="TypeProcessor.ReadRows(ref TypeBatch, in SolverBodies, in Substep, int, Span{ConstraintRow})"/>). Impulses stay.
+    /// </summary>
+    internal void SetSwept(ConstraintHandle handle, bool isSwept)
+    {
+        if (IsSwept(handle) != isSwept)
+            TryMove(handle, isSwept);
+    }
+
+    // Puts a constraint into a batch anew, for the kinds that its bodies have now; false where none of them is dynamic.
+    bool TryMove(ConstraintHandle handle, bool isSwept)
+    {
+        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        var old = Locations[handle.Slot];
+        ref var set = ref bodies.Sets[old.SetIndex];
+        var processor = Processor(old.TypeId);
+        ref var typeBatch = ref TypeBatchAt(old);
+        bool anyDynamic = false;
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            var index = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
+            handles[slot] = set.IndexToHandle[index];
+            anyDynamic |= !Bodies.IsKinematic(set.LocalInertias[index]);
+        }
+        if (!anyDynamic)
+            return false;
+        processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+        RemoveFromBatch(old);
+        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, isSwept);
+        Locations[handle.Slot] = location;
+        processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+        if (processor.MakesHubs)
+            MarkHubs(location);
+        return true;
     }
 
     /// <summary>Follows a body that moved to another index of its set.</summary>

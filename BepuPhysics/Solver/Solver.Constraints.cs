@@ -160,7 +160,7 @@ public sealed unsafe partial class Solver
         return handle;
     }
 
-    ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
+    ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId, bool isSwept = true)
     {
         Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
         Span<int> dynamics = stackalloc int[MaximumBodiesPerConstraint];
@@ -172,9 +172,9 @@ public sealed unsafe partial class Solver
             if (!kinematic)
                 dynamics[dynamicCount++] = bodyHandles[i].Slot;
         }
-        var batchIndex = FindBatch(dynamics[..dynamicCount]);
+        var batchIndex = isSwept ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(BatchKind.Direct);
         ref var batch = ref ActiveSet.Batches[batchIndex];
-        if (batchIndex < FallbackBatchThreshold)
+        if (batch.Kind == BatchKind.Coloured)
         {
             for (int i = 0; i < dynamicCount; ++i)
                 batch.DynamicBodies.Add(dynamics[i], pool);
@@ -187,21 +187,40 @@ public sealed unsafe partial class Solver
     int FindBatch(Span<int> dynamics)
     {
         ref var batches = ref ActiveSet.Batches;
-        var colored = Math.Min(batches.Count, FallbackBatchThreshold);
-        for (int i = 0; i < colored; ++i)
+        var coloured = 0;
+        for (int i = 0; i < batches.Count; ++i)
         {
+            if (batches[i].Kind != BatchKind.Coloured)
+                continue;
             if (batches[i].DynamicBodies.CanFit(dynamics))
                 return i;
+            ++coloured;
         }
-        if (batches.Count <= FallbackBatchThreshold)
+        return coloured < FallbackBatchThreshold ? AddBatch(BatchKind.Coloured) : FindOrCreateBatch(BatchKind.Fallback);
+    }
+
+    int FindOrCreateBatch(BatchKind kind) => FindBatch(kind) is >= 0 and var index ? index : AddBatch(kind);
+
+    /// <summary>Index of the batch of a kind of which there is one; -1 where there is none yet.</summary>
+    int FindBatch(BatchKind kind)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        for (int i = batches.Count - 1; i >= 0; --i)
         {
-            var batch = new ConstraintBatch { TypeBatches = new QuickList<TypeBatch>(4, pool) };
-            if (batches.Count < FallbackBatchThreshold)
-                batch.DynamicBodies = new IndexSet(pool, Math.Max(64, bodies.ActiveSet.Count));
-            batches.Add(batch, pool);
-            return batches.Count - 1;
+            if (batches[i].Kind == kind)
+                return i;
         }
-        return FallbackBatchThreshold;
+        return -1;
+    }
+
+    int AddBatch(BatchKind kind)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        var batch = new ConstraintBatch { Kind = kind, TypeBatches = new QuickList<TypeBatch>(4, pool) };
+        if (kind == BatchKind.Coloured)
+            batch.DynamicBodies = new IndexSet(pool, Math.Max(64, bodies.ActiveSet.Count));
+        batches.Add(batch, pool);
+        return batches.Count - 1;
     }
 
     /// <summary>Takes a constraint out of its batch; type batches, and batches at the end, that have none left go too.</summary>
@@ -211,7 +230,7 @@ public sealed unsafe partial class Solver
         ref var batch = ref batches[location.BatchIndex];
         ref var typeBatch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
-        if (location.BatchIndex < FallbackBatchThreshold)
+        if (batch.Kind == BatchKind.Coloured)
         {
             for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
             {

@@ -67,9 +67,10 @@ public sealed unsafe partial class Solver
     void BuildSplitBodies(ref FallbackParts split)
     {
         ref var batches = ref ActiveSet.Batches;
-        if (batches.Count <= FallbackBatchThreshold || batches[FallbackBatchThreshold].CountConstraints() == 0)
+        var fallback = FindBatch(BatchKind.Fallback);
+        if (fallback < 0 || batches[fallback].CountConstraints() == 0)
             return;
-        ref var typeBatches = ref batches[FallbackBatchThreshold].TypeBatches;
+        ref var typeBatches = ref batches[fallback].TypeBatches;
         pool.Take(bodies.ActiveSet.Count, out split.Counts);
         split.Counts.Clear(0, split.Counts.Length);
         split.StartOfTypeBatch = new QuickList<int>(typeBatches.Count, pool);
@@ -85,7 +86,7 @@ public sealed unsafe partial class Solver
         split.Shares.AsSpan().Fill(1);
 
         // Count the parts of each body, give each split body a range, then fill the ranges in the order of the constraints.
-        VisitParts(ref split, null);
+        VisitParts(ref split, batches[fallback], null);
         split.SplitBodies = new QuickList<int>(64, pool);
         split.StartOfBody = new QuickList<int>(64, pool);
         pool.Take<int>(bodies.ActiveSet.Count, out var next);
@@ -101,7 +102,7 @@ public sealed unsafe partial class Solver
         }
         split.StartOfBody.Add(start, pool);
         split.BodyCount = split.SplitBodies.Count;
-        VisitParts(ref split, next.Memory);
+        VisitParts(ref split, batches[fallback], next.Memory);
         pool.Return(ref next);
         for (int i = 0; i < split.BodyCount; ++i)
             Normalize(ref split, split.StartOfBody[i], split.StartOfBody[i + 1]);
@@ -134,9 +135,8 @@ public sealed unsafe partial class Solver
 
     // Counts the parts of each body, or, with the next free place of each body's range, fills the ranges. In the order of the types' ids: that of
     // the type batches is the order in which constraints of the types were first there, be they removed since.
-    void VisitParts(ref FallbackParts split, int* next)
+    void VisitParts(ref FallbackParts split, ConstraintBatch batch, int* next)
     {
-        ref var batch = ref ActiveSet.Batches[FallbackBatchThreshold];
         ref var typeBatches = ref batch.TypeBatches;
         for (int typeId = 0; typeId < MaximumTypeCount; ++typeId)
         {

@@ -152,6 +152,11 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < batches.Count; ++i)
         {
             var start = work.Blocks.Count;
+            if (batches[i].Kind == BatchKind.Direct)
+            {
+                work.BlocksOfBatch.Add(default, pool);
+                continue;
+            }
             AddBlocks(ref work, batches[i], ofJoints: true);
             var firstContacts = work.Blocks.Count;
             AddBlocks(ref work, batches[i], ofJoints: false);
@@ -247,12 +252,12 @@ public sealed unsafe partial class Solver
             var batch = work.Order[i];
             ref var blocks = ref work.BlocksOfBatch[batch];
             // Split bodies are joined once for all of their constraints.
-            AddBatch(ref work, kind, substep, batch, blocks.Start, batch == FallbackBatchThreshold ? blocks.Count : blocks.JointCount);
+            AddBatch(ref work, kind, substep, batch, blocks.Start, IsFallback(batch) ? blocks.Count : blocks.JointCount);
         }
         for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
         {
             ref var blocks = ref work.BlocksOfBatch[i];
-            if (i < FallbackBatchThreshold || blocks.JointCount == 0)
+            if (!IsFallback(i) || blocks.JointCount == 0)
                 AddBatch(ref work, kind, substep, i, blocks.Start + blocks.JointCount, blocks.Count - blocks.JointCount);
         }
     }
@@ -270,9 +275,11 @@ public sealed unsafe partial class Solver
             FirstBlock = firstBlock,
             BlockCount = blockCount,
         }, pool);
-        if (batch == FallbackBatchThreshold)
+        if (IsFallback(batch))
             work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
     }
+
+    bool IsFallback(int batch) => ActiveSet.Batches[batch].Kind == BatchKind.Fallback;
 
     static int BlockCount(int count, int perBlock) => (count + perBlock - 1) / perBlock;
 
@@ -335,10 +342,11 @@ public sealed unsafe partial class Solver
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {
-            ref var batch = ref Solver.ActiveSet.Batches[stage.Batch].TypeBatches[block.TypeBatch];
+            ref var constraints = ref Solver.ActiveSet.Batches[stage.Batch];
+            ref var batch = ref constraints.TypeBatches[block.TypeBatch];
             var processor = Solver.Processor(batch.TypeId);
             var substep = SubstepOf(stage);
-            if (stage.Batch == Solver.FallbackBatchThreshold)
+            if (constraints.Kind == BatchKind.Fallback)
             {
                 var split = Split.For(block.TypeBatch);
                 if (stage.Kind == StageKind.WarmStart)

@@ -1,5 +1,7 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
 
 namespace BepuPhysics;
 
@@ -12,7 +14,7 @@ public sealed partial class Solver
         for (int setIndex = 0; setIndex < Sets.Length; ++setIndex)
         {
             ref var batches = ref Sets[setIndex].Batches;
-            Invariant.Require(batches.Count <= FallbackBatchThreshold + 1, "number of batches", batches.Count);
+            ValidateKinds(batches);
             for (int batchIndex = 0; batchIndex < batches.Count; ++batchIndex)
                 ValidateBatch(setIndex, batchIndex, ref referenceCount);
         }
@@ -52,12 +54,23 @@ public sealed partial class Solver
             referenceCount += typeBatch.ConstraintCount * Processor(typeBatch.TypeId).BodiesPerConstraint;
             ValidateUnusedLanes(ref typeBatch, batchIndex);
         }
-        if (batchIndex == FallbackBatchThreshold)
+        if (batch.Kind != BatchKind.Coloured)
             return;
         for (int handle = 0; handle < found.Length; ++handle)
             Invariant.Require(batch.DynamicBodies.Contains(handle) == found[handle], "bodies of batch", batchIndex, handle);
         for (int handle = found.Length; handle < batch.DynamicBodies.Capacity; ++handle)
             Invariant.Require(!batch.DynamicBodies.Contains(handle), "bodies of batch", batchIndex, handle);
+    }
+
+    // As many coloured batches as there may be, and one of each other kind.
+    void ValidateKinds(in QuickList<ConstraintBatch> batches)
+    {
+        Span<int> counts = stackalloc int[3];
+        counts.Clear();
+        for (int i = 0; i < batches.Count; ++i)
+            ++counts[(int)batches[i].Kind];
+        Invariant.Require(counts[(int)BatchKind.Coloured] <= FallbackBatchThreshold, "number of batches", batches.Count);
+        Invariant.Require(counts[(int)BatchKind.Fallback] <= 1 && counts[(int)BatchKind.Direct] <= 1, "number of batches of a kind", batches.Count);
     }
 
     void ValidateCapacity(ref TypeBatch typeBatch, int batchIndex)
@@ -96,7 +109,7 @@ public sealed partial class Solver
                 continue;
             anyDynamic = true;
             ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Slot];
-            Invariant.Require(!isFound || location.BatchIndex == FallbackBatchThreshold,
+            Invariant.Require(!isFound || Sets[location.SetIndex].Batches[location.BatchIndex].Kind != BatchKind.Coloured,
                 "second constraint in its batch of the body of constraint", handle.Slot, slot);
             isFound = true;
         }

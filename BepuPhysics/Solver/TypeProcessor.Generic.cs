@@ -4,7 +4,7 @@ using System.Runtime.CompilerServices;
 namespace BepuPhysics.Constraints;
 
 /// <summary>The only loops of the solver, specialised by the JIT for each type of constraint.</summary>
-public sealed unsafe class TypeProcessor<TBodies, TPrestep, TImpulses, TConstraint> : TypeProcessor
+public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, TConstraint> : TypeProcessor
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TImpulses : unmanaged
     where TConstraint : unmanaged, IConstraint<TBodies, TPrestep, TImpulses>
 {

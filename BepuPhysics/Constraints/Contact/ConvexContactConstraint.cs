@@ -14,7 +14,7 @@ namespace BepuPhysics.Constraints.Contact;
 //
 // Contacts follow their bodies within a step: separation = separation at detection + J_i (displacement since then), with the arms kept.
 // Arms, normal and displacement are consistent to first order, so what a contact takes at one arm it gives back at the same arm.
-readonly struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
+readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>
     where TBodies : unmanaged, IBodySlots where TContacts : unmanaged, IFew<ContactPrestepWide> where TNormals : unmanaged, IFew<Vector<float>>
 {

@@ -1,0 +1,120 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+// What other solvers read of a contact: the normals, two rows of friction, and one of twist where there is more than one contact. The coefficients are
+// composed a second time: the kernels are as the JIT likes them. A test steps by these rows and compares with the sweeps.
+readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
+{
+    static int FirstFriction => TContacts.Count;
+
+    static int IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.RowCount =>
+        TContacts.Count > 1 ? TContacts.Count + 3 : 3;
+
+    static RowLimit IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.LimitOf(int row) =>
+        row < FirstFriction ? RowLimit.Positive : row < FirstFriction + 2 ? RowLimit.Friction : RowLimit.Twist;
+
+    static void IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.ReadRows(
+        in TBodies bodies, in Substep substep, in ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses,
+        Span<ConstraintRowWide> rows)
+    {
+        // Copies: what is read through "in" by an index is copied each time.
+        var patch = prestep;
+        var accumulated = impulses;
+        var n = patch.Normal;
+        var center = PatchCenter(ref patch);
+        var load = Vector<float>.Zero;
+        var moment = Vector<float>.Zero;
+        for (int i = 0; i < TContacts.Count; ++i)
+        {
+            ref var row = ref rows[i];
+            var arm = patch.Contacts[i].OffsetA;
+            WriteJacobian(ref row, n, arm, patch.OffsetB);
+            row.Impulse = accumulated.Normals[i];
+            row.Lever = TContacts.Count > 1 ? (arm - center).Length() : Vector<float>.Zero;
+            row.PositionError = Displacement(bodies, row) - patch.Contacts[i].Depth;
+            row.MaximumImpulse = new(float.PositiveInfinity);
+            row.HardMask = Vector.Equals(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
+            AimNormal(substep, patch.Material, ref row);
+            load += row.Impulse;
+            moment += row.Impulse * row.Lever;
+        }
+        var coefficient = patch.Material.FrictionCoefficient;
+        Vector3Wide.BuildOrthonormalBasis(n, out var x, out var y);
+        WriteFriction(ref rows[FirstFriction], Vector3Wide.Dot(accumulated.Friction, x), coefficient, load);
+        WriteJacobian(ref rows[FirstFriction], x, center, patch.OffsetB);
+        WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);
+        WriteJacobian(ref rows[FirstFriction + 1], y, center, patch.OffsetB);
+        if (TContacts.Count == 1)
+            return;
+        ref var twist = ref rows[FirstFriction + 2];
+        WriteFriction(ref twist, accumulated.Twist, coefficient, moment);
+        twist.A.Angular = n;
+        if (TBodies.Count > 1)
+            twist.B.Angular = -n;
+    }
+
+    static void IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.WriteImpulses(
+        in ConvexContactPrestepWide<TContacts> prestep, ReadOnlySpan<Vector<float>> rows, Vector<int> lanes, ref ConvexContactImpulsesWide<TNormals> impulses)
+    {
+        for (int i = 0; i < TNormals.Count; ++i)
+            impulses.Normals[i] = Wide.Select(lanes, rows[i], impulses.Normals[i]);
+        Vector3Wide.BuildOrthonormalBasis(prestep.Normal, out var x, out var y);
+        impulses.Friction = Vector3Wide.Select(lanes, x * rows[FirstFriction] + y * rows[FirstFriction + 1], impulses.Friction);
+        if (TContacts.Count > 1)
+            impulses.Twist = Wide.Select(lanes, rows[FirstFriction + 2], impulses.Twist);
+    }
+
+    // An impulse along a direction at an arm from A, and the opposite on B.
+    static void WriteJacobian(ref ConstraintRowWide row, in Vector3Wide direction, in Vector3Wide arm, in Vector3Wide offsetB)
+    {
+        row.A.Linear = direction;
+        row.A.Angular = Vector3Wide.Cross(arm, direction);
+        if (TBodies.Count == 1)
+            return;
+        row.B.Linear = -direction;
+        row.B.Angular = Vector3Wide.Cross(direction, arm - offsetB);
+    }
+
+    static void WriteFriction(ref ConstraintRowWide row, Vector<float> impulse, Vector<float> coefficient, Vector<float> load)
+    {
+        row.Impulse = impulse;
+        row.MassScale = Vector<float>.One;
+        row.FrictionCoefficient = coefficient;
+        row.MaximumImpulse = coefficient * load;
+        row.MinimumImpulse = -row.MaximumImpulse;
+        row.HardMask = new(-1);
+    }
+
+    // How far the surfaces have parted since collision detection.
+    static Vector<float> Displacement(in TBodies bodies, in ConstraintRowWide row)
+    {
+        var slots = bodies;
+        ref var a = ref BodySlots.At(ref slots, 0);
+        var apart = Vector3Wide.Dot(a.Translation, row.A.Linear) + Vector3Wide.Dot(a.Rotation, row.A.Angular);
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref slots, 1);
+            apart += Vector3Wide.Dot(b.Translation, row.B.Linear) + Vector3Wide.Dot(b.Rotation, row.B.Angular);
+        }
+        return apart;
+    }
+
+    // The velocity that SolveNormal wants, and how softly.
+    static void AimNormal(in Substep substep, in ContactMaterialWide material, ref ConstraintRowWide row)
+    {
+        var softness = material.SpringSettings.ForSubstep(substep, substep.Contacts);
+        var depth = -row.PositionError;
+        var recovery = depth * softness.ErrorToVelocity;
+        var isLimited = Vector.GreaterThan(recovery, material.MaximumRecoveryVelocity);
+        row.TargetVelocity = Wide.Min(depth * new Vector<float>(substep.InverseDt), Wide.Min(recovery, material.MaximumRecoveryVelocity));
+        row.MassScale = softness.MassScale;
+        row.ImpulseScale = softness.ImpulseScale;
+        if (!Vector.EqualsAll(isLimited, Vector<int>.Zero))
+            Stiffen(isLimited, material.MaximumRecoveryVelocity / recovery, ref row.MassScale, ref row.ImpulseScale);
+        if (substep.IsRelaxation)
+            row.MassScale = Wide.Mask(Vector.GreaterThan(row.Impulse, Vector<float>.Zero), row.MassScale);
+    }
+}

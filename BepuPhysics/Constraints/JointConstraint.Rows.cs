@@ -1,0 +1,103 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+// What other solvers read of a joint, from the same parts as the sweeps. The coefficients are composed here a second time: shared with Solve they
+// would take more locals than the JIT tracks in it. A test steps by these rows and compares with the sweeps.
+public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRows, TMass, TJoint>
+{
+    const int CoordinatesPerBody = 6;
+
+    static int IConstraint<TBodies, TPrestep, TRows>.RowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+
+    static RowLimit IConstraint<TBodies, TPrestep, TRows>.LimitOf(int row) =>
+        TJoint.Kind == RowKind.Inequality ? RowLimit.Positive : IsLimited ? RowLimit.Length : RowLimit.None;
+
+    static bool IsLimited => TJoint.Kind == RowKind.Servo || TJoint.Kind == RowKind.Motor;
+
+    static void IConstraint<TBodies, TPrestep, TRows>.ReadRows(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, Span<ConstraintRowWide> rows)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        ReadJacobian(geometry, rows);
+        TJoint.PositionError(bodies, prestep, geometry, out var error);
+        Aim(bodies, substep, prestep, geometry, error, out var target, out var softness, out var isHard);
+        if (IsLimited && substep.IsRelaxation)
+            softness = default;
+        var greatest = new Vector<float>(float.PositiveInfinity);
+        if (TJoint.Kind == RowKind.Servo)
+            greatest = TJoint.Servo(prestep).MaximumForce * substep.Dt;
+        if (TJoint.Kind == RowKind.Motor)
+            greatest = TJoint.Motor(prestep).MaximumForce * substep.Dt;
+        var accumulated = impulses;
+        for (int i = 0; i < rows.Length; ++i)
+        {
+            ref var row = ref rows[i];
+            row.PositionError = Row(ref error, i);
+            row.TargetVelocity = Row(ref target, i);
+            row.MassScale = softness.MassScale;
+            row.ImpulseScale = softness.ImpulseScale;
+            row.Impulse = Row(ref accumulated, i);
+            row.MinimumImpulse = TJoint.Kind == RowKind.Inequality ? Vector<float>.Zero : -greatest;
+            row.MaximumImpulse = greatest;
+            row.HardMask = isHard;
+        }
+    }
+
+    static void IConstraint<TBodies, TPrestep, TRows>.WriteImpulses(
+        in TPrestep prestep, ReadOnlySpan<Vector<float>> rows, Vector<int> lanes, ref TRows impulses)
+    {
+        for (int i = 0; i < rows.Length; ++i)
+            Row(ref impulses, i) = Wide.Select(lanes, rows[i], Row(ref impulses, i));
+    }
+
+    // J column by column: what the joint sees of a unit velocity.
+    static void ReadJacobian(in TGeometry geometry, Span<ConstraintRowWide> rows)
+    {
+        TBodies bodies = default;
+        for (int slot = 0; slot < TBodies.Count; ++slot)
+        {
+            // Linear and angular velocity lie side by side, in bodies as in Jacobians.
+            ref var coordinates = ref Unsafe.As<Vector3Wide, Vector<float>>(ref BodySlots.At(ref bodies, slot).Linear);
+            for (int i = 0; i < CoordinatesPerBody; ++i)
+            {
+                Unsafe.Add(ref coordinates, i) = Vector<float>.One;
+                TJoint.RelativeVelocity(geometry, bodies, out var column);
+                Unsafe.Add(ref coordinates, i) = Vector<float>.Zero;
+                for (int row = 0; row < rows.Length; ++row)
+                    Unsafe.Add(ref Unsafe.As<RowJacobianWide, Vector<float>>(ref rows[row].Of(slot)), i) = Row(ref column, row);
+            }
+        }
+    }
+
+    // The velocity that Solve wants, and how softly.
+    static void Aim(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TGeometry geometry, in TRows error,
+        out TRows target, out SoftnessWide softness, out Vector<int> isHard)
+    {
+        if (TJoint.Kind == RowKind.Motor)
+        {
+            TJoint.TargetVelocity(bodies, prestep, geometry, out target);
+            softness = TJoint.Motor(prestep).ForSubstep(substep);
+            isHard = Vector.Equals(softness.ImpulseScale, Vector<float>.Zero);
+            return;
+        }
+        var spring = TJoint.Spring(prestep);
+        isHard = Vector.Equals(spring.AngularFrequency, Vector<float>.Zero);
+        var slots = bodies;
+        var isHub = Vector<int>.Zero;
+        for (int i = 0; i < TBodies.Count; ++i)
+            isHub |= BodySlots.At(ref slots, i).HubMask;
+        softness = spring.ForSubstep(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints, substep.Hubs, isHub);
+        target = error * -softness.ErrorToVelocity;
+        if (TJoint.Kind == RowKind.Inequality)
+            target = TRows.Min(target, error * new Vector<float>(-substep.InverseDt));
+        if (TJoint.Kind == RowKind.Servo)
+            target = LimitSpeed(error, target, substep, TJoint.Servo(prestep));
+    }
+
+    static ref Vector<float> Row(ref TRows rows, int index) => ref Unsafe.Add(ref Unsafe.As<TRows, Vector<float>>(ref rows), index);
+}

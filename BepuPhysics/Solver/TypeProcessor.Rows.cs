@@ -1,0 +1,49 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+// Rows for solvers other than the sweeps. Nothing here runs in a sweep, and the sweeps run nothing of it.
+public abstract partial class TypeProcessor
+{
+    /// <summary>Number of rows of a constraint; 0 where the type is a game's own that does not tell them, and can only be swept over.</summary>
+    internal abstract int RowCount { get; }
+
+    /// <summary>What bounds the impulse of a row.</summary>
+    internal abstract RowLimit LimitOf(int row);
+
+    /// <summary>Reads the rows of a bundle of constraints as a sweep of the substep would find them: for the present velocities, poses and impulses.</summary>
+    /// <param name="batch">Where the constraints are.</param>
+    /// <param name="bodies">The bodies of the active set.</param>
+    /// <param name="substep">The substep, and what its present sweep is for.</param>
+    /// <param name="bundle">Index of the bundle in the type batch.</param>
+    /// <param name="rows"><see cref="RowCount"/> rows; lanes without a constraint mean nothing.</param>
+    internal abstract void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Span<ConstraintRowWide> rows);
+
+    /// <summary>Replaces the accumulated impulses of some constraints of a bundle; the velocities of the bodies are the caller's to change.</summary>
+    /// <param name="batch">Where the constraints are.</param>
+    /// <param name="bundle">Index of the bundle in the type batch.</param>
+    /// <param name="impulses">Impulse of each row.</param>
+    /// <param name="lanes">Mask of the lanes to write.</param>
+    internal abstract void WriteImpulses(ref TypeBatch batch, int bundle, ReadOnlySpan<Vector<float>> impulses, Vector<int> lanes);
+
+    /// <summary>Reads the rows of one constraint.</summary>
+    internal void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int index, Span<ConstraintRow> rows)
+    {
+        Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[RowCount];
+        ReadRows(ref batch, bodies, substep, index / Vector<float>.Count, wide);
+        for (int i = 0; i < wide.Length; ++i)
+            rows[i] = Lanes.Read<ConstraintRow, ConstraintRowWide>(ref wide[i], index % Vector<float>.Count);
+    }
+
+    /// <summary>Replaces the accumulated impulses of one constraint, row by row.</summary>
+    internal void WriteImpulses(ref TypeBatch batch, int index, ReadOnlySpan<float> impulses)
+    {
+        Span<Vector<float>> wide = stackalloc Vector<float>[RowCount];
+        for (int i = 0; i < wide.Length; ++i)
+            wide[i] = new(impulses[i]);
+        var lanes = Vector<int>.Zero.WithElement(index % Vector<float>.Count, -1);
+        WriteImpulses(ref batch, index / Vector<float>.Count, wide, lanes);
+    }
+}
