@@ -8,7 +8,7 @@ namespace BepuPhysics.CollisionDetection;
 /// As with <see cref="PairQueue"/>: constraints lie in an order of their own, and a column is spread over ten to twenty cache lines. It is asked for
 /// while the contacts of other pairs are found.
 /// </remarks>
-struct ContactQueue
+unsafe struct ContactQueue
 {
     const int Length = 16;
     // Contacts between two stages of one pair's.
@@ -16,7 +16,7 @@ struct ContactQueue
 
     struct Update
     {
-        public int CacheIndex;
+        public FeatureIds* Features;
         public ConstraintHandle Handle;
         public ContactConstraint Constraint;
         public ConvexContactManifold Manifold;
@@ -34,36 +34,34 @@ struct ContactQueue
     int located;
     int written;
 
-    /// <summary>Adds the contacts of a pair whose constraint has as many.</summary>
-    /// <param name="cache">The pairs.</param>
+    /// <summary>Adds the contacts of a manifold whose constraint has as many.</summary>
     /// <param name="solver">The constraints.</param>
-    /// <param name="cacheIndex">Index of the pair.</param>
-    /// <param name="constraint">Its constraint.</param>
-    /// <param name="manifold">Its contacts.</param>
-    /// <param name="material">How its surfaces behave.</param>
-    public unsafe void Add(in PairCache cache, Solver solver, int cacheIndex, ConstraintHandle constraint, in ConvexContactManifold manifold,
-        in PairMaterialProperties material)
+    /// <param name="features">What the cache remembers the contacts by; it stays where it is until they are written.</param>
+    /// <param name="constraint">The constraint.</param>
+    /// <param name="manifold">The contacts.</param>
+    /// <param name="material">How the surfaces behave.</param>
+    public void Add(Solver solver, FeatureIds* features, ConstraintHandle constraint, in ConvexContactManifold manifold, in PairMaterialProperties material)
     {
         ref var update = ref updates[added++ % Length];
-        update.CacheIndex = cacheIndex;
+        update.Features = features;
         update.Handle = constraint;
         update.Manifold = manifold;
         update.Material = material;
         Prefetch.Read(solver.Locations.Memory + constraint.Slot);
-        Prefetch.Read(cache.Pairs.Values.Memory + cacheIndex);
+        Prefetch.Read(features);
         if (added - located > StageLength)
             Locate(solver);
         if (added - written > 2 * StageLength)
-            Write(cache);
+            Write();
     }
 
     /// <summary>Writes all contacts that are left.</summary>
-    public void Flush(in PairCache cache, Solver solver)
+    public void Flush(Solver solver)
     {
         while (located != added)
             Locate(solver);
         while (written != added)
-            Write(cache);
+            Write();
     }
 
     void Locate(Solver solver)
@@ -73,12 +71,11 @@ struct ContactQueue
         update.Constraint.Prefetch();
     }
 
-    void Write(in PairCache cache)
+    void Write()
     {
         ref var update = ref updates[written++ % Length];
-        ref var features = ref cache.Pairs.Values[update.CacheIndex].Features;
-        update.Constraint.ReadImpulses(features, out var impulses);
+        update.Constraint.ReadImpulses(*update.Features, out var impulses);
         update.Constraint.Write(update.Manifold, update.Material);
-        update.Constraint.WriteImpulses(impulses, update.Manifold, ref features);
+        update.Constraint.WriteImpulses(impulses, update.Manifold, ref *update.Features);
     }
 }

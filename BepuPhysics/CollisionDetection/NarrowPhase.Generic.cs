@@ -2,7 +2,6 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -15,7 +14,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     /// <summary>The callbacks themselves: <see cref="Simulation.Create"/> copied the struct that it was given. Not to be changed during a step.</summary>
     public TCallbacks Callbacks;
     Worker[] workers = [];
-    QuickList<PairKey> order;
 
     internal NarrowPhase(Simulation simulation, in TCallbacks callbacks, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
         : base(simulation, collisionTaskRegistry, initialPairCapacity) => Callbacks = callbacks;
@@ -27,44 +25,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public CollisionBatcher<Completion> Batcher;
         public TestedPairs TestedPairs;
         public ContactQueue Contacts;
-        public QuickList<PendingPair> Pending;
+        public QuickList<PendingManifold> Pending;
         public QuickList<BouncingPair> Bouncing;
         public BufferPool Pool;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
         public int PairsLeft;
         public int SkippedPairCount;
-    }
-
-    // A pair whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
-    struct PendingPair
-    {
-        public CollidablePair Pair;
-        public bool KeepsHistory;
-        public ConvexContactManifold Manifold;
-        public PairMaterialProperties Material;
-    }
-
-    // A pair with a coefficient of restitution.
-    struct BouncingPair
-    {
-        public CollidablePair Pair;
-        public float Coefficient;
-    }
-
-    // Where a noted pair is, with the key by which all are put in order.
-    struct PairKey
-    {
-        public ulong Key;
-        public int Worker;
-        public int Index;
-    }
-
-    // By slots alone: whether these were others' before must not change the order.
-    struct ByKey : IComparerRef<PairKey>
-    {
-        const ulong Ordering = (ulong)CollidableReference.OrderMask << 32 | CollidableReference.OrderMask;
-
-        public readonly int Compare(ref PairKey a, ref PairKey b) => (a.Key & Ordering).CompareTo(b.Key & Ordering);
     }
 
     // Receives the manifolds of one worker's batcher.
@@ -117,18 +83,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.Pair = pair;
         tested.CacheIndex = cacheIndex;
         tested.Constraint = default;
-        tested.ConstraintTypeId = CachedPair.NoConstraint;
+        tested.ConstraintTypeId = CachedManifold.NoConstraint;
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
         var history = PairInput.NoHistory;
         if (tested.CacheIndex >= 0)
         {
             ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
-            tested.Constraint = cached.Constraint;
-            tested.ConstraintTypeId = cached.ConstraintTypeId;
-            tested.HasHistory = cached.History >= 0;
+            tested.Constraint = cached.Single.Constraint;
+            tested.ConstraintTypeId = cached.Single.ConstraintTypeId;
+            tested.HasHistory = cached.Single.History >= 0;
             if (task.KeepsHistories)
-                history = cached.History;
+                history = cached.Single.History;
         }
         if (history >= 0)
         {
@@ -182,7 +148,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         if (surface.Restitution != 0)
         {
             CallbackChecks.Restitution(tested.Pair, surface.Restitution);
-            Note(ref worker, new() { Pair = tested.Pair, Coefficient = surface.Restitution });
+            Note(ref worker.Bouncing, new() { Pair = tested.Pair, Coefficient = surface.Restitution }, worker.Pool);
         }
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
@@ -190,12 +156,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             Pairs.MarkSeen(tested.CacheIndex);
             if (tested.KeepsConstraint(typeId))
             {
-                worker.Contacts.Add(Pairs, Simulation.Solver, tested.CacheIndex, tested.Constraint, convex, material);
+                worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, convex, material);
                 return;
             }
         }
-        worker.Pending.Add(
-            new() { Pair = tested.Pair, KeepsHistory = tested.KeepsHistory, Manifold = convex, Material = material }, worker.Pool);
+        worker.Pending.Add(new(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material }, worker.Pool);
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.
@@ -204,133 +169,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            if (tested.ConstraintTypeId == CachedPair.NoConstraint)
+            if (tested.ConstraintTypeId == CachedManifold.NoConstraint)
                 return;
         }
-        worker.Pending.Add(new() { Pair = tested.Pair, KeepsHistory = true }, worker.Pool);
-    }
-
-    // Pairs that ask for restitution pay for a list; no others do.
-    static void Note(ref Worker worker, in BouncingPair bouncing)
-    {
-        if (!worker.Bouncing.Span.Allocated)
-            worker.Bouncing = new QuickList<BouncingPair>(64, worker.Pool);
-        worker.Bouncing.Add(bouncing, worker.Pool);
-    }
-
-    internal override void Flush()
-    {
-        try
-        {
-            ApplyPending();
-        }
-        finally
-        {
-            // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
-            if (order.Span.Allocated)
-                order.Dispose(Pool);
-            ReleaseWorkers();
-        }
-    }
-
-    void ApplyPending()
-    {
-        RemoveUnseenPairs();
-        order = new QuickList<PairKey>(64, Pool);
-        for (int i = 0; i < workers.Length; ++i)
-        {
-            for (int j = 0; j < workers[i].Pending.Count; ++j)
-                order.Add(new() { Key = Key(workers[i].Pending[j].Pair), Worker = i, Index = j }, Pool);
-        }
-        SortByKey();
-        for (int i = 0; i < order.Count; ++i)
-        {
-            PrefetchPending(i);
-            Apply(workers[order[i].Worker].Pending[order[i].Index]);
-        }
-        WatchBouncingPairs();
-    }
-
-    /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
-    void PrefetchPending(int index)
-    {
-        const int distance = 8;
-        if (index + 2 * distance < order.Count)
-            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 2 * distance].Key));
-        if (index + distance >= order.Count)
-            return;
-        ref var next = ref order[index + distance];
-        Pairs.Pairs.PrefetchElement(PairOf(next.Key));
-        ref var pending = ref workers[next.Worker].Pending[next.Index];
-        Prefetch.Read(Unsafe.AsPointer(ref pending));
-        Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
-    }
-
-    void ReleaseWorkers()
-    {
-        for (int i = 0; i < workers.Length; ++i)
-            Release(ref workers[i]);
-    }
-
-    void WatchBouncingPairs()
-    {
-        Restitution.BeginStep();
-        order.Count = 0;
-        for (int i = 0; i < workers.Length; ++i)
-        {
-            for (int j = 0; j < workers[i].Bouncing.Count; ++j)
-                order.Add(new() { Key = Key(workers[i].Bouncing[j].Pair), Worker = i, Index = j }, Pool);
-        }
-        SortByKey();
-        for (int i = 0; i < order.Count; ++i)
-        {
-            ref var bouncing = ref workers[order[i].Worker].Bouncing[order[i].Index];
-            ref var cached = ref Pairs.Pairs.Values[Pairs.Pairs.IndexOf(bouncing.Pair)];
-            Restitution.Watch(cached.Constraint, ContactCount(cached.ConstraintTypeId), bouncing.Coefficient);
-        }
-    }
-
-    static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
-
-    static CollidablePair PairOf(ulong key) =>
-        new(new CollidableReference { Packed = (uint)(key >> 32) }, new CollidableReference { Packed = (uint)key });
-
-    static int ConstraintType(in CollidablePair pair, int contactCount) =>
-        ConstraintTypeIds.ConvexContact(contactCount, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);
-
-    static int ContactCount(int typeId) => typeId % 4 + 1;
-
-    void SortByKey()
-    {
-        var comparer = new ByKey();
-        QuickSort.Sort(order.Span, order.Count, ref comparer);
-    }
-
-    void Apply(in PendingPair pending)
-    {
-        ContactImpulses impulses = default;
-        var solver = Simulation.Solver;
-        var index = Pairs.Pairs.IndexOf(pending.Pair);
-        if (index < 0)
-        {
-            index = Pairs.Pairs.Count;
-            Pairs.Add(pending.Pair, pending.KeepsHistory, Pool);
-        }
-        ref var cached = ref Pairs.Pairs.Values[index];
-        if (pending.KeepsHistory && cached.History < 0)
-            cached.History = Pairs.Histories.Take(Pool);
-        if (cached.HasConstraint)
-        {
-            new ContactConstraint(solver, cached.Constraint, ContactCount(cached.ConstraintTypeId)).ReadImpulses(cached.Features, out impulses);
-            RemoveConstraint(ref cached);
-        }
-        var contactCount = pending.Manifold.Count;
-        if (contactCount == 0)
-            return;
-        AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached);
-        var target = new ContactConstraint(solver, cached.Constraint, contactCount);
-        target.Write(pending.Manifold, pending.Material);
-        target.WriteImpulses(impulses, pending.Manifold, ref cached.Features);
+        worker.Pending.Add(new(tested.Pair, ChildIds.None, keepsHistory: true), worker.Pool);
     }
 
     void Release(ref Worker worker)
@@ -344,5 +186,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         if (worker.Bouncing.Span.Allocated)
             worker.Bouncing.Dispose(worker.Pool);
         worker = default;
+    }
+
+    void ReleaseWorkers()
+    {
+        for (int i = 0; i < workers.Length; ++i)
+            Release(ref workers[i]);
     }
 }

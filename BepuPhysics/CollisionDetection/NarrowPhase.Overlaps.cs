@@ -80,7 +80,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
         worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts = default;
-        worker.Pending = new QuickList<PendingPair>(16, worker.Pool);
+        worker.Pending = new QuickList<PendingManifold>(16, worker.Pool);
         worker.Bouncing = default;
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
@@ -101,7 +101,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
                 NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
             NarrowPhase.workers[block].Batcher.Flush();
-            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Pairs, NarrowPhase.Simulation.Solver);
+            NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Simulation.Solver);
         }
     }
 

@@ -10,34 +10,57 @@ public abstract partial class NarrowPhase
     // next step sorts that out, so only the bodies of the constraint are compared.
     internal void Validate()
     {
-        var solver = Simulation.Solver;
         int contactPairCount = 0;
+        int constraintCount = 0;
         int historyCount = 0;
+        int childManifoldCount = 0;
         for (int i = 0; i < Pairs.Pairs.Count; ++i)
         {
-            var pair = Pairs.Pairs.Keys[i];
-            Invariant.Require(Pairs.Pairs.IndexOf(pair) == i, "place of pair", i);
+            Invariant.Require(Pairs.Pairs.IndexOf(Pairs.Pairs.Keys[i]) == i, "place of pair", i);
             ref var cached = ref Pairs.Pairs.Values[i];
-            Invariant.Require(cached.History < 0 || Pairs.Histories.MayExist(cached.History), "history of pair", i, cached.History);
-            historyCount += cached.History < 0 ? 0 : 1;
-            if (!cached.HasConstraint)
-                continue;
-            ++contactPairCount;
-            Invariant.Require(solver.ConstraintExists(cached.Constraint), "constraint of pair", i, cached.Constraint.Slot);
-            var location = solver.Locations[cached.Constraint.Slot];
-            Invariant.Require(location.TypeId == cached.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount,
-                "type of the constraint of pair", i, location.TypeId);
-            var known = pairOfConstraint[cached.Constraint.Slot];
-            Invariant.Require(known.A == pair.A && known.B == pair.B, "pair of constraint", cached.Constraint.Slot);
-            var processor = solver.Processor(location.TypeId);
-            Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2),
-                "number of bodies of the constraint of pair", i);
-            Invariant.Require(IsBody(location, 0, pair.A), "first body of the constraint of pair", i);
-            Invariant.Require(processor.BodiesPerConstraint == 1 || IsBody(location, 1, pair.B), "second body of the constraint of pair", i);
+            var constraintCountBefore = constraintCount;
+            var last = 0ul;
+            for (var manifolds = Pairs.ManifoldsOf(i); manifolds.MoveNext(); )
+            {
+                ref var manifold = ref manifolds.Current;
+                if (cached.IsOfChildren)
+                {
+                    Invariant.Require(manifolds.Children.Order >= last, "order of the manifolds of pair", i);
+                    last = manifolds.Children.Order + 1;
+                    ++childManifoldCount;
+                }
+                Invariant.Require(manifold.History < 0 || Pairs.Histories.MayExist(manifold.History), "history of pair", i, manifold.History);
+                historyCount += manifold.History < 0 ? 0 : 1;
+                if (!manifold.HasConstraint)
+                    continue;
+                ++constraintCount;
+                ValidateConstraint(i, manifold, manifolds.Children);
+            }
+            contactPairCount += constraintCount > constraintCountBefore ? 1 : 0;
+            Invariant.Require(!cached.IsOfChildren || cached.ChildConstraintCount == constraintCount - constraintCountBefore,
+                "number of constraints of pair", i, cached.ChildConstraintCount);
         }
         Invariant.Require(contactPairCount == PairCount, "number of pairs with contacts, counted are", contactPairCount, PairCount);
         Invariant.Require(historyCount == Pairs.Histories.Count, "number of histories, pairs have", historyCount, Pairs.Histories.Count);
-        Invariant.Require(CountContactConstraints() == PairCount, "number of contact constraints, pairs are", PairCount);
+        Invariant.Require(childManifoldCount == Pairs.Manifolds.Count, "number of manifolds, pairs have", childManifoldCount, Pairs.Manifolds.Count);
+        Invariant.Require(CountContactConstraints() == constraintCount, "number of contact constraints, manifolds are", constraintCount);
+    }
+
+    void ValidateConstraint(int index, in CachedManifold manifold, ChildIds children)
+    {
+        var solver = Simulation.Solver;
+        var pair = Pairs.Pairs.Keys[index];
+        Invariant.Require(solver.ConstraintExists(manifold.Constraint), "constraint of pair", index, manifold.Constraint.Slot);
+        var location = solver.Locations[manifold.Constraint.Slot];
+        Invariant.Require(location.TypeId == manifold.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount,
+            "type of the constraint of pair", index, location.TypeId);
+        Invariant.Require(TryFind(manifold.Constraint, out var knownIndex, out var knownChildren) && knownIndex == index && knownChildren == children,
+            "pair of constraint", manifold.Constraint.Slot);
+        var processor = solver.Processor(location.TypeId);
+        Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2),
+            "number of bodies of the constraint of pair", index);
+        Invariant.Require(IsBody(location, 0, pair.A), "first body of the constraint of pair", index);
+        Invariant.Require(processor.BodiesPerConstraint == 1 || IsBody(location, 1, pair.B), "second body of the constraint of pair", index);
     }
 
     bool IsBody(in ConstraintLocation location, int slot, CollidableReference collidable)

@@ -11,7 +11,8 @@ namespace BepuPhysics.CollisionDetection;
 // Pairs come from the broad phase on many threads, in any order. A pair whose constraint keeps its type is written in place by whichever
 // worker finds it: that is most pairs of a scene at rest, and the order does not matter. All other changes (new pairs, pairs whose number
 // of contacts changed, pairs that parted) are noted, sorted by the handles of the pair, and made on one thread after the workers have
-// ended, so that handles, batches and with them every bit of the result do not depend on threads.
+// ended, so that handles, batches and with them every bit of the result do not depend on threads. Pairs whose shapes are made of children
+// have a manifold, and a constraint, for each two children that touch: what is said of a pair is then true of each of these.
 public abstract partial class NarrowPhase : IBufferPoolUser
 {
     private protected readonly Simulation Simulation;
@@ -107,10 +108,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     {
         for (int i = Pairs.FindUnseen(Pairs.Pairs.Count); i >= 0; i = Pairs.FindUnseen(i))
         {
-            ref var cached = ref Pairs.Pairs.Values[i];
-            if (cached.HasConstraint)
-                RemoveConstraint(ref cached);
-            Pairs.RemoveAt(i, Pool);
+            RemoveConstraints(i);
+            Pairs.Remove(i, Pool);
         }
     }
 
@@ -118,44 +117,78 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected void ForgetContacts()
     {
         for (int i = Pairs.Pairs.Count - 1; i >= 0; --i)
-        {
-            if (Pairs.Pairs.Values[i].HasConstraint)
-                RemoveConstraint(ref Pairs.Pairs.Values[i]);
-        }
+            RemoveConstraints(i);
         Pairs.Clear();
         Restitution.BeginStep();
     }
 
-    /// <summary>Removes the constraint of a pair, which has one.</summary>
-    private protected void RemoveConstraint(ref CachedPair cached)
+    /// <summary>Removes all constraints of a pair.</summary>
+    private protected void RemoveConstraints(int index)
     {
-        Simulation.Solver.RemoveWithoutNotice(cached.Constraint);
-        cached.ConstraintTypeId = CachedPair.NoConstraint;
-        --PairCount;
+        foreach (ref var manifold in Pairs.ManifoldsOf(index))
+        {
+            if (manifold.HasConstraint)
+                RemoveConstraint(ref Pairs.Pairs.Values[index], ref manifold);
+        }
     }
 
-    /// <summary>Adds the constraint of a pair, which has none.</summary>
-    private protected void AddConstraint(in CollidablePair pair, int typeId, ref CachedPair cached)
+    /// <summary>Removes the constraint of a manifold, which has one.</summary>
+    private protected void RemoveConstraint(ref CachedPair cached, ref CachedManifold manifold)
+    {
+        Simulation.Solver.RemoveWithoutNotice(manifold.Constraint);
+        manifold.ConstraintTypeId = CachedManifold.NoConstraint;
+        CountConstraint(ref cached, -1);
+    }
+
+    /// <summary>Adds the constraint of a manifold, which has none.</summary>
+    private protected void AddConstraint(in CollidablePair pair, int typeId, ref CachedPair cached, ref CachedManifold manifold)
     {
         Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
         var handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
         if (handle.Slot >= pairOfConstraint.Length)
             Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Slot * 2), pairOfConstraint.Length);
         pairOfConstraint[handle.Slot] = pair;
-        cached.Constraint = handle;
-        cached.ConstraintTypeId = typeId;
-        ++PairCount;
+        manifold.Constraint = handle;
+        manifold.ConstraintTypeId = typeId;
+        CountConstraint(ref cached, 1);
     }
 
-    /// <summary>Forgets the pair of a contact constraint that is removed from outside, as with one of its bodies.</summary>
+    // A pair has contacts from its first constraint to its last.
+    void CountConstraint(ref CachedPair cached, int change)
+    {
+        if (cached.IsOfChildren)
+        {
+            cached.ChildConstraintCount += change;
+            if (cached.ChildConstraintCount != (change > 0 ? 1 : 0))
+                return;
+        }
+        PairCount += change;
+    }
+
+    /// <summary>Forgets the manifold of a contact constraint that is removed from outside, as with one of its bodies.</summary>
     internal void Forget(ConstraintHandle handle)
     {
-        var index = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Slot]);
-        if (index >= 0 && Pairs.Pairs.Values[index].HasConstraint && Pairs.Pairs.Values[index].Constraint == handle)
+        if (TryFind(handle, out var index, out var children))
         {
-            Pairs.RemoveAt(index, Pool);
-            --PairCount;
+            CountConstraint(ref Pairs.Pairs.Values[index], -1);
+            Pairs.Remove(index, children, Pool);
         }
         Restitution.Forget(handle);
+    }
+
+    /// <summary>Finds the manifold of a contact constraint.</summary>
+    bool TryFind(ConstraintHandle handle, out int pairIndex, out ChildIds children)
+    {
+        children = ChildIds.None;
+        pairIndex = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Slot]);
+        if (pairIndex < 0)
+            return false;
+        for (var manifolds = Pairs.ManifoldsOf(pairIndex); manifolds.MoveNext(); )
+        {
+            children = manifolds.Children;
+            if (manifolds.Current.HasConstraint && manifolds.Current.Constraint == handle)
+                return true;
+        }
+        return false;
     }
 }

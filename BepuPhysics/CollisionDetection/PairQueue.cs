@@ -50,11 +50,11 @@ unsafe struct PairQueue
         if (third >= taken && elements[third % Length] >= 0)
         {
             ref var cached = ref cache.Pairs.Values[elements[third % Length]];
-            if (cached.History >= 0)
+            if (cached.Single.History >= 0)
             {
-                cache.Histories.Prefetch(cached.History);
-                if (cached.HasConstraint)
-                    cache.Histories.PrefetchRest(cached.History);
+                cache.Histories.Prefetch(cached.Single.History);
+                if (cached.Single.HasConstraint)
+                    cache.Histories.PrefetchRest(cached.Single.History);
             }
         }
         ++added;

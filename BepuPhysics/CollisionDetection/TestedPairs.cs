@@ -11,7 +11,7 @@ struct TestedPair
     public int CacheIndex;
     /// <summary>Contact constraint that the pair has; means nothing where there is none.</summary>
     public ConstraintHandle Constraint;
-    /// <summary>Type id of that constraint; <see cref="CachedPair.NoConstraint"/> where there is none.</summary>
+    /// <summary>Type id of that constraint; <see cref="CachedManifold.NoConstraint"/> where there is none.</summary>
     public int ConstraintTypeId;
     /// <summary>Whether tests of the pair's shapes keep histories, and whether the pair has one.</summary>
     public bool KeepsHistory, HasHistory;

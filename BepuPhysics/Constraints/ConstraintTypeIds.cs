@@ -22,4 +22,7 @@ public static class ConstraintTypeIds
     /// <param name="contactCount">Number of contacts, 1 to 4.</param>
     /// <param name="bodyCount">Number of bodies, 1 or 2.</param>
     internal static int ConvexContact(int contactCount, int bodyCount) => (bodyCount - 1) * 4 + contactCount - 1;
+
+    /// <summary>Number of contacts of a convex contact constraint.</summary>
+    internal static int ContactCount(int typeId) => typeId % 4 + 1;
 }

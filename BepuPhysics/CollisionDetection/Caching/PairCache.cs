@@ -6,34 +6,6 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What is remembered of a pair that has contacts, or a history.</summary>
-struct CachedPair
-{
-    /// <summary>Contact constraint of the pair; means nothing where there is none.</summary>
-    public ConstraintHandle Constraint;
-    /// <summary>Type id of that constraint, which tells the number of its contacts; <see cref="NoConstraint"/> where there is none.</summary>
-    public int ConstraintTypeId;
-    /// <summary>Feature ids of its contacts, by which impulses find their contacts from step to step.</summary>
-    public FeatureIds Features;
-    /// <summary>Index of the pair's history; negative for shapes whose test keeps none.</summary>
-    public int History;
-    // 32 bytes, so that none lies across two cache lines.
-    readonly int padding;
-
-    /// <summary>Type id of a pair without contacts.</summary>
-    public const int NoConstraint = -1;
-
-    /// <summary>Whether the pair has contacts.</summary>
-    public readonly bool HasConstraint => ConstraintTypeId >= 0;
-}
-
-/// <summary>Feature ids of up to four contacts.</summary>
-[InlineArray(4)]
-struct FeatureIds
-{
-    int first;
-}
-
 /// <summary>Compares pairs by both of their collidables.</summary>
 public struct CollidablePairComparer : IEqualityComparerRef<CollidablePair>
 {
@@ -68,7 +40,10 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     }
 
     /// <summary>Histories of the pairs that have one; changed in place by the worker that tests the pair.</summary>
-    public PairHistories Histories;
+    public PairRecords<PairHistory> Histories;
+
+    /// <summary>Manifolds of the pairs that may have several.</summary>
+    public PairRecords<ChildManifold> Manifolds;
 
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
@@ -86,31 +61,106 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         return key.A.Packed == pair.A.Packed && key.B.Packed == pair.B.Packed ? guess : Pairs.IndexOf(pair);
     }
 
-    /// <summary>Adds a pair without constraint that has been seen in this step.</summary>
-    public void Add(CollidablePair pair, bool keepsHistory, BufferPool pool)
+    /// <summary>Finds a pair, or adds it without manifolds, as one that has been seen in this step.</summary>
+    /// <returns>Index of the pair.</returns>
+    public int FindOrAdd(in CollidablePair pair, bool ofChildren, BufferPool pool)
     {
-        CachedPair cached = default;
-        cached.ConstraintTypeId = CachedPair.NoConstraint;
-        cached.History = keepsHistory ? Histories.Take(pool) : PairInput.NoHistory;
-        Pairs.Add(pair, cached, pool);
+        var index = Pairs.IndexOf(pair);
+        if (index >= 0)
+            return index;
+        index = Pairs.Count;
+        Pairs.Add(pair, new CachedPair(ofChildren), pool);
         if (Pairs.Count > seen.Length)
         {
             var previous = seen.Length;
             pool.ResizeToAtLeast(ref seen, Pairs.Count * 2, previous);
             seen.Clear(previous, seen.Length - previous);
         }
-        seen[Pairs.Count - 1] = 1;
+        seen[index] = 1;
+        return index;
     }
 
-    /// <summary>Removes a pair; the last one takes its index.</summary>
-    public void RemoveAt(int index, BufferPool pool)
+    /// <summary>Finds the manifold of two children, or adds it without contacts.</summary>
+    public ref CachedManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool)
     {
-        if (Pairs.Values[index].History >= 0)
-            Histories.Return(Pairs.Values[index].History, pool);
+        var previous = FindPrevious(ref pair, children);
+        var next = Link(ref pair, previous);
+        if (next != PairRecords<ChildManifold>.None && Manifolds.Memory[next].Children == children)
+            return ref Manifolds.Memory[next].Manifold;
+        var added = Manifolds.Take(pool);
+        Manifolds.Memory[added] = new() { Manifold = CachedManifold.Empty, Children = children, Next = next };
+        Link(ref pair, previous) = added;
+        return ref Manifolds.Memory[added].Manifold;
+    }
+
+    // The last manifold before that of two children.
+    readonly int FindPrevious(ref CachedPair pair, ChildIds children)
+    {
+        var previous = PairRecords<ChildManifold>.None;
+        while (true)
+        {
+            var next = Link(ref pair, previous);
+            if (next == PairRecords<ChildManifold>.None || Manifolds.Memory[next].Children.Order >= children.Order)
+                return previous;
+            previous = next;
+        }
+    }
+
+    // What leads on from a manifold, or from none to the first.
+    readonly ref int Link(ref CachedPair pair, int manifold) =>
+        ref manifold == PairRecords<ChildManifold>.None ? ref pair.FirstManifold : ref Manifolds.Memory[manifold].Next;
+
+    /// <summary>All manifolds of a pair, in the order of children. None may be added or removed meanwhile.</summary>
+    public readonly ManifoldList ManifoldsOf(int index) => new(ref Pairs.Values[index], Manifolds.Memory);
+
+    /// <summary>Removes a manifold, and with the last one the pair; the last pair takes its index.</summary>
+    /// <param name="index">Index of the pair.</param>
+    /// <param name="children">Children of the manifold; none for that of a pair of convex shapes.</param>
+    /// <param name="pool">Pool of the cache.</param>
+    public void Remove(int index, ChildIds children, BufferPool pool)
+    {
+        ref var pair = ref Pairs.Values[index];
+        if (pair.IsOfChildren)
+        {
+            ref var link = ref Link(ref pair, FindPrevious(ref pair, children));
+            var removed = link;
+            link = Manifolds.Memory[removed].Next;
+            Return(removed, pool);
+        }
+        if (pair.FirstManifold == PairRecords<ChildManifold>.None)
+            Remove(index, pool);
+    }
+
+    /// <summary>Removes a pair with its manifolds; the last one takes its index.</summary>
+    public void Remove(int index, BufferPool pool)
+    {
+        Empty(ref Pairs.Values[index], ofChildren: false, pool);
         var last = Pairs.Count - 1;
         seen[index] = seen[last];
         seen[last] = 0;
         Pairs.FastRemove(Pairs.Keys[index]);
+    }
+
+    /// <summary>Forgets the manifolds of a pair, which have no constraints any more.</summary>
+    public void Empty(ref CachedPair pair, bool ofChildren, BufferPool pool)
+    {
+        if (pair.Single.History >= 0)
+            Histories.Return(pair.Single.History, pool);
+        while (pair.FirstManifold != PairRecords<ChildManifold>.None)
+        {
+            var removed = pair.FirstManifold;
+            pair.FirstManifold = Manifolds.Memory[removed].Next;
+            Return(removed, pool);
+        }
+        pair = new CachedPair(ofChildren);
+    }
+
+    void Return(int manifold, BufferPool pool)
+    {
+        var history = Manifolds.Memory[manifold].Manifold.History;
+        if (history >= 0)
+            Histories.Return(history, pool);
+        Manifolds.Return(manifold, pool);
     }
 
     /// <summary>The last index below a limit of a pair that was not seen in this step; -1 where there is none.</summary>
@@ -143,6 +193,7 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         seen.Clear(0, Pairs.Count);
         Pairs.Clear();
         Histories.Clear();
+        Manifolds.Clear();
     }
 
     public void Dispose(BufferPool pool)
@@ -150,5 +201,34 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         Pairs.Dispose(pool);
         pool.Return(ref seen);
         Histories.Dispose(pool);
+        Manifolds.Dispose(pool);
+    }
+}
+
+/// <summary>The manifolds of one pair, one after the other.</summary>
+unsafe ref struct ManifoldList(ref CachedPair pair, ChildManifold* manifolds)
+{
+    const int Before = -1;
+
+    readonly ref CachedPair pair = ref pair;
+    int index = Before;
+
+    /// <summary>For the loop over all.</summary>
+    public readonly ManifoldList GetEnumerator() => this;
+
+    /// <summary>A manifold, to be changed.</summary>
+    public readonly ref CachedManifold Current => ref pair.IsOfChildren ? ref manifolds[index].Manifold : ref pair.Single;
+
+    /// <summary>The children that it is of.</summary>
+    public readonly ChildIds Children => pair.IsOfChildren ? manifolds[index].Children : ChildIds.None;
+
+    /// <summary>Goes on to the next manifold, if there is one.</summary>
+    public bool MoveNext()
+    {
+        if (index != Before)
+            index = pair.IsOfChildren ? manifolds[index].Next : PairRecords<ChildManifold>.None;
+        else
+            index = pair.IsOfChildren ? pair.FirstManifold : 1;
+        return index != PairRecords<ChildManifold>.None;
     }
 }
