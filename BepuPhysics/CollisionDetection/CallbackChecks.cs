@@ -57,6 +57,14 @@ static class CallbackChecks
             RefuseMaterial(pair, material);
     }
 
+    /// <summary>Number of contacts of a pair of several manifolds.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static void Count(in CollidablePair pair, int count, int maximum)
+    {
+        if ((uint)count > (uint)maximum)
+            RefuseCount(pair, count, maximum);
+    }
+
     /// <summary>A coefficient of restitution that is not zero.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static void Restitution(in CollidablePair pair, float coefficient)
@@ -109,7 +117,7 @@ static class CallbackChecks
     static void RefuseManifold(in CollidablePair pair, in ConvexContactManifold manifold)
     {
         if (manifold.Count is < 1 or > ConvexContactManifold.MaximumContactCount)
-            Refuse(pair, "number of contacts", manifold.Count, $"there can be 0 to {ConvexContactManifold.MaximumContactCount}");
+            RefuseCount(pair, manifold.Count, ConvexContactManifold.MaximumContactCount);
         if (!BodyChecks.HasUnitLength(Exact.LengthSquared(manifold.Normal)))
             Refuse(pair, "contact normal", manifold.Normal, "it must have unit length");
         for (int i = 0; i < manifold.Count; ++i)
@@ -121,6 +129,10 @@ static class CallbackChecks
         }
         Refuse(pair, "offset of B", manifold.OffsetB, $"it must be finite and at most {MaximumLength} m");
     }
+
+    [DoesNotReturn, MethodImpl(MethodImplOptions.NoInlining)]
+    static void RefuseCount(in CollidablePair pair, int count, int maximum) =>
+        Refuse(pair, "number of contacts", count, $"there can be 0 to {maximum}");
 
     static bool IsShort(Vector3 value) =>
         MathF.Abs(value.X) <= MaximumLength && MathF.Abs(value.Y) <= MaximumLength && MathF.Abs(value.Z) <= MaximumLength;

@@ -59,6 +59,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         RemoveUnseenPairs();
         order = new QuickList<NoteKey>(64, Pool);
+        RemoveGoneManifolds();
+        order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Pending, i);
         SortByKey();

@@ -23,25 +23,52 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     {
         public PairQueue Queue;
         public CollisionBatcher<Completion> Batcher;
-        public TestedPairs TestedPairs;
+        public WaitingList<TestedPair> TestedPairs;
         public ContactQueue Contacts;
         public QuickList<PendingManifold> Pending;
         public QuickList<BouncingPair> Bouncing;
+        public QuickList<GoneManifold> Gone;
         public BufferPool Pool;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
         public int PairsLeft;
         public int SkippedPairCount;
+        /// <summary>Manifold of the pair that is expanded which comes next, in the order of children.</summary>
+        public int NextManifold;
     }
 
     // Receives the manifolds of one worker's batcher.
     readonly struct Completion(NarrowPhase<TCallbacks> narrowPhase, int workerIndex) : ICollisionCallbacks
     {
+        NarrowPhase<TCallbacks> NarrowPhase => narrowPhase;
+        int WorkerIndex => workerIndex;
+
         public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
             narrowPhase.OnPairCompleted(workerIndex, pairId, ref manifold);
 
-        void ICollisionCallbacks.OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
+        void ICollisionCallbacks.OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) =>
+            narrowPhase.ConfigureChildren(workerIndex, pairId, childA, childB, ref manifold);
 
-        bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) => true;
+        bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) =>
+            narrowPhase.AllowsChildren(workerIndex, pairId, childA, childB);
+
+        static void ICollisionCallbacks.BeginChildren<T>(ref T callbacks, int pairId)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            self.NarrowPhase.BeginChildren(self.WorkerIndex, pairId);
+        }
+
+        static bool ICollisionCallbacks.Recall<T>(ref T callbacks, int pairId, ChildIds ids, in ChildShapes children, float speculativeMargin,
+            out int history, ref ConvexContactManifold manifold)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            return self.NarrowPhase.Recall(self.WorkerIndex, ids, children, speculativeMargin, out history, ref manifold);
+        }
+
+        static void ICollisionCallbacks.OnChildrenCompleted<T>(ref T callbacks, int pairId, Vector3 offsetB, Span<ChildResult> results)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            self.NarrowPhase.CompleteChildren(self.WorkerIndex, pairId, offsetB, results);
+        }
     }
 
     internal override void Initialize() => Callbacks.Initialize(Simulation);
@@ -86,6 +113,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.ConstraintTypeId = CachedManifold.NoConstraint;
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
+        if (task.Expands)
+        {
+            TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
+            return;
+        }
         var history = PairInput.NoHistory;
         if (tested.CacheIndex >= 0)
         {
@@ -139,17 +171,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
                 CompleteWithoutContacts(ref workers[workerIndex], tested);
             return;
         }
-        if (typeof(TManifold) != typeof(ConvexContactManifold))
-            throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint yet.");
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, tested.Pair, ref manifold);
+        NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        if (surface.Restitution != 0)
-        {
-            CallbackChecks.Restitution(tested.Pair, surface.Restitution);
-            Note(ref worker.Bouncing, new() { Pair = tested.Pair, Coefficient = surface.Restitution }, worker.Pool);
-        }
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {
@@ -161,6 +186,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             }
         }
         worker.Pending.Add(new(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material }, worker.Pool);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold)
+        where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
+        if (surface.Restitution == 0)
+            return;
+        CallbackChecks.Restitution(pair, surface.Restitution);
+        ref var worker = ref workers[workerIndex];
+        Note(ref worker.Bouncing, new() { Pair = pair, Coefficient = surface.Restitution }, worker.Pool);
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.
@@ -185,6 +222,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         worker.Pending.Dispose(worker.Pool);
         if (worker.Bouncing.Span.Allocated)
             worker.Bouncing.Dispose(worker.Pool);
+        if (worker.Gone.Span.Allocated)
+            worker.Gone.Dispose(worker.Pool);
         worker = default;
     }
 

@@ -78,10 +78,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             worker.Pool.AddUser(this);
         worker.Batcher = new CollisionBatcher<Completion>(
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
-        worker.TestedPairs = new TestedPairs(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
+        worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts = default;
         worker.Pending = new QuickList<PendingManifold>(16, worker.Pool);
         worker.Bouncing = default;
+        worker.Gone = default;
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }

@@ -18,7 +18,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly Simulation Simulation;
     private protected readonly BufferPool Pool;
     private protected readonly WorldLock World;
-    private protected PairCache Pairs;
+    internal PairCache Pairs;
     private protected readonly Restitution Restitution;
     Buffer<CollidablePair> pairOfConstraint;
 

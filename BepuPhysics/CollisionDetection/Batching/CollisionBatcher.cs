@@ -14,7 +14,7 @@ namespace BepuPhysics.CollisionDetection;
 /// depend on what else is tested. Used by one thread at a time; any number of batchers may share shapes and registry. Do not copy one
 /// that holds pairs.
 /// </remarks>
-public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks : struct, ICollisionCallbacks
+public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks : struct, ICollisionCallbacks
 {
     /// <summary>Source of the batcher's memory; used by the calling thread only.</summary>
     public BufferPool Pool;
@@ -30,10 +30,9 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
 
     readonly CollisionTaskRegistry registry;
     readonly PairHistory* histories;
-    Buffer<PairBatch> batches;
-    // All batches that have memory are from the first index to before the second: nobody goes through twenty of which one is used.
-    int firstBatch;
-    int endBatch;
+    PairBatches batches;
+    // None or one; in memory of the pool, as the receiver of the tasks points to it.
+    Buffer<ChildPairs> childPairs;
     bool executing;
 
     /// <summary>Creates an empty batcher, which takes no memory yet.</summary>
@@ -73,9 +72,9 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Add(TypedIndex shapeIndexA, TypedIndex shapeIndexB, Vector3 offsetB, Quaternion orientationA, Quaternion orientationB,
         float speculativeMargin, in PairContinuation continuation) =>
-        AddChecked(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
+        AddChecked(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, null);
 
-    /// <summary>Adds a pair of shapes that move; the two convex shapes of a pair need no velocities.</summary>
+    /// <summary>Adds a pair of shapes that move; two convex shapes need no velocities.</summary>
     /// <param name="shapeIndexA">First shape.</param>
     /// <param name="shapeIndexB">Second shape.</param>
     /// <param name="offsetB">Position of B less that of A, m.</param>
@@ -93,7 +92,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         in PairContinuation continuation)
     {
         CheckNotNegative(maximumExpansion, nameof(maximumExpansion));
-        Add(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation);
+        var motion = new PairMotion(velocityA, velocityB, maximumExpansion);
+        AddChecked(shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId, &motion);
     }
 
     /// <summary>Adds a pair of shapes that need not be in <see cref="Shapes"/>; they are copied.</summary>
@@ -155,13 +155,13 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     void AddChecked(TypedIndex shapeIndexA, TypedIndex shapeIndexB, in Vector3 offsetB, in Quaternion orientationA, in Quaternion orientationB,
-        float speculativeMargin, int pairId)
+        float speculativeMargin, int pairId, PairMotion* motion)
     {
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         if (!shapeIndexA.Exists || !shapeIndexB.Exists)
             RefuseShapes(shapeIndexA, shapeIndexB);
         // What is refused takes no memory, and of a shape that was never there the type says nothing. Later pairs are looked up by the task alone.
-        if (!registry.TryGetTask(shapeIndexA.Type, shapeIndexB.Type, out var task, out var taskIndex, out var flipped) || !HasBatch(taskIndex))
+        if (!registry.TryGetTask(shapeIndexA.Type, shapeIndexB.Type, out var task, out var taskIndex, out var flipped) || !batches.Has(taskIndex))
             CheckShapes(shapeIndexA, shapeIndexB);
         task ??= registry.GetTask(shapeIndexA.Type, shapeIndexB.Type, out taskIndex, out flipped);
         ref var batch = ref GetBatch(task, taskIndex);
@@ -172,6 +172,8 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
             : task.TryWrite(ref batch, Shapes, shapeIndexA.Index, shapeIndexB.Index, offsetB, orientationA, orientationB, pair);
         if (!exist)
             RefuseShapes(shapeIndexA, shapeIndexB);
+        if (motion is not null && task.Expands)
+            ((ExpandingTask)task).Parent(batch, batch.Count - 1).Motion = *motion;
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);
     }
@@ -206,27 +208,20 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     public void Flush()
     {
         CheckNotExecuting();
-        for (int i = firstBatch; i < endBatch; ++i)
+        for (int i = batches.First; i < batches.End; ++i)
         {
             if (batches[i].Count > 0)
                 Execute(registry[i], ref batches[i]);
         }
+        FlushChildren();
         Dispose();
     }
 
     /// <summary>Returns all memory to the pool; pairs that wait are forgotten. May be called any number of times.</summary>
     public void Dispose()
     {
-        if (!batches.Allocated)
-            return;
-        for (int i = firstBatch; i < endBatch; ++i)
-        {
-            if (batches[i].Bundles.Allocated)
-                Pool.Return(ref batches[i].Bundles);
-        }
-        Pool.Return(ref batches);
-        batches = default;
-        firstBatch = endBatch = 0;
+        batches.Dispose(Pool);
+        DisposeChildren();
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -235,7 +230,10 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
         executing = true;
         try
         {
-            task.Execute(ref batch, histories, ref Callbacks);
+            if (task.Expands)
+                Expand((ExpandingTask)task, batch);
+            else
+                task.Execute(ref batch, histories, ref Callbacks);
         }
         finally
         {
@@ -246,31 +244,12 @@ public unsafe struct CollisionBatcher<TCallbacks> : IDisposable where TCallbacks
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly bool HasBatch(int taskIndex) => taskIndex < batches.Length && batches[taskIndex].Bundles.Allocated;
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     ref PairBatch GetBatch(CollisionTask task, int taskIndex)
     {
-        if (!HasBatch(taskIndex))
-            TakeBatch(task, taskIndex);
         CheckNotExecuting();
+        if (!batches.Has(taskIndex))
+            batches.Take(task, taskIndex, registry.TaskCount, Pool);
         return ref batches[taskIndex];
-    }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    void TakeBatch(CollisionTask task, int taskIndex)
-    {
-        CheckNotExecuting();
-        if (taskIndex >= batches.Length)
-        {
-            var previousCount = batches.Length;
-            Pool.ResizeToAtLeast(ref batches, Math.Max(registry.TaskCount, taskIndex + 1), previousCount);
-            batches.Clear(previousCount, batches.Length - previousCount);
-        }
-        Pool.Take(task.BatchByteCount, out batches[taskIndex].Bundles);
-        batches[taskIndex].Count = 0;
-        firstBatch = endBatch == 0 ? taskIndex : Math.Min(firstBatch, taskIndex);
-        endBatch = Math.Max(endBatch, taskIndex + 1);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

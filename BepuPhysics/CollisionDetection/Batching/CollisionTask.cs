@@ -3,16 +3,17 @@ using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Tests batches of pairs of two shape types.</summary>
+/// <summary>Tests batches of pairs of two shape types, or expands them into pairs of their children.</summary>
 /// <remarks>
 /// Tests of one's own are pair testers, in a
 /// <see cref="ConvexCollisionTask{TShapeA, TShapeWideA, TShapeB, TShapeWideB, TContacts, TTester}"/>.
 /// </remarks>
 public abstract unsafe class CollisionTask
 {
-    private protected CollisionTask(int shapeTypeIndexA, int shapeTypeIndexB, string description, bool keepsHistories)
+    private protected CollisionTask(int shapeTypeIndexA, int shapeTypeIndexB, string description, bool keepsHistories, bool expands = false)
     {
         KeepsHistories = keepsHistories;
+        Expands = expands;
         ShapeTypeIndexA = shapeTypeIndexA;
         ShapeTypeIndexB = shapeTypeIndexB;
         Description = description;
@@ -32,6 +33,9 @@ public abstract unsafe class CollisionTask
 
     /// <summary>Whether the test of a pair uses what the last one found.</summary>
     internal bool KeepsHistories { get; }
+
+    /// <summary>Whether pairs are expanded into pairs of children, as an <see cref="ExpandingTask"/> does, and not tested.</summary>
+    internal bool Expands { get; }
 
     /// <summary>Size of the memory of a batch, bytes.</summary>
     internal abstract int BatchByteCount { get; }

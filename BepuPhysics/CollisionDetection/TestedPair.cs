@@ -1,6 +1,3 @@
-using BepuUtilities.Collections;
-using BepuUtilities.Memory;
-
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>A pair that waits for its contacts.</summary>
@@ -20,39 +17,4 @@ struct TestedPair
     /// <param name="typeId">Type id of the constraint that the pair is to have.</param>
     // A pair whose shapes have become such as keep a history gets it with the changes.
     public readonly bool KeepsConstraint(int typeId) => ConstraintTypeId == typeId && (HasHistory || !KeepsHistory);
-}
-
-/// <summary>The pairs of a worker that wait for their contacts, by ids that are used again: as many as batches hold stay in the cache.</summary>
-struct TestedPairs(int initialCapacity, BufferPool pool)
-{
-    QuickList<TestedPair> pairs = new(initialCapacity, pool);
-    QuickList<int> freeIds = new(initialCapacity, pool);
-
-    /// <summary>Adds a pair.</summary>
-    /// <returns>Its id, until it is taken.</returns>
-    public int Add(in TestedPair pair, BufferPool pool)
-    {
-        if (freeIds.Count == 0)
-        {
-            pairs.Add(pair, pool);
-            return pairs.Count - 1;
-        }
-        var id = freeIds[freeIds.Count - 1];
-        --freeIds.Count;
-        pairs[id] = pair;
-        return id;
-    }
-
-    /// <summary>Takes a pair out.</summary>
-    public TestedPair Take(int id, BufferPool pool)
-    {
-        freeIds.Add(id, pool);
-        return pairs[id];
-    }
-
-    public void Dispose(BufferPool pool)
-    {
-        pairs.Dispose(pool);
-        freeIds.Dispose(pool);
-    }
 }

@@ -1,0 +1,154 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs that are expanded. Their children are tested in batches of their own by the tasks that test all convex pairs; results go to the
+// slots of their parents. No pair of convex shapes comes here.
+public unsafe partial struct CollisionBatcher<TCallbacks>
+{
+    readonly ChildPairs* Children => childPairs.Memory;
+
+    /// <summary>Adds a pair of shapes that exist to a task that expands it, with a pose that is known to be sound.</summary>
+    internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in PairMotion motion)
+    {
+        ref var batch = ref GetBatch(task, taskIndex);
+        var pair = new PairInput(speculativeMargin, pairId, flipped, PairInput.NoHistory);
+        if (flipped)
+            task.Write(ref batch, Shapes, shapeIndexB, shapeIndexA, offsetB, orientationB, orientationA, pair);
+        else
+            task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
+        ((ExpandingTask)task).Parent(batch, batch.Count - 1).Motion = motion;
+        if (batch.Count == PairBatch.Capacity)
+            Execute(task, ref batch);
+    }
+
+    void Expand(ExpandingTask task, in PairBatch batch)
+    {
+        if (!childPairs.Allocated)
+        {
+            Pool.TakeAtLeast(1, out childPairs);
+            *Children = new ChildPairs(Pool);
+        }
+        ref var found = ref Children->Found;
+        found.Count = 0;
+        task.FindChildren(batch, Shapes, Dt, ref found, Pool);
+        Children->SortFound();
+        int start = 0;
+        for (int i = 0; i < batch.Count; ++i)
+        {
+            var end = start;
+            while (end < found.Count && found[end].Parent == i)
+                ++end;
+            Expand(task, batch, i, start, end);
+            start = end;
+        }
+    }
+
+    void Expand(ExpandingTask task, in PairBatch batch, int index, int start, int end)
+    {
+        ref var pair = ref task.Parent(batch, index);
+        var parent = Children->Open(pair, end - start, Pool);
+        TCallbacks.BeginChildren(ref Callbacks, pair.PairId);
+        for (int i = start; i < end; ++i)
+        {
+            ref var found = ref Children->Found[i];
+            if (!Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
+                continue;
+            task.GetChildren(batch, Shapes, found, out var children);
+            AddChild(parent, found.Children, children, pair);
+        }
+        Release(parent);
+    }
+
+    void AddChild(int parent, ChildIds ids, in ChildShapes children, in ParentPair pair)
+    {
+        var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
+        if (task.Expands)
+            throw new InvalidOperationException($"Children of a shape must be convex: {task.Description}.");
+        Unsafe.SkipInit(out ChildResult result);
+        result.Children = ids;
+        result.KeepsHistory = task.KeepsHistories;
+        result.OffsetA = children.OffsetA;
+        var slot = Children->TakeSlot(parent, result);
+        var history = PairInput.NoHistory;
+        if (task.KeepsHistories &&
+            TCallbacks.Recall(ref Callbacks, pair.PairId, ids, children, pair.SpeculativeMargin, out history, ref Children->Slot(slot).Manifold))
+        {
+            CompleteChild(slot);
+            return;
+        }
+        ref var batches = ref Children->Batches;
+        if (!batches.Has(taskIndex))
+            batches.Take(task, taskIndex, registry.TaskCount, Pool);
+        ref var batch = ref batches[taskIndex];
+        var input = new PairInput(pair.SpeculativeMargin, Children->Wait(slot, Pool), flipped, history);
+        var offsetB = children.OffsetB - children.OffsetA;
+        if (flipped)
+            task.WriteDirectly(ref batch, children.ShapeB, children.ShapeA, offsetB, children.OrientationB, children.OrientationA, input);
+        else
+            task.WriteDirectly(ref batch, children.ShapeA, children.ShapeB, offsetB, children.OrientationA, children.OrientationB, input);
+        if (batch.Count == PairBatch.Capacity)
+            TestChildren(task, ref batch);
+    }
+
+    void FlushChildren()
+    {
+        if (!childPairs.Allocated)
+            return;
+        executing = true;
+        try
+        {
+            for (int i = Children->Batches.First; i < Children->Batches.End; ++i)
+            {
+                if (Children->Batches[i].Count > 0)
+                    TestChildren(registry[i], ref Children->Batches[i]);
+            }
+        }
+        finally
+        {
+            executing = false;
+        }
+    }
+
+    void TestChildren(CollisionTask task, ref PairBatch batch)
+    {
+        ref var tested = ref Children->Tested;
+        tested.Count = 0;
+        var receiver = new ChildReceiver(Children);
+        task.Execute(ref batch, histories, ref receiver);
+        for (int i = 0; i < tested.Count; ++i)
+            CompleteChild(Children->Take(tested[i], Pool));
+    }
+
+    void CompleteChild(ChildPairs.WaitingChild child)
+    {
+        ref var result = ref Children->Slot(child);
+        ref var manifold = ref result.Manifold;
+        // Adding nothing would change the sign of zero.
+        for (int i = 0; i < manifold.Count && result.OffsetA != default; ++i)
+            ConvexContactManifold.GetConvexContactReference(ref manifold, i).Offset += result.OffsetA;
+        manifold.OffsetB = Children->OffsetB(child.Parent);
+        Callbacks.OnChildPairCompleted(Children->PairId(child.Parent), result.Children.A, result.Children.B, ref manifold);
+        Release(child.Parent);
+    }
+
+    void Release(int parent)
+    {
+        if (!Children->Release(parent))
+            return;
+        TCallbacks.OnChildrenCompleted(ref Callbacks, Children->PairId(parent), Children->OffsetB(parent), Children->Results(parent));
+        Children->Close(parent, Pool);
+    }
+
+    void DisposeChildren()
+    {
+        if (!childPairs.Allocated)
+            return;
+        Children->Dispose(Pool);
+        Pool.Return(ref childPairs);
+        childPairs = default;
+    }
+}

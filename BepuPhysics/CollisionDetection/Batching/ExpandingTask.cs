@@ -1,0 +1,137 @@
+using System.Diagnostics;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>How the two bodies of a pair move.</summary>
+/// <param name="A">Velocity of A.</param>
+/// <param name="B">Velocity of B.</param>
+/// <param name="MaximumExpansion">Greatest distance by which these expand the bounds of children, m.</param>
+readonly record struct PairMotion(BodyVelocity A, BodyVelocity B, float MaximumExpansion);
+
+/// <summary>A pair that is to be expanded, in the order of the caller.</summary>
+struct ParentPair
+{
+    public Vector3 OffsetB;
+    public Quaternion OrientationA, OrientationB;
+    public PairMotion Motion;
+    public float SpeculativeMargin;
+    public int PairId;
+    /// <summary>Whether the caller's A is of the second type of the task.</summary>
+    public bool Flipped;
+    /// <summary>Names of the two shapes; none for those that are not in <see cref="Shapes"/>.</summary>
+    public TypedIndex NameA, NameB;
+}
+
+/// <summary>Two children of a parent that may touch, by the index of the parent in its batch.</summary>
+struct FoundChild(int parent, ChildIds children)
+{
+    public int Parent = parent;
+    public ChildIds Children = children;
+}
+
+/// <summary>The convex shapes of two children, and where they are. A shape without children is its own.</summary>
+unsafe struct ChildShapes
+{
+    public int TypeA, TypeB;
+    /// <summary>The shapes, which stay in place until the next two are asked for.</summary>
+    public void* ShapeA, ShapeB;
+    /// <summary>By what histories know the shapes.</summary>
+    public TypedIndex NameA, NameB;
+    /// <summary>Their centres less that of the parent's A, world axes. Zero for an A without children.</summary>
+    public Vector3 OffsetA, OffsetB;
+    public Quaternion OrientationA, OrientationB;
+}
+
+/// <summary>Expands pairs of which one shape at least is made of children into pairs of children, which are convex.</summary>
+/// <remarks>
+/// It says which children there are. Everything else is the batcher's: it brings them in order, asks the callbacks, adds them to the
+/// tasks of their types and gathers what these find.
+/// </remarks>
+abstract unsafe class ExpandingTask : CollisionTask
+{
+    private protected ExpandingTask(int shapeTypeIndexA, int shapeTypeIndexB, string description)
+        : base(shapeTypeIndexA, shapeTypeIndexB, description, keepsHistories: false, expands: true) { }
+
+    /// <summary>A pair of a batch, to be changed.</summary>
+    internal abstract ref ParentPair Parent(in PairBatch batch, int index);
+
+    /// <summary>Finds the children of each parent of a batch that may touch within its margin.</summary>
+    /// <param name="batch">The parents.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="dt">Time that velocities are extrapolated over, s.</param>
+    /// <param name="found">Receives the children, parent by parent, each pair once, in any order.</param>
+    /// <param name="pool">Source of the list's memory.</param>
+    internal abstract void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool);
+
+    /// <summary>Finds the shapes of two children that were found.</summary>
+    internal abstract void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children);
+
+    internal sealed override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks) =>
+        throw new UnreachableException();
+}
+
+/// <summary>Keeps the parents of two shape types.</summary>
+/// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
+/// <typeparam name="TShapeB">Second shape.</typeparam>
+abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}")
+    where TShapeA : unmanaged, IShape where TShapeB : unmanaged, IShape
+{
+    private protected struct Entry
+    {
+        public ParentPair Pair;
+        public TShapeA A;
+        public TShapeB B;
+    }
+
+    internal override int BatchByteCount => PairBatch.Capacity * sizeof(Entry);
+
+    internal sealed override ref ParentPair Parent(in PairBatch batch, int index) => ref Entries(batch)[index].Pair;
+
+    private protected static Entry* Entries(in PairBatch batch) => (Entry*)batch.Bundles.Memory;
+
+    internal sealed override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        WriteDirectly(ref batch, Find<TShapeA>(shapes, shapeIndexA), Find<TShapeB>(shapes, shapeIndexB), offsetB, orientationA, orientationB, pair);
+        ref var parent = ref Parent(batch, batch.Count - 1);
+        parent.NameA = new(TShapeA.TypeId, shapeIndexA);
+        parent.NameB = new(TShapeB.TypeId, shapeIndexB);
+        if (parent.Flipped)
+            (parent.NameA, parent.NameB) = (parent.NameB, parent.NameA);
+    }
+
+    static void* Find<TShape>(Shapes shapes, int index) where TShape : unmanaged, IShape =>
+        Unsafe.AsPointer(ref Unsafe.As<ShapeBatch<TShape>>(shapes.GetBatch(TShape.TypeId)).Get(index));
+
+    internal sealed override bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        if (!shapes.Exists(TShapeA.TypeId, shapeIndexA) || !shapes.Exists(TShapeB.TypeId, shapeIndexB))
+            return false;
+        Write(ref batch, shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
+        return true;
+    }
+
+    internal sealed override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        ref var entry = ref Entries(batch)[batch.Count++];
+        entry.A = *(TShapeA*)shapeA;
+        entry.B = *(TShapeB*)shapeB;
+        var flipped = pair.FlipMask != 0;
+        entry.Pair = new()
+        {
+            OffsetB = offsetB,
+            OrientationA = flipped ? orientationB : orientationA,
+            OrientationB = flipped ? orientationA : orientationB,
+            SpeculativeMargin = pair.SpeculativeMargin,
+            PairId = pair.PairId,
+            Flipped = flipped,
+        };
+    }
+}

@@ -1,0 +1,45 @@
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>What waits for results, by ids that are used again: as many as batches hold stay in the cache.</summary>
+struct WaitingList<T>(int initialCapacity, BufferPool pool) where T : unmanaged
+{
+    QuickList<T> items = new(initialCapacity, pool);
+    QuickList<int> freeIds = new(initialCapacity, pool);
+
+    /// <summary>One more than the greatest id that was ever given.</summary>
+    public readonly int Span => items.Count;
+
+    /// <summary>An item, to be changed; that of an id which was taken is as it was last.</summary>
+    public readonly ref T this[int id] => ref items[id];
+
+    /// <summary>Adds an item.</summary>
+    /// <returns>Its id, until it is taken.</returns>
+    public int Add(in T item, BufferPool pool)
+    {
+        if (freeIds.Count == 0)
+        {
+            items.Add(item, pool);
+            return items.Count - 1;
+        }
+        var id = freeIds[freeIds.Count - 1];
+        --freeIds.Count;
+        items[id] = item;
+        return id;
+    }
+
+    /// <summary>Takes an item out.</summary>
+    public T Take(int id, BufferPool pool)
+    {
+        freeIds.Add(id, pool);
+        return items[id];
+    }
+
+    public void Dispose(BufferPool pool)
+    {
+        items.Dispose(pool);
+        freeIds.Dispose(pool);
+    }
+}

@@ -1,0 +1,187 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs of which one shape at least is made of children. Each two children have a manifold of their own; the pair's list of these and what a
+// step finds are both in the order of children, so that the two are gone through side by side.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    // A manifold whose children do not touch any more, and have no history.
+    struct GoneManifold : INote
+    {
+        public CollidablePair Pair { get; init; }
+        public ChildIds Children;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void TestParent(int workerIndex, CollisionTask task, int taskIndex, bool flipped, in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB,
+        in RigidPose poseA, in RigidPose poseB, float margin)
+    {
+        ref var bodies = ref Simulation.Bodies.Awake;
+        var indexA = Simulation.Bodies.Locations[tested.Pair.A.Slot].Index;
+        var expansion = MaximumExpansion(bodies.Collidables[indexA]);
+        var velocityB = default(BodyVelocity);
+        if (tested.Pair.B.Mobility != CollidableMobility.Static)
+        {
+            var indexB = Simulation.Bodies.Locations[tested.Pair.B.Slot].Index;
+            velocityB = bodies.MotionStates[indexB].Velocity;
+            expansion = Math.Max(expansion, MaximumExpansion(bodies.Collidables[indexB]));
+        }
+        ref var worker = ref workers[workerIndex];
+        worker.Batcher.AddParent(task, taskIndex, flipped, shapeA.Index, shapeB.Index, poseB.Position - poseA.Position, poseA.Orientation,
+            poseB.Orientation, margin, worker.TestedPairs.Add(tested, worker.Pool),
+            new PairMotion(bodies.MotionStates[indexA].Velocity, velocityB, expansion));
+    }
+
+    static float MaximumExpansion(in Collidable collidable) =>
+        collidable.Continuity.AllowExpansionBeyondSpeculativeMargin ? float.MaxValue : collidable.SpeculativeMargin;
+
+    int FirstManifold(in TestedPair tested)
+    {
+        if (tested.CacheIndex < 0)
+            return PairRecords<ChildManifold>.None;
+        ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
+        return cached.IsOfChildren ? cached.FirstManifold : PairRecords<ChildManifold>.None;
+    }
+
+    void BeginChildren(int workerIndex, int pairId)
+    {
+        ref var worker = ref workers[workerIndex];
+        worker.NextManifold = FirstManifold(worker.TestedPairs[pairId]);
+    }
+
+    /// <summary>Finds the contacts of two children that have hardly moved, or the history of a test.</summary>
+    bool Recall(int workerIndex, ChildIds ids, in ChildShapes children, float margin, out int history, ref ConvexContactManifold manifold)
+    {
+        history = PairInput.NoHistory;
+        ref var next = ref workers[workerIndex].NextManifold;
+        while (next != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[next].Children.Order < ids.Order)
+            next = Pairs.Manifolds.Memory[next].Next;
+        if (next == PairRecords<ChildManifold>.None || Pairs.Manifolds.Memory[next].Children != ids)
+            return false;
+        var index = Pairs.Manifolds.Memory[next].Manifold.History;
+        if (index < 0)
+            return false;
+        if (Reuse(index, children.NameA, children.NameB, children.OffsetB - children.OffsetA, children.OrientationA, children.OrientationB,
+            margin, ref manifold))
+            return true;
+        history = Pairs.Histories.Memory[index].GetReference(index);
+        return false;
+    }
+
+    bool AllowsChildren(int workerIndex, int pairId, int childA, int childB) =>
+        Callbacks.AllowContactGeneration(workerIndex, workers[workerIndex].TestedPairs[pairId].Pair, childA, childB);
+
+    void ConfigureChildren(int workerIndex, int pairId, int childA, int childB, ref ConvexContactManifold manifold)
+    {
+        if (!Callbacks.ConfigureContactManifold(workerIndex, workers[workerIndex].TestedPairs[pairId].Pair, childA, childB, ref manifold))
+            manifold.Count = 0;
+    }
+
+    void CompleteChildren(int workerIndex, int pairId, Vector3 offsetB, Span<ChildResult> results)
+    {
+        ref var worker = ref workers[workerIndex];
+        var tested = worker.TestedPairs.Take(pairId, worker.Pool);
+        if (!Configure(workerIndex, tested.Pair, offsetB, results, out var material))
+        {
+            foreach (ref var result in results)
+                result.Manifold.Count = 0;
+        }
+        // A pair of which nothing is left is not seen, and goes as a whole.
+        int i = SkipForgotten(results, 0);
+        if (i == results.Length)
+            return;
+        if (tested.CacheIndex >= 0)
+            Pairs.MarkSeen(tested.CacheIndex);
+        var known = FirstManifold(tested);
+        for (; i < results.Length; i = SkipForgotten(results, i + 1))
+        {
+            ref var result = ref results[i];
+            SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
+            if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
+            {
+                var record = Pairs.Manifolds.Memory + known;
+                known = record->Next;
+                if (TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
+                    continue;
+            }
+            worker.Pending.Add(
+                new(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material }, worker.Pool);
+        }
+        SkipGone(ref worker, tested.Pair, ref known, ulong.MaxValue);
+    }
+
+    // Children without contacts are remembered for their history.
+    static int SkipForgotten(Span<ChildResult> results, int i)
+    {
+        while (i < results.Length && results[i].Manifold.Count == 0 && !results[i].KeepsHistory)
+            ++i;
+        return i;
+    }
+
+    void SkipGone(ref Worker worker, in CollidablePair pair, ref int known, ulong order)
+    {
+        for (; known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children.Order < order; known = Pairs.Manifolds.Memory[known].Next)
+            Note(ref worker.Gone, new GoneManifold { Pair = pair, Children = Pairs.Manifolds.Memory[known].Children }, worker.Pool);
+    }
+
+    // What keeps its number of contacts is written in place.
+    bool TryKeep(ref Worker worker, in CollidablePair pair, ref CachedManifold manifold, in ChildResult result, in PairMaterialProperties material)
+    {
+        var count = result.Manifold.Count;
+        if (manifold.ConstraintTypeId != (count == 0 ? CachedManifold.NoConstraint : ConstraintType(pair, count)) ||
+            (result.KeepsHistory && manifold.History < 0))
+            return false;
+        if (count > 0)
+            worker.Contacts.Add(Simulation.Solver, (FeatureIds*)Unsafe.AsPointer(ref manifold.Features), manifold.Constraint, result.Manifold, material);
+        return true;
+    }
+
+    /// <summary>Asks the callbacks about a pair as a whole.</summary>
+    /// <returns>Whether its contacts push.</returns>
+    bool Configure(int workerIndex, in CollidablePair pair, Vector3 offsetB, Span<ChildResult> results, out PairMaterialProperties material)
+    {
+        var view = new ContactView(results, offsetB);
+        if (view.IsConvex)
+        {
+            if (!Callbacks.ConfigureContactManifold(workerIndex, pair, ref view.Convex, out material) || view.Convex.Count == 0)
+                return false;
+            NoteSurface(workerIndex, pair, ref view.Convex);
+        }
+        else
+        {
+            if (!Callbacks.ConfigureContactManifold(workerIndex, pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
+                return false;
+            CallbackChecks.Count(pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
+            NoteSurface(workerIndex, pair, ref view.Nonconvex);
+            view.TakeOver();
+        }
+        foreach (ref var result in results)
+        {
+            if (result.Manifold.Count != 0)
+                CallbackChecks.Contacts(pair, result.Manifold, material);
+        }
+        return true;
+    }
+
+    void RemoveGoneManifolds()
+    {
+        order.Count = 0;
+        for (int i = 0; i < workers.Length; ++i)
+            Gather(ref workers[i].Gone, i);
+        SortByKey();
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var gone = ref workers[order[i].Worker].Gone[order[i].Index];
+            var index = Pairs.Pairs.IndexOf(gone.Pair);
+            ref var cached = ref Pairs.Pairs.Values[index];
+            ref var manifold = ref Pairs.FindOrAdd(ref cached, gone.Children, Pool);
+            if (manifold.HasConstraint)
+                RemoveConstraint(ref cached, ref manifold);
+            Pairs.Remove(index, gone.Children, Pool);
+        }
+    }
+}
