@@ -57,6 +57,21 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     internal override void Flush()
     {
+        try
+        {
+            ApplyChanges();
+        }
+        finally
+        {
+            // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
+            if (order.Span.Allocated)
+                order.Dispose(Pool);
+            ReleaseWorkers();
+        }
+    }
+
+    void ApplyChanges()
+    {
         RemoveUnseenPairs();
         order = new QuickList<NoteKey>(64, Pool);
         RemoveGoneManifolds();
@@ -70,8 +85,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
         }
         WatchBouncingPairs();
-        order.Dispose(Pool);
-        ReleaseWorkers();
     }
 
     // Only some pairs need some lists; no others pay for them.

@@ -20,9 +20,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(CollisionBatcher<Completion>));
         Precompilation.Compile(typeof(BroadPhase), nameof(BroadPhase.FindOverlapsOfLeaves), typeof(Overlaps));
         StagedWork.Compile<FlushWork>();
-        Precompilation.Compile(typeof(QuickList<PendingPair>));
+        Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
-        Precompilation.Compile(typeof(QuickList<PairKey>));
+        Precompilation.Compile(typeof(QuickList<NoteKey>));
         OverlapFinder.Compile<Overlaps>();
         foreach (var a in shapeTypes)
         {
