@@ -19,7 +19,7 @@ sealed unsafe class RowBench : IDisposable
     TypeBatch batch;
     readonly int index;
 
-    public RowBench(int typeId, float[] column, ReadOnlySpan<SampleBody> samples, int lane = 0)
+    public RowBench(int typeId, float[] column, ReadOnlySpan<SampleBody> samples, int lane = 0, bool hasHub = false)
     {
         Processor = RandomDescriptions.CreateSolver(pool).Processor(typeId);
         pool.Take(BodyCount, out motions);
@@ -41,6 +41,8 @@ sealed unsafe class RowBench : IDisposable
             motions[i].Velocity = new(samples[i].Linear, samples[i].Angular);
             inertias[i] = new() { InverseInertiaTensor = samples[i].InverseInertia, InverseMass = samples[i].InverseMass };
         }
+        if (hasHub && Processor.MakesHubs)
+            references[^1] |= EncodedBody.HubFlag;
         index = Processor.Allocate(ref batch, new(lane), references, 1, pool);
         for (int i = 0; i < column.Length; ++i)
             Processor.PrestepFloat(ref batch, index, i) = column[i];
@@ -51,7 +53,7 @@ sealed unsafe class RowBench : IDisposable
     {
         // As many bodies as any type has.
         SampleBody[] bodies = [samples.Body(), samples.Body(), samples.Body(), samples.Body()];
-        return new(typeId, RandomDescriptions.Column(typeId, samples), bodies, lane);
+        return new(typeId, RandomDescriptions.Column(typeId, samples), bodies, lane, samples.Coin());
     }
 
     public TypeProcessor Processor { get; }

@@ -14,7 +14,7 @@ public class RowTests
     const int Samples = 40;
     const double Step = 1e-3;
     // Not the first of its step, so that displacements count.
-    static readonly Substep Substep = new(1, 1 / 240f);
+    static readonly Substep Substep = new(1, 1 / 240f, iterations: 3);
     static readonly Substep Relaxation = new(1, 1 / 240f, relaxations: 1, isRelaxation: true);
 
     public static TheoryData<int> Types => new(RandomDescriptions.TypeIds);
