@@ -249,9 +249,8 @@ public class ChildPairTests
     static List<ConstraintHandle> ContactsOf(ClusterWorld world, BodyHandle body)
     {
         var handles = new List<ConstraintHandle>();
-        ref var constraints = ref world.Simulation.Bodies[body].Constraints;
-        for (int i = 0; i < constraints.Count; ++i)
-            handles.Add(constraints[i].ConnectingConstraintHandle);
+        foreach (var constraint in world.Simulation.Bodies[body].Constraints)
+            handles.Add(constraint.ConnectingConstraintHandle);
         return handles;
     }
 }

@@ -25,7 +25,8 @@ public class RandomCallsTests
         Assert.True(failures == 0, output.ToString());
         // Both kinds, or there was nothing to see.
         Assert.InRange(run.Counts.Refusals, run.Counts.Calls / 50, run.Counts.Calls * 3 / 4);
-        Assert.NotEqual(0, run.Counts.Stopped);
+        // Short worlds may all end before a step meets what was written through a reference.
+        Assert.True(run.Counts.Stopped > 0 || callsPerWorld < 100);
     }
 
     [Fact]
