@@ -20,6 +20,11 @@ public interface INarrowPhaseCallbacks
     /// Friction must be finite and not negative; recovery not negative; frequency and damping of the spring from 0 to 1e13. Contacts that
     /// were changed must be no more than 4, with a normal of unit length, depths and offsets up to 1e13 m. Of pairs that have none, or are not
     /// to have any, nothing is asked.
+    /// <para>
+    /// Where several children of a compound touch, this is a <see cref="NonconvexContactManifold"/> of the deepest contacts, deepest first.
+    /// Places, depths and normals that were changed are taken over, and so is what was removed; contacts of two children have one normal, and
+    /// what was not shown stays as it is.
+    /// </para>
     /// </remarks>
     /// <returns>Whether the contacts push the bodies apart.</returns>
     bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
@@ -33,9 +38,11 @@ public interface INarrowPhaseCallbacks
     bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin);
 
     /// <summary>Whether to look for contacts between two children of compounds.</summary>
+    /// <remarks>Asked after the pair as a whole was allowed, in the order of the indices. A shape without children has the index 0.</remarks>
     bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB);
 
-    /// <summary>May change the contacts between two children of compounds.</summary>
+    /// <summary>May change the contacts between two children of compounds, which are in the frame of the pair's A.</summary>
+    /// <remarks>Asked for each two that were allowed, with contacts or without, in no particular order, before the pair as a whole.</remarks>
     /// <returns>Whether the contacts are kept.</returns>
     bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold);
 
