@@ -1,4 +1,3 @@
-using System.Numerics;
 using System.Runtime.CompilerServices;
 
 namespace BepuUtilities;
@@ -13,16 +12,4 @@ public partial struct Matrix2x3Wide
     /// <summary>Transforms a row vector by the transpose: v * transpose(m).</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void TransformByTransposeWithoutOverlap(in Vector3Wide v, in Matrix2x3Wide m, out Vector2Wide result) => result = m * v;
-
-    /// <summary>Product with a symmetric matrix.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void MultiplyWithoutOverlap(in Matrix2x3Wide m, in Symmetric3x3Wide s, out Matrix2x3Wide result) => result = m * s;
-
-    /// <summary>Sum.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Add(in Matrix2x3Wide a, in Matrix2x3Wide b, out Matrix2x3Wide result) => result = a + b;
-
-    /// <summary>Scaled matrix.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Scale(in Matrix2x3Wide m, Vector<float> scale, out Matrix2x3Wide result) => result = m * scale;
 }

@@ -1,4 +1,3 @@
-using System.Numerics;
 using System.Runtime.CompilerServices;
 
 namespace BepuUtilities;
@@ -14,19 +13,7 @@ public partial struct Symmetric2x2Wide
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Add(in Symmetric2x2Wide a, in Symmetric2x2Wide b, out Symmetric2x2Wide result) => result = a + b;
 
-    /// <summary>Difference.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Subtract(in Symmetric2x2Wide a, in Symmetric2x2Wide b, out Symmetric2x2Wide result) => result = a - b;
-
-    /// <summary>Scaled matrix.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Scale(in Symmetric2x2Wide m, Vector<float> scale, out Symmetric2x2Wide result) => result = m * scale;
-
     /// <summary>Transforms a vector.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void TransformWithoutOverlap(in Vector2Wide v, in Symmetric2x2Wide m, out Vector2Wide result) => result = m * v;
-
-    /// <summary>Product with a 2x3 matrix.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void MultiplyWithoutOverlap(in Symmetric2x2Wide m, in Matrix2x3Wide b, out Matrix2x3Wide result) => result = m * b;
 }
