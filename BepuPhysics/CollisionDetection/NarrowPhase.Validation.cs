@@ -20,7 +20,7 @@ public abstract partial class NarrowPhase
             ref var cached = ref Pairs.Pairs.Values[i];
             var constraintCountBefore = constraintCount;
             var last = 0ul;
-            for (var manifolds = Pairs.ManifoldsOf(i); manifolds.MoveNext(); )
+            for (var manifolds = Pairs.ManifoldsOf(i); manifolds.MoveNext();)
             {
                 ref var manifold = ref manifolds.Current;
                 if (cached.IsOfChildren)

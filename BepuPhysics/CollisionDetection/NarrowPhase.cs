@@ -183,7 +183,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         pairIndex = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Slot]);
         if (pairIndex < 0)
             return false;
-        for (var manifolds = Pairs.ManifoldsOf(pairIndex); manifolds.MoveNext(); )
+        for (var manifolds = Pairs.ManifoldsOf(pairIndex); manifolds.MoveNext();)
         {
             children = manifolds.Children;
             if (manifolds.Current.HasConstraint && manifolds.Current.Constraint == handle)

@@ -80,7 +80,7 @@ public class PairCacheTests
         foreach (var (name, manifolds) in expected)
         {
             var actual = new List<((int, int), int)>();
-            for (var list = cache.ManifoldsOf(cache.Pairs.IndexOf(Pair(name, name + 1))); list.MoveNext(); )
+            for (var list = cache.ManifoldsOf(cache.Pairs.IndexOf(Pair(name, name + 1))); list.MoveNext();)
                 actual.Add(((list.Children.A, list.Children.B), list.Current.Features[0]));
             Assert.Equal(manifolds.Select(manifold => (manifold.Key, manifold.Value)), actual);
         }

@@ -47,7 +47,8 @@ sealed class ClusterBatch(BufferPool pool, int initialCapacity, Shapes all) : Sh
     }
 
     public override void RayTest<TRayHitHandler>(
-        int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler) { }
+        int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler)
+    { }
 
     internal override float MaximumRadius(int shapeIndex)
     {

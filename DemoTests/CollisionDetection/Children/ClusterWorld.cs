@@ -146,7 +146,7 @@ sealed class ClusterWorld : IDisposable
             var pair = NarrowPhase.Pairs.Pairs.Keys[i];
             if (pair.B.Mobility != CollidableMobility.Static)
                 continue;
-            for (var list = NarrowPhase.Pairs.ManifoldsOf(i); list.MoveNext(); )
+            for (var list = NarrowPhase.Pairs.ManifoldsOf(i); list.MoveNext();)
             {
                 var manifold = list.Current;
                 var text = $"{manifold.ConstraintTypeId} {manifold.History >= 0}";
