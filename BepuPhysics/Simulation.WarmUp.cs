@@ -31,6 +31,8 @@ public sealed partial class Simulation
         Rehearsal.Run(used.Length > 0 ? used : convexTypes, threadDispatcher);
         Solver.Rehearse();
         NarrowPhase.Compile(used.Length > 0 ? used : convexTypes);
-        Precompilation.Compile(PoseIntegrator.GetType());
+        Precompilation.CompileAll(PoseIntegrator.GetType());
+        foreach (var callbacks in PoseIntegrator.GetType().GetGenericArguments())
+            Precompilation.Compile(callbacks);
     }
 }

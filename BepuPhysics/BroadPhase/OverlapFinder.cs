@@ -51,8 +51,8 @@ static unsafe class OverlapFinder
         Precompilation.Compile(typeof(ActiveConsumer<THandler>));
         Precompilation.Compile(typeof(StaticConsumer<THandler>));
         StagedWork.Compile<FindWork<THandler>>();
-        Precompilation.Compile(typeof(RunTraversal<THandler, ActiveConsumer<THandler>>));
-        Precompilation.Compile(typeof(RunTraversal<THandler, StaticConsumer<THandler>>));
+        Precompilation.CompileAll(typeof(RunTraversal<THandler, ActiveConsumer<THandler>>));
+        Precompilation.CompileAll(typeof(RunTraversal<THandler, StaticConsumer<THandler>>));
     }
 
     static void FindOnCaller<THandler>(in Tree activeTree, in Tree staticTree, in LeafRuns runs, ref THandler handler)

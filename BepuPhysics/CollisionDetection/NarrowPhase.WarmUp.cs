@@ -11,13 +11,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     internal override void Compile(ReadOnlySpan<int> shapeTypes)
     {
         var manifold = typeof(ConvexContactManifold);
-        Precompilation.Compile(typeof(NarrowPhase<TCallbacks>));
+        Precompilation.CompileAll(typeof(NarrowPhase<TCallbacks>));
         Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(Complete), manifold);
         Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(OnPairCompleted), manifold);
         Precompilation.Compile(typeof(Completion), nameof(ICollisionCallbacks.OnPairCompleted), manifold);
         Precompilation.Compile(typeof(TCallbacks));
         Precompilation.Compile(typeof(TCallbacks), nameof(INarrowPhaseCallbacks.ConfigureContactManifold), manifold);
-        Precompilation.Compile(typeof(CollisionBatcher<Completion>));
+        Precompilation.CompileAll(typeof(CollisionBatcher<Completion>));
         Precompilation.Compile(typeof(BroadPhase), nameof(BroadPhase.FindOverlapsOfLeaves), typeof(Overlaps));
         StagedWork.Compile<FlushWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));

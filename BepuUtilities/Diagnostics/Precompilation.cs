@@ -18,7 +18,7 @@ public static class Precompilation
     const string Ahead = "Does nothing where code is compiled ahead of time.";
     const BindingFlags All = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-    /// <summary>Compiles the methods of a type that are not generic themselves, and those of the types in it.</summary>
+    /// <summary>Compiles the methods of a type that are not generic themselves.</summary>
     /// <param name="type">The type, with all of its type arguments.</param>
     public static void Compile(Type type)
     {
@@ -27,13 +27,26 @@ public static class Precompilation
         var arguments = type.GetGenericArguments();
         foreach (var method in type.GetMethods(All))
         {
-            if (!method.IsAbstract && !method.ContainsGenericParameters)
+            // What is in no assembly is compiled by nobody, and its library may be missing.
+            var isElsewhere = (method.Attributes & MethodAttributes.PinvokeImpl) != 0 ||
+                (method.GetMethodImplementationFlags() & (MethodImplAttributes.InternalCall | MethodImplAttributes.Runtime)) != 0;
+            if (!method.IsAbstract && !isElsewhere && !method.ContainsGenericParameters)
                 Compile(method, Handles(arguments));
         }
+    }
+
+    /// <summary>Compiles the methods of a type that are not generic themselves, and those of the types in it.</summary>
+    /// <param name="type">The type, with all of its type arguments.</param>
+    public static void CompileAll(Type type)
+    {
+        if (!RuntimeFeature.IsDynamicCodeCompiled)
+            return;
+        Compile(type);
+        var arguments = type.GetGenericArguments();
         foreach (var nested in type.GetNestedTypes(All))
         {
             if (nested.GetGenericArguments().Length == arguments.Length && !nested.IsSubclassOf(typeof(Delegate)))
-                Compile(arguments.Length > 0 ? nested.MakeGenericType(arguments) : nested);
+                CompileAll(arguments.Length > 0 ? nested.MakeGenericType(arguments) : nested);
         }
     }
 

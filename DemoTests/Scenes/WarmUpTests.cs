@@ -3,6 +3,7 @@ using System.Collections.Concurrent;
 using System.Diagnostics.Tracing;
 using System.Linq;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using System.Threading;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -179,6 +180,10 @@ public class WarmUpTests
 
     struct RefusingGravity : IPoseIntegratorCallbacks
     {
+        // A game may have declared what its machine does not have.
+        [DllImport("no-such-library")]
+        static extern void Missing();
+
         public readonly AngularIntegrationMode AngularIntegrationMode => throw new NotSupportedException();
         public readonly bool AllowSubstepsForUnconstrainedBodies => throw new NotSupportedException();
         public readonly bool IntegrateVelocityForKinematics => throw new NotSupportedException();
