@@ -3,6 +3,7 @@ using System.Collections.Concurrent;
 using System.Diagnostics.Tracing;
 using System.Linq;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Threading;
 using BepuPhysics;
@@ -29,7 +30,8 @@ public class WarmUpTests
         using var simulation = Simulation.Create(pool, new WarmContacts(), new WarmGravity(), new SolveDescription(1, 4));
         Fill(simulation);
         simulation.WarmUp();
-        listener.WaitFor(nameof(WarmContacts), "TestPair");
+        AfterWarmUp();
+        listener.WaitFor(nameof(AfterWarmUp));
         var before = listener.CountOf(nameof(WarmContacts)) + listener.CountOf(nameof(WarmGravity));
         Assert.True(before > 100, $"{before} methods were compiled.");
         listener.Loaded.Clear();
@@ -37,8 +39,8 @@ public class WarmUpTests
         for (int i = 0; i < 120; ++i)
             simulation.Timestep(1 / 60f);
 
-        // Methods that are compiled late by a runtime in tiers are not new. The marker comes after everything that the steps have needed.
-        listener.WaitForMarker();
+        AfterSteps();
+        listener.WaitFor(nameof(AfterSteps));
         var late = listener.Loaded.Where(name => name.Contains(nameof(WarmContacts), StringComparison.Ordinal) ||
             name.Contains(nameof(WarmGravity), StringComparison.Ordinal)).ToArray();
         string[] large = ["TestPair", "Complete", "Execute", "Integrate", "Predict", "RunTraversal", "FindOverlaps", "Flush", "CollisionBatcher"];
@@ -98,7 +100,12 @@ public class WarmUpTests
         }
     }
 
-    static void Marker() { }
+    // Events come later than what they tell of, but in order: when these have been compiled, so has all before them.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void AfterWarmUp() { }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void AfterSteps() { }
 
     // Names of the methods that the runtime has compiled since, in the whole process.
     sealed class Listener : EventListener
@@ -109,15 +116,8 @@ public class WarmUpTests
 
         public int CountOf(string part) => Loaded.Count(name => name.Contains(part, StringComparison.Ordinal));
 
-        public void WaitFor(string type, string method) => Assert.True(SpinWait.SpinUntil(
-            () => Loaded.Any(name => name.Contains(type, StringComparison.Ordinal) && name.EndsWith(method, StringComparison.Ordinal)),
-            TimeSpan.FromSeconds(60)));
-
-        public void WaitForMarker()
-        {
-            Marker();
-            WaitFor(nameof(WarmUpTests), nameof(Marker));
-        }
+        public void WaitFor(string marker) => Assert.True(SpinWait.SpinUntil(
+            () => Loaded.Any(name => name.EndsWith(nameof(WarmUpTests) + "." + marker, StringComparison.Ordinal)), TimeSpan.FromSeconds(60)));
 
         protected override void OnEventSourceCreated(EventSource eventSource)
         {
