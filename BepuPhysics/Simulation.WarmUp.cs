@@ -28,9 +28,10 @@ public sealed partial class Simulation
         if (!RuntimeFeature.IsDynamicCodeCompiled)
             return;
         var used = Array.FindAll(convexTypes, Shapes.HasAny);
-        Rehearsal.Run(used.Length > 0 ? used : convexTypes, threadDispatcher);
+        var types = used.Length > 0 ? used : convexTypes;
+        Rehearsal.Run(types, threadDispatcher);
         Solver.Rehearse();
-        NarrowPhase.Compile(used.Length > 0 ? used : convexTypes);
+        NarrowPhase.Compile(types);
         Precompilation.CompileAll(PoseIntegrator.GetType());
         foreach (var callbacks in PoseIntegrator.GetType().GetGenericArguments())
             Precompilation.Compile(callbacks);

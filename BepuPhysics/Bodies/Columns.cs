@@ -5,7 +5,9 @@ namespace BepuPhysics;
 /// <summary>Does something to each column of a table; which columns there are, the table says once.</summary>
 interface IColumnVisitor
 {
-    void Visit<T>(ref Buffer<T> column) where T : unmanaged;
+    /// <param name="column">The column.</param>
+    /// <param name="width">Values that a row has in it; more than one where rows lie in bundles.</param>
+    void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged;
 }
 
 /// <summary>Gives columns another length; rows that are new are zero.</summary>
@@ -14,7 +16,7 @@ interface IColumnVisitor
 /// <param name="pool">Where the memory comes from.</param>
 readonly struct ResizeColumns(int length, int used, BufferPool pool) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column) where T : unmanaged
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged
     {
         pool.Take<T>(length, out var resized);
         if (column.Allocated)
@@ -32,7 +34,7 @@ readonly struct ResizeColumns(int length, int used, BufferPool pool) : IColumnVi
 /// <param name="to">The place; its own for a row that is to be cleared.</param>
 readonly struct MoveRow(int from, int to) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column) where T : unmanaged
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged
     {
         column[to] = column[from];
         column[from] = default;
@@ -44,12 +46,12 @@ readonly struct MoveRow(int from, int to) : IColumnVisitor
 /// <param name="count">Number of rows.</param>
 readonly struct ClearRows(int start, int count) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column) where T : unmanaged => column.Clear(start, count);
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged => column.Clear(start, count);
 }
 
 /// <summary>Gives the memory of columns back.</summary>
 /// <param name="pool">Where it came from.</param>
 readonly struct ReturnColumns(BufferPool pool) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column) where T : unmanaged => pool.Return(ref column);
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged => pool.Return(ref column);
 }

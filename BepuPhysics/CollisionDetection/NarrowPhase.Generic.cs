@@ -171,6 +171,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
                 CompleteWithoutContacts(ref workers[workerIndex], tested);
             return;
         }
+        if (typeof(TManifold) != typeof(ConvexContactManifold))
+            throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint.");
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);

@@ -3,21 +3,13 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
-/// <summary>Does something to each column of a type batch; which columns there are, the type processor says once.</summary>
-interface IBundleColumnVisitor
-{
-    /// <param name="column">The column, in bundles.</param>
-    /// <param name="width">Number of values that a constraint has in it.</param>
-    void Visit<T>(ref Buffer<T> column, int width) where T : unmanaged;
-}
-
 /// <summary>Gives columns another number of bundles. What is new is not cleared: a bundle is when it comes into use.</summary>
 /// <param name="bundles">Bundles that a column is to have.</param>
 /// <param name="used">Bundles that are kept.</param>
 /// <param name="pool">Where the memory comes from.</param>
-readonly struct ResizeBundles(int bundles, int used, BufferPool pool) : IBundleColumnVisitor
+readonly struct ResizeBundles(int bundles, int used, BufferPool pool) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column, int width) where T : unmanaged
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged
     {
         var bundle = width * Vector<float>.Count;
         pool.Take<T>(bundles * bundle, out var resized);
@@ -33,20 +25,13 @@ readonly struct ResizeBundles(int bundles, int used, BufferPool pool) : IBundleC
 /// <summary>Copies the values of a constraint to the place of another one.</summary>
 /// <param name="from">The constraint's place.</param>
 /// <param name="to">The other one's.</param>
-readonly struct MoveInBundles(int from, int to) : IBundleColumnVisitor
+readonly struct MoveInBundles(int from, int to) : IColumnVisitor
 {
-    public void Visit<T>(ref Buffer<T> column, int width) where T : unmanaged
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged
     {
         var source = TypeProcessor.ColumnStart(width, from);
         var target = TypeProcessor.ColumnStart(width, to);
         for (int i = 0; i < width * Vector<float>.Count; i += Vector<float>.Count)
             column[target + i] = column[source + i];
     }
-}
-
-/// <summary>Gives the memory of columns back.</summary>
-/// <param name="pool">Where it came from.</param>
-readonly struct ReturnBundles(BufferPool pool) : IBundleColumnVisitor
-{
-    public void Visit<T>(ref Buffer<T> column, int width) where T : unmanaged => pool.Return(ref column);
 }

@@ -114,7 +114,7 @@ public abstract partial class TypeProcessor
 
     /// <summary>Every column of a type batch, in one place, with the number of values that a constraint has in it.</summary>
     // The handles tell the capacity, so they come last, should the system refuse memory in between.
-    void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IBundleColumnVisitor
+    void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
     {
         visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
         visitor.Visit(ref batch.Prestep, PrestepFloats);
@@ -124,7 +124,7 @@ public abstract partial class TypeProcessor
 
     internal void Dispose(ref TypeBatch batch, BufferPool pool)
     {
-        var dispose = new ReturnBundles(pool);
+        var dispose = new ReturnColumns(pool);
         if (batch.IndexToHandle.Allocated)
             VisitColumns(ref batch, ref dispose);
         batch = default;

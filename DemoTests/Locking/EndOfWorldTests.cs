@@ -155,9 +155,10 @@ public class EndOfWorldTests
     {
         var pool = new BufferPool();
         Assert.Throws<TimeZoneNotFoundException>(() => Simulation.Create(
-            pool, new ThrowingContacts { InInitialize = true }, new PlainIntegrator(), new SolveDescription(1, 2)));
+            pool, new ThrowingContacts { InInitialize = true }, new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 2)));
         pool.AssertEmpty();
-        var simulation = Simulation.Create(pool, new ThrowingContacts { InDispose = true }, new PlainIntegrator(), new SolveDescription(1, 2));
+        var simulation = Simulation.Create(
+            pool, new ThrowingContacts { InDispose = true }, new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 2));
         Assert.Throws<TimeZoneNotFoundException>(simulation.Dispose);
         simulation.Dispose();
         pool.AssertEmpty();
@@ -203,5 +204,5 @@ public class EndOfWorldTests
     }
 
     static Simulation NewSimulation(BufferPool pool, Shapes? shapes = null) =>
-        Simulation.Create(pool, new ThrowingContacts(), new PlainIntegrator(), new SolveDescription(1, 2), shapes: shapes);
+        Simulation.Create(pool, new ThrowingContacts(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 2), shapes: shapes);
 }

@@ -1,9 +1,7 @@
 using System;
-using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities;
 
 namespace DemoTests.Locking;
 
@@ -39,23 +37,4 @@ struct ThrowingContacts : INarrowPhaseCallbacks
         if (InDispose)
             throw new TimeZoneNotFoundException("of the test");
     }
-}
-
-/// <summary>No forces.</summary>
-readonly struct PlainIntegrator : IPoseIntegratorCallbacks
-{
-    public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.Nonconserving;
-
-    public bool AllowSubstepsForUnconstrainedBodies => false;
-
-    public bool IntegrateVelocityForKinematics => false;
-
-    public void Initialize(Simulation simulation) { }
-
-    public void PrepareForIntegration(float dt) { }
-
-    public void IntegrateVelocity(
-        Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia, Vector<int> integrationMask,
-        int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
-    { }
 }

@@ -123,7 +123,7 @@ public sealed class ShapeUseTests : IDisposable
             world.Arm("AllowContactGeneration", () =>
             {
                 attached = Record.Exception(() => Simulation.Create(
-                    others, new ThrowingContacts(), new PlainIntegrator(), new SolveDescription(1, 2), shapes: shapes).Dispose());
+                    others, new ThrowingContacts(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 2), shapes: shapes).Dispose());
                 changed = Record.Exception(() => shapes.Add(new Sphere(2)));
             });
             world.Step();
@@ -190,5 +190,5 @@ public sealed class ShapeUseTests : IDisposable
         simulation.Bodies.Add(BodyDescription.CreateDynamic(new Vector3(0, 5, 0), new Sphere(1).ComputeInertia(1), shape, -1));
 
     Simulation NewSimulation(Shapes? shapes) =>
-        Simulation.Create(pool, new ThrowingContacts(), new PlainIntegrator(), new SolveDescription(1, 2), shapes: shapes);
+        Simulation.Create(pool, new ThrowingContacts(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 2), shapes: shapes);
 }

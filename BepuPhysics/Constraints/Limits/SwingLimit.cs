@@ -104,21 +104,17 @@ readonly struct SwingLimitJoint : IJoint<TwoBodies, SwingLimitWide, SwingLimitGe
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = Vector3Wide.Dot(bodies.A.Angular - bodies.B.Angular, geometry.Axis);
+        velocity.X = AngularRow.RelativeVelocity(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in SwingLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse)
-    {
-        var angular = geometry.Axis * impulse.X;
-        bodies.A.Angular += bodies.A.InverseInertia * angular;
-        bodies.B.Angular -= bodies.B.InverseInertia * angular;
-    }
+    public static void ApplyImpulse(in SwingLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse) =>
+        AngularRow.ApplyImpulse(geometry.Axis, ref bodies, impulse.X);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = Symmetric3x3Wide.VectorSandwich(geometry.Axis, bodies.A.InverseInertia + bodies.B.InverseInertia);
+        inverseMass.X = AngularRow.InverseEffectiveMass(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

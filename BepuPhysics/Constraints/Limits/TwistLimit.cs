@@ -106,21 +106,17 @@ readonly struct TwistLimitJoint : IJoint<TwoBodies, TwistLimitWide, TwistLimitGe
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in TwistLimitGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = Vector3Wide.Dot(bodies.A.Angular - bodies.B.Angular, geometry.Axis);
+        velocity.X = AngularRow.RelativeVelocity(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in TwistLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse)
-    {
-        var angular = geometry.Axis * impulse.X;
-        bodies.A.Angular += bodies.A.InverseInertia * angular;
-        bodies.B.Angular -= bodies.B.InverseInertia * angular;
-    }
+    public static void ApplyImpulse(in TwistLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse) =>
+        AngularRow.ApplyImpulse(geometry.Axis, ref bodies, impulse.X);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in TwistLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = Symmetric3x3Wide.VectorSandwich(geometry.Axis, bodies.A.InverseInertia + bodies.B.InverseInertia);
+        inverseMass.X = AngularRow.InverseEffectiveMass(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -66,21 +66,17 @@ readonly struct AngularAxisMotorJoint : IMotor<TwoBodies, AngularAxisMotorWide, 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in AngularAxisMotorGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = Vector3Wide.Dot(bodies.A.Angular - bodies.B.Angular, geometry.Axis);
+        velocity.X = AngularRow.RelativeVelocity(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in AngularAxisMotorGeometry geometry, ref TwoBodies bodies, in Rows1 impulse)
-    {
-        var angular = geometry.Axis * impulse.X;
-        bodies.A.Angular += bodies.A.InverseInertia * angular;
-        bodies.B.Angular -= bodies.B.InverseInertia * angular;
-    }
+    public static void ApplyImpulse(in AngularAxisMotorGeometry geometry, ref TwoBodies bodies, in Rows1 impulse) =>
+        AngularRow.ApplyImpulse(geometry.Axis, ref bodies, impulse.X);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in AngularAxisMotorGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = Symmetric3x3Wide.VectorSandwich(geometry.Axis, bodies.A.InverseInertia + bodies.B.InverseInertia);
+        inverseMass.X = AngularRow.InverseEffectiveMass(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
