@@ -67,46 +67,47 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         for (int bundle = startBundle; bundle < endBundle; ++bundle)
         {
             var indices = Indices(bundle, set.Count, out var exists);
-            ReadBodies(motions, localInertias, indices, out var pose, out var velocity, out var localInertia);
+            var rows = new RowOffsets(indices);
+            ReadBodies(motions, localInertias, rows, out var pose, out var velocity, out var localInertia);
             var kinematic = IsKinematic(localInertia);
             if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
                 StopAndRead(unsound, indices, ref pose, ref velocity);
             if (stage == IntegrationStage.First)
-                Begin(origins, displacements, indices, pose.Position, velocity.Linear);
+                Begin(origins, displacements, rows, pose.Position, velocity.Linear);
             else if (stage != IntegrationStage.Velocities)
-                MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, wideDt, localInertia, ref pose, ref velocity);
+                MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, rows, wideDt, localInertia, ref pose, ref velocity);
             if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
                 if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
                     StopAndRead(unsound, indices, ref pose, ref velocity);
-                WriteVelocity(motions, indices, velocity);
+                WriteVelocity(motions, rows, velocity);
                 if (keepsLostVelocity)
-                    RememberVelocity(origins, indices, velocity.Linear);
+                    RememberVelocity(origins, rows, velocity.Linear);
                 if (stage == IntegrationStage.Poses)
-                    WriteMovedInertia(indices, pose.Orientation, velocity.Angular, wideDt, localInertia);
+                    WriteMovedInertia(rows, pose.Orientation, velocity.Angular, wideDt, localInertia);
                 continue;
             }
             var before = velocity.Linear;
             IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, wideDt, ref velocity);
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
-                KeepLostVelocity(origins, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
+                KeepLostVelocity(origins, rows, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
             var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
             if (stiffness.Allocated)
             {
-                GeometricStiffness.Apply(ReadStiffness(stiffness, indices), wideDt, ref worldInertia, ref velocity.Angular);
+                GeometricStiffness.Apply(ReadStiffness(stiffness, rows), wideDt, ref worldInertia, ref velocity.Angular);
                 // The warm start that follows gathers the stiffness of this step.
                 if (stage == IntegrationStage.First)
-                    Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, indices);
+                    Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, rows);
             }
             if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
             {
                 StopAndRead(unsound, indices, ref pose, ref velocity);
                 worldInertia = Symmetric3x3Wide.Select(unsound, default, worldInertia);
             }
-            WriteVelocity(motions, indices, velocity);
-            WriteWorldInertia(worldInertias, indices, worldInertia, localInertia.InverseMass);
+            WriteVelocity(motions, rows, velocity);
+            WriteWorldInertia(worldInertias, rows, worldInertia, localInertia.InverseMass);
         }
     }
 
@@ -114,7 +115,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
-        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out pose, out velocity, out var localInertia);
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out pose, out velocity, out var localInertia);
         if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), exists, out var unsound))
             StopAndRead(unsound, indices, ref pose, ref velocity);
         quarantine.Remember(bundle);
@@ -132,7 +133,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         quarantine.Stop(lanes, indices);
         ref var set = ref bodies.Awake;
-        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, indices, out var stoppedPose, out _, out _);
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out var stoppedPose, out _, out _);
         pose.Position = Vector3Wide.Select(lanes, stoppedPose.Position, pose.Position);
         pose.Orientation = QuaternionWide.Select(lanes, stoppedPose.Orientation, pose.Orientation);
         velocity.Linear = Vector3Wide.Mask(~lanes, velocity.Linear);
@@ -149,36 +150,36 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void ReadBodies(
-        float* motions, float* localInertias, Vector<int> indices, out RigidPoseWide pose, out BodyVelocityWide velocity,
+        float* motions, float* localInertias, in RowOffsets rows, out RigidPoseWide pose, out BodyVelocityWide velocity,
         out BodyInertiaWide localInertia)
     {
-        var row = Transpose.Gather(motions, FloatsPerMotion, indices);
+        var row = Transpose.Gather(motions, FloatsPerMotion, rows);
         pose.Orientation = new(row.R0, row.R1, row.R2, row.R3);
         pose.Position = new(row.R4, row.R5, row.R6);
-        row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, indices);
+        row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, rows);
         velocity.Linear = new(row.R0, row.R1, row.R2);
         velocity.Angular = new(row.R4, row.R5, row.R6);
-        row = Transpose.Gather(localInertias, FloatsPerRow, indices);
+        row = Transpose.Gather(localInertias, FloatsPerRow, rows);
         localInertia.InverseInertiaTensor = new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
         localInertia.InverseMass = row.R6;
     }
 
     // A relaxation with inertias from before the turn would give energy to bodies that spin. Of no concern to other stages, and out of their way.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void WriteMovedInertia(Vector<int> indices, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
+    void WriteMovedInertia(in RowOffsets rows, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
     {
         ref var set = ref bodies.Awake;
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         // The momentum stays as the solve has left it.
         if (set.Stiffness.Allocated)
-            GeometricStiffness.Apply(ReadStiffness(set.Stiffness, indices), dt, ref worldInertia, ref angular);
-        WriteWorldInertia((float*)set.WorldInertias.Memory, indices, worldInertia, localInertia.InverseMass);
+            GeometricStiffness.Apply(ReadStiffness(set.Stiffness, rows), dt, ref worldInertia, ref angular);
+        WriteWorldInertia((float*)set.WorldInertias.Memory, rows, worldInertia, localInertia.InverseMass);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Symmetric3x3Wide ReadStiffness(in Buffer<BodyInertia> stiffness, Vector<int> indices)
+    static Symmetric3x3Wide ReadStiffness(in Buffer<BodyInertia> stiffness, in RowOffsets rows)
     {
-        var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, indices);
+        var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, rows);
         return new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
     }
 
@@ -194,10 +195,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then. So it is
     // with a velocity that is not the one that the last step ended with.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Begin(float* origins, float* displacements, Vector<int> indices, in Vector3Wide position, in Vector3Wide velocity)
+    static void Begin(float* origins, float* displacements, in RowOffsets rows, in Vector3Wide position, in Vector3Wide velocity)
     {
-        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
-        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
+        var row = Transpose.Gather(displacements, FloatsPerRow, rows);
         var kept = Vector.Equals(origin.R0 + row.R0, position.X) & Vector.Equals(origin.R1 + row.R1, position.Y) &
             Vector.Equals(origin.R2 + row.R2, position.Z);
         var keptVelocity = kept & Vector.Equals(origin.R3, velocity.X) & Vector.Equals(origin.R7, velocity.Y) & Vector.Equals(row.R3, velocity.Z);
@@ -205,14 +206,14 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         start.R0 = Wide.Mask(kept, LeftOver(origin.R0, row.R0, position.X));
         start.R1 = Wide.Mask(kept, LeftOver(origin.R1, row.R1, position.Y));
         start.R2 = Wide.Mask(kept, LeftOver(origin.R2, row.R2, position.Z));
-        Transpose.Scatter(start, displacements, FloatsPerRow, indices);
+        Transpose.Scatter(start, displacements, FloatsPerRow, rows);
         origin.R0 = position.X;
         origin.R1 = position.Y;
         origin.R2 = position.Z;
         origin.R4 = Wide.Mask(keptVelocity, origin.R4);
         origin.R5 = Wide.Mask(keptVelocity, origin.R5);
         origin.R6 = Wide.Mask(keptVelocity, origin.R6);
-        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
+        Transpose.Scatter(origin, origins, FloatsPerRow, rows);
     }
 
     // Exact by Dekker's two-sum, whichever of the two is larger: what a + b lost by rounding to sum.
@@ -225,10 +226,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void MovePoses(
-        float* motions, float* origins, float* displacements, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
+        float* motions, float* origins, float* displacements, PrincipalFrame* frames, Vector<int> indices, in RowOffsets rows, Vector<float> dt,
         in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
-        var row = Transpose.Gather(displacements, FloatsPerRow, indices);
+        var row = Transpose.Gather(displacements, FloatsPerRow, rows);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
         var rotation = new Vector3Wide(row.R4, row.R5, row.R6) + velocity.Angular * dt;
         row.R0 = translation.X;
@@ -238,9 +239,9 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         row.R4 = rotation.X;
         row.R5 = rotation.Y;
         row.R6 = rotation.Z;
-        Transpose.Scatter(row, displacements, FloatsPerRow, indices);
+        Transpose.Scatter(row, displacements, FloatsPerRow, rows);
 
-        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
         pose.Position = new Vector3Wide(origin.R0, origin.R1, origin.R2) + translation;
         var inverseInertia = localInertia.InverseInertiaTensor;
         switch (Callbacks.AngularIntegrationMode)
@@ -264,7 +265,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         poseRow.R5 = pose.Position.Y;
         poseRow.R6 = pose.Position.Z;
         poseRow.R7 = Vector<float>.Zero;
-        Transpose.Scatter(poseRow, motions, FloatsPerMotion, indices);
+        Transpose.Scatter(poseRow, motions, FloatsPerMotion, rows);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -294,7 +295,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     // Runs where some lane is fast, and must not show it to the others: their rows stay as they are.
     [MethodImpl(MethodImplOptions.NoInlining)]
     void KeepLostVelocity(
-        float* origins, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
+        float* origins, in RowOffsets rows, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
         Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
     {
         keepsLostVelocity = true;
@@ -302,13 +303,13 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, fast, workerIndex, dt, ref added);
         var sum = before + added.Linear;
         var adds = fast & Vector.Equals(sum.X, after.X) & Vector.Equals(sum.Y, after.Y) & Vector.Equals(sum.Z, after.Z);
-        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
         var change = added.Linear + new Vector3Wide(Plausible(origin.R4, before.X), Plausible(origin.R5, before.Y), Plausible(origin.R6, before.Z));
         var changed = before + change;
         origin.R4 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.X, change.X, changed.X)), origin.R4);
         origin.R5 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.Y, change.Y, changed.Y)), origin.R5);
         origin.R6 = Vector.ConditionalSelect(fast, Wide.Mask(adds, LeftOver(before.Z, change.Z, changed.Z)), origin.R6);
-        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
+        Transpose.Scatter(origin, origins, FloatsPerRow, rows);
         after = Vector3Wide.Select(adds, changed, after);
     }
 
@@ -319,18 +320,18 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     // By this velocity the next step sees whether it was written in between. Its third component went along with the displacement.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void RememberVelocity(float* origins, Vector<int> indices, in Vector3Wide velocity)
+    static void RememberVelocity(float* origins, in RowOffsets rows, in Vector3Wide velocity)
     {
-        var origin = Transpose.Gather(origins, FloatsPerRow, indices);
+        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
         var zero = Vector<float>.Zero;
         var lostNothing = Vector.Equals(origin.R4, zero) & Vector.Equals(origin.R5, zero) & Vector.Equals(origin.R6, zero);
         origin.R3 = Vector.ConditionalSelect(lostNothing, origin.R3, velocity.X);
         origin.R7 = Vector.ConditionalSelect(lostNothing, origin.R7, velocity.Y);
-        Transpose.Scatter(origin, origins, FloatsPerRow, indices);
+        Transpose.Scatter(origin, origins, FloatsPerRow, rows);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteVelocity(float* motions, Vector<int> indices, in BodyVelocityWide velocity)
+    static void WriteVelocity(float* motions, in RowOffsets rows, in BodyVelocityWide velocity)
     {
         Rows8 row;
         row.R0 = velocity.Linear.X;
@@ -341,11 +342,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         row.R5 = velocity.Angular.Y;
         row.R6 = velocity.Angular.Z;
         row.R7 = Vector<float>.Zero;
-        Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, indices);
+        Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, rows);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteWorldInertia(float* worldInertias, Vector<int> indices, in Symmetric3x3Wide world, Vector<float> inverseMass)
+    static void WriteWorldInertia(float* worldInertias, in RowOffsets rows, in Symmetric3x3Wide world, Vector<float> inverseMass)
     {
         Rows8 row;
         row.R0 = world.XX;
@@ -356,6 +357,6 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         row.R5 = world.ZZ;
         row.R6 = inverseMass;
         row.R7 = Vector<float>.Zero;
-        Transpose.Scatter(row, worldInertias, FloatsPerRow, indices);
+        Transpose.Scatter(row, worldInertias, FloatsPerRow, rows);
     }
 }

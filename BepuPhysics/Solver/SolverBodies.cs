@@ -17,7 +17,7 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
 
     /// <summary>Reads the parts of a bundle of bodies that are asked for. Unused lanes read body 0, which is harmless and exists.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal void Gather(Vector<int> references, BodyAccess access, in Substep substep, out SolverBodyWide body)
+    internal void Gather(in RowOffsets references, BodyAccess access, in Substep substep, out SolverBodyWide body)
     {
         Unsafe.SkipInit(out body);
         if ((access & BodyAccess.Pose) != 0)
@@ -58,7 +58,7 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     }
 
     /// <summary>Adds to the geometric stiffness of a bundle of bodies, N m, world axes, except for kinematics and unused lanes.</summary>
-    internal void AddStiffness(Vector<int> references, in Symmetric3x3Wide added)
+    internal void AddStiffness(in RowOffsets references, in Symmetric3x3Wide added)
     {
         var row = Transpose.Gather(stiffness, FloatsPerRow, references);
         row.R0 += added.XX;
@@ -72,7 +72,7 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
 
     /// <summary>Writes the velocities of a bundle of bodies, except for kinematics and unused lanes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal void ScatterVelocity(Vector<int> references, in SolverBodyWide body)
+    internal void ScatterVelocity(in RowOffsets references, in SolverBodyWide body)
     {
         Rows8 row;
         row.R0 = body.Linear.X;

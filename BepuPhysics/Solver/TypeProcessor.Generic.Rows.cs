@@ -15,7 +15,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Span<ConstraintRowWide> rows)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
-        Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out var slots);
+        Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
         rows.Clear();
         TConstraint.ReadRows(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], rows);
     }

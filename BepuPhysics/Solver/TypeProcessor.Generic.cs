@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
@@ -25,9 +26,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var places = PlaceMask;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out var rows, out var slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(references, places, bodies, ref slots);
+            Scatter(rows, bodies, ref slots);
             if (TConstraint.CarriesPointLoad && substep.Index == 0)
                 AddGeometricStiffness(references, bodies, substep, slots, prestep[i], impulses[i]);
         }
@@ -42,9 +43,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var places = PlaceMask;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out var slots);
+            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out var rows, out var slots);
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(references, places, bodies, ref slots);
+            Scatter(rows, bodies, ref slots);
         }
     }
 
@@ -57,7 +58,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out _, out var slots);
             ScaleInverseMass(i, split, ref slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
@@ -73,7 +74,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess, substep, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
             ScaleInverseMass(i, split, ref slots);
             // Constraints of split bodies do not see each other's impulses until the parts are joined.
             BodySlots.At(ref slots, 0).HubMask = new(-1);
@@ -89,18 +90,39 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     {
         if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
             return;
-        bodies.AddStiffness(references[0] & PlaceMask, stiffnessA);
-        bodies.AddStiffness(references[TBodies.Count - 1] & PlaceMask, stiffnessB);
+        bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA);
+        bodies.AddStiffness(new(references[TBodies.Count - 1] & PlaceMask), stiffnessB);
+    }
+
+    // Where the rows of the bodies of a bundle are: worked out once for all that is read and written of them.
+    struct SlotRows
+    {
+        public RowOffsets A, B, C, D;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Gather(Vector<int>* references, Vector<int> places, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
+    static void Gather(
+        Vector<int>* references, Vector<int> places, in SolverBodies bodies, BodyAccess access, in Substep substep, out SlotRows rows, out TBodies slots)
     {
         Unsafe.SkipInit(out slots);
-        bodies.Gather(references[0] & places, access, substep, out BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.Gather(references[1] & places, access, substep, out BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.Gather(references[2] & places, access, substep, out BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.Gather(references[3] & places, access, substep, out BodySlots.At(ref slots, 3));
+        Unsafe.SkipInit(out rows);
+        rows.A = new(references[0] & places);
+        bodies.Gather(rows.A, access, substep, out BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1)
+        {
+            rows.B = new(references[1] & places);
+            bodies.Gather(rows.B, access, substep, out BodySlots.At(ref slots, 1));
+        }
+        if (TBodies.Count > 2)
+        {
+            rows.C = new(references[2] & places);
+            bodies.Gather(rows.C, access, substep, out BodySlots.At(ref slots, 2));
+        }
+        if (TBodies.Count > 3)
+        {
+            rows.D = new(references[3] & places);
+            bodies.Gather(rows.D, access, substep, out BodySlots.At(ref slots, 3));
+        }
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
@@ -111,12 +133,12 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter(Vector<int>* references, Vector<int> places, in SolverBodies bodies, ref TBodies slots)
+    static void Scatter(in SlotRows rows, in SolverBodies bodies, ref TBodies slots)
     {
-        bodies.ScatterVelocity(references[0] & places, BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.ScatterVelocity(references[1] & places, BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.ScatterVelocity(references[2] & places, BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.ScatterVelocity(references[3] & places, BodySlots.At(ref slots, 3));
+        bodies.ScatterVelocity(rows.A, BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) bodies.ScatterVelocity(rows.B, BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) bodies.ScatterVelocity(rows.C, BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) bodies.ScatterVelocity(rows.D, BodySlots.At(ref slots, 3));
     }
 
     // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have the flag of a hub in theirs. Read once

@@ -43,9 +43,9 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather8(float* rows, int stride, Vector<int> indices)
+    static Rows8 Gather8(float* rows, int stride, in RowOffsets offsets)
     {
-        GatherEight(rows, stride, indices.AsVector256(), out var r0, out var r1, out var r2, out var r3, out var r4, out var r5, out var r6, out var r7);
+        GatherEight(rows, stride, offsets, 0, out var r0, out var r1, out var r2, out var r3, out var r4, out var r5, out var r6, out var r7);
         Rows8 result;
         result.R0 = r0.AsVector();
         result.R1 = r1.AsVector();
@@ -59,25 +59,18 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter8(in Rows8 values, float* rows, int stride, Vector<int> indices) => ScatterEight(
+    static void Scatter8(in Rows8 values, float* rows, int stride, in RowOffsets offsets) => ScatterEight(
         values.R0.AsVector256(), values.R1.AsVector256(), values.R2.AsVector256(), values.R3.AsVector256(),
         values.R4.AsVector256(), values.R5.AsVector256(), values.R6.AsVector256(), values.R7.AsVector256(),
-        rows, stride, indices.AsVector256());
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Store(Vector256<float> row, float* rows, int stride, int index)
-    {
-        if (IsWritten(index))
-            row.StoreAligned(rows + (nint)index * stride);
-    }
+        rows, stride, offsets, offsets.Unwritten, 0);
 
     // Sixteen lanes: the two halves are eight lanes each.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather16(float* rows, int stride, Vector<int> indices)
+    static Rows8 Gather16(float* rows, int stride, in RowOffsets offsets)
     {
-        GatherEight(rows, stride, indices.AsVector512().GetLower(),
+        GatherEight(rows, stride, offsets, 0,
             out var a0, out var a1, out var a2, out var a3, out var a4, out var a5, out var a6, out var a7);
-        GatherEight(rows, stride, indices.AsVector512().GetUpper(),
+        GatherEight(rows, stride, offsets, Vector256<float>.Count,
             out var b0, out var b1, out var b2, out var b3, out var b4, out var b5, out var b6, out var b7);
         Rows8 result;
         result.R0 = Vector512.Create(a0, b0).AsVector();
@@ -94,50 +87,63 @@ public static unsafe partial class Transpose
     /// <summary>Eight lanes, or half of sixteen.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void GatherEight(
-        float* rows, int stride, Vector256<int> indices,
+        float* rows, int stride, in RowOffsets offsets, int first,
         out Vector256<float> r0, out Vector256<float> r1, out Vector256<float> r2, out Vector256<float> r3,
         out Vector256<float> r4, out Vector256<float> r5, out Vector256<float> r6, out Vector256<float> r7)
     {
-        r0 = Vector256.LoadAligned(rows + (nint)indices[0] * stride);
-        r1 = Vector256.LoadAligned(rows + (nint)indices[1] * stride);
-        r2 = Vector256.LoadAligned(rows + (nint)indices[2] * stride);
-        r3 = Vector256.LoadAligned(rows + (nint)indices[3] * stride);
-        r4 = Vector256.LoadAligned(rows + (nint)indices[4] * stride);
-        r5 = Vector256.LoadAligned(rows + (nint)indices[5] * stride);
-        r6 = Vector256.LoadAligned(rows + (nint)indices[6] * stride);
-        r7 = Vector256.LoadAligned(rows + (nint)indices[7] * stride);
+        r0 = Vector256.LoadAligned(offsets.Row(rows, stride, first));
+        r1 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 1));
+        r2 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 2));
+        r3 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 3));
+        r4 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 4));
+        r5 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 5));
+        r6 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 6));
+        r7 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 7));
         Transpose8(ref r0, ref r1, ref r2, ref r3, ref r4, ref r5, ref r6, ref r7);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter16(in Rows8 values, float* rows, int stride, Vector<int> indices)
+    static void Scatter16(in Rows8 values, float* rows, int stride, in RowOffsets offsets)
     {
+        var unwritten = offsets.Unwritten;
         ScatterEight(
             values.R0.AsVector512().GetLower(), values.R1.AsVector512().GetLower(), values.R2.AsVector512().GetLower(), values.R3.AsVector512().GetLower(),
             values.R4.AsVector512().GetLower(), values.R5.AsVector512().GetLower(), values.R6.AsVector512().GetLower(), values.R7.AsVector512().GetLower(),
-            rows, stride, indices.AsVector512().GetLower());
+            rows, stride, offsets, unwritten, 0);
         ScatterEight(
             values.R0.AsVector512().GetUpper(), values.R1.AsVector512().GetUpper(), values.R2.AsVector512().GetUpper(), values.R3.AsVector512().GetUpper(),
             values.R4.AsVector512().GetUpper(), values.R5.AsVector512().GetUpper(), values.R6.AsVector512().GetUpper(), values.R7.AsVector512().GetUpper(),
-            rows, stride, indices.AsVector512().GetUpper());
+            rows, stride, offsets, unwritten >> Vector256<float>.Count, Vector256<float>.Count);
     }
 
-    /// <summary>Eight lanes, or half of sixteen.</summary>
+    /// <summary>Eight lanes, or half of sixteen. Nearly all bundles write all lanes, and need no question for each.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void ScatterEight(
         Vector256<float> r0, Vector256<float> r1, Vector256<float> r2, Vector256<float> r3,
         Vector256<float> r4, Vector256<float> r5, Vector256<float> r6, Vector256<float> r7,
-        float* rows, int stride, Vector256<int> indices)
+        float* rows, int stride, in RowOffsets offsets, uint unwritten, int first)
     {
         Transpose8(ref r0, ref r1, ref r2, ref r3, ref r4, ref r5, ref r6, ref r7);
-        Store(r0, rows, stride, indices[0]);
-        Store(r1, rows, stride, indices[1]);
-        Store(r2, rows, stride, indices[2]);
-        Store(r3, rows, stride, indices[3]);
-        Store(r4, rows, stride, indices[4]);
-        Store(r5, rows, stride, indices[5]);
-        Store(r6, rows, stride, indices[6]);
-        Store(r7, rows, stride, indices[7]);
+        if ((unwritten & 0xFF) == 0)
+        {
+            r0.StoreAligned(offsets.Row(rows, stride, first));
+            r1.StoreAligned(offsets.Row(rows, stride, first + 1));
+            r2.StoreAligned(offsets.Row(rows, stride, first + 2));
+            r3.StoreAligned(offsets.Row(rows, stride, first + 3));
+            r4.StoreAligned(offsets.Row(rows, stride, first + 4));
+            r5.StoreAligned(offsets.Row(rows, stride, first + 5));
+            r6.StoreAligned(offsets.Row(rows, stride, first + 6));
+            r7.StoreAligned(offsets.Row(rows, stride, first + 7));
+            return;
+        }
+        if ((unwritten & 1) == 0) r0.StoreAligned(offsets.Row(rows, stride, first));
+        if ((unwritten & 2) == 0) r1.StoreAligned(offsets.Row(rows, stride, first + 1));
+        if ((unwritten & 4) == 0) r2.StoreAligned(offsets.Row(rows, stride, first + 2));
+        if ((unwritten & 8) == 0) r3.StoreAligned(offsets.Row(rows, stride, first + 3));
+        if ((unwritten & 16) == 0) r4.StoreAligned(offsets.Row(rows, stride, first + 4));
+        if ((unwritten & 32) == 0) r5.StoreAligned(offsets.Row(rows, stride, first + 5));
+        if ((unwritten & 64) == 0) r6.StoreAligned(offsets.Row(rows, stride, first + 6));
+        if ((unwritten & 128) == 0) r7.StoreAligned(offsets.Row(rows, stride, first + 7));
     }
 
     /// <summary>Four rows of four floats exchanged for four columns. Its own inverse.</summary>
@@ -177,12 +183,12 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather4(float* rows, int stride, Vector<int> indices)
+    static Rows8 Gather4(float* rows, int stride, in RowOffsets offsets)
     {
-        var p0 = rows + (nint)indices[0] * stride;
-        var p1 = rows + (nint)indices[1] * stride;
-        var p2 = rows + (nint)indices[2] * stride;
-        var p3 = rows + (nint)indices[3] * stride;
+        var p0 = offsets.Row(rows, stride, 0);
+        var p1 = offsets.Row(rows, stride, 1);
+        var p2 = offsets.Row(rows, stride, 2);
+        var p3 = offsets.Row(rows, stride, 3);
         var r0 = Vector128.LoadAligned(p0);
         var r1 = Vector128.LoadAligned(p1);
         var r2 = Vector128.LoadAligned(p2);
@@ -206,8 +212,9 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter4(in Rows8 values, float* rows, int stride, Vector<int> indices)
+    static void Scatter4(in Rows8 values, float* rows, int stride, in RowOffsets offsets)
     {
+        var unwritten = offsets.Unwritten;
         var r0 = values.R0.AsVector128();
         var r1 = values.R1.AsVector128();
         var r2 = values.R2.AsVector128();
@@ -218,18 +225,19 @@ public static unsafe partial class Transpose
         var r7 = values.R7.AsVector128();
         Transpose4(ref r0, ref r1, ref r2, ref r3);
         Transpose4(ref r4, ref r5, ref r6, ref r7);
-        Store(r0, r4, rows, stride, indices[0]);
-        Store(r1, r5, rows, stride, indices[1]);
-        Store(r2, r6, rows, stride, indices[2]);
-        Store(r3, r7, rows, stride, indices[3]);
+        Store(r0, r4, rows, stride, offsets, unwritten, 0);
+        Store(r1, r5, rows, stride, offsets, unwritten, 1);
+        Store(r2, r6, rows, stride, offsets, unwritten, 2);
+        Store(r3, r7, rows, stride, offsets, unwritten, 3);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Store(Vector128<float> low, Vector128<float> high, float* rows, int stride, int index)
+    static void Store(Vector128<float> low, Vector128<float> high, float* rows, int stride, in RowOffsets offsets, uint unwritten, int lane)
     {
-        if (!IsWritten(index))
+        if ((unwritten & 1u << lane) != 0)
             return;
-        low.StoreAligned(rows + (nint)index * stride);
-        high.StoreAligned(rows + (nint)index * stride + 4);
+        var row = offsets.Row(rows, stride, lane);
+        low.StoreAligned(row);
+        high.StoreAligned(row + 4);
     }
 }

@@ -37,47 +37,50 @@ public static unsafe partial class Transpose
     /// multiple of eight floats; row 0 must exist if any lane is empty.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Rows8 Gather(float* rows, int strideInFloats, Vector<int> rowIndices)
+    public static Rows8 Gather(float* rows, int strideInFloats, Vector<int> rowIndices) => Gather(rows, strideInFloats, new RowOffsets(rowIndices));
+
+    /// <summary>As <see cref="Gather(float*, int, Vector{int})"/>, where several rows are read by the same indices.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows8 Gather(float* rows, int strideInFloats, in RowOffsets offsets)
     {
         Check.That(((nuint)rows & 31) == 0 && (strideInFloats & 7) == 0);
-        var indices = MaskForReading(rowIndices);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
-            return Gather8(rows, strideInFloats, indices);
+            return Gather8(rows, strideInFloats, offsets);
         if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)
-            return Gather4(rows, strideInFloats, indices);
+            return Gather4(rows, strideInFloats, offsets);
         if (Vector<float>.Count == 16 && Avx.IsSupported)
-            return Gather16(rows, strideInFloats, indices);
-        return GatherByLanes(rows, strideInFloats, rowIndices);
+            return Gather16(rows, strideInFloats, offsets);
+        return GatherByLanes(rows, strideInFloats, offsets.Indices);
     }
 
     /// <summary>
     /// Writes eight floats per lane, at <c>rows + index * strideInFloats</c>; lanes whose index is negative or has bit 30 set write
-    /// nothing. Alignment as for <see cref="Gather"/>; of two lanes with the same index either may win.
+    /// nothing. Alignment as for <see cref="Gather(float*, int, Vector{int})"/>; of two lanes with the same index either may win.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Scatter(in Rows8 values, float* rows, int strideInFloats, Vector<int> rowIndices)
+    public static void Scatter(in Rows8 values, float* rows, int strideInFloats, Vector<int> rowIndices) =>
+        Scatter(values, rows, strideInFloats, new RowOffsets(rowIndices));
+
+    /// <summary>As <see cref="Scatter(in Rows8, float*, int, Vector{int})"/>, where several rows are read or written by the same indices.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Scatter(in Rows8 values, float* rows, int strideInFloats, in RowOffsets offsets)
     {
         Check.That(((nuint)rows & 31) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
-            Scatter8(values, rows, strideInFloats, rowIndices);
+            Scatter8(values, rows, strideInFloats, offsets);
         else if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)
-            Scatter4(values, rows, strideInFloats, rowIndices);
+            Scatter4(values, rows, strideInFloats, offsets);
         else if (Vector<float>.Count == 16 && Avx.IsSupported)
-            Scatter16(values, rows, strideInFloats, rowIndices);
+            Scatter16(values, rows, strideInFloats, offsets);
         else
-            ScatterByLanes(values, rows, strideInFloats, rowIndices);
+            ScatterByLanes(values, rows, strideInFloats, offsets.Indices);
     }
-
-    /// <summary>Row numbers with the flags removed; 0 for empty lanes.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> MaskForReading(Vector<int> rowIndices) =>
-        Vector.AndNot(rowIndices & new Vector<int>(RowMask), Vector.LessThan(rowIndices, Vector<int>.Zero));
 
     /// <summary>Whether a lane with this index is written: no flag is set.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool IsWritten(int rowIndex) => (uint)rowIndex <= RowMask;
 
-    /// <summary>The definition of <see cref="Gather"/>, one float at a time.</summary>
+    /// <summary>The definition of gathers, one float at a time.</summary>
     internal static Rows8 GatherByLanes(float* rows, int strideInFloats, Vector<int> rowIndices)
     {
         Unsafe.SkipInit(out Rows8 result);
@@ -91,7 +94,7 @@ public static unsafe partial class Transpose
         return result;
     }
 
-    /// <summary>The definition of <see cref="Scatter"/>, one float at a time.</summary>
+    /// <summary>The definition of scatters, one float at a time.</summary>
     internal static void ScatterByLanes(Rows8 values, float* rows, int strideInFloats, Vector<int> rowIndices)
     {
         var source = (float*)&values;

@@ -139,17 +139,19 @@ public static partial class Wide
         return lane;
     }
 
-    /// <summary>A bit for each lane that is set, lane 0 the lowest.</summary>
+    /// <summary>A bit for each lane that is negative, as those of a mask are that are set; lane 0 the lowest.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static uint Bits(Vector<int> mask)
+    internal static uint Bits(Vector<int> mask)
     {
+        if (Vector<int>.Count == 16)
+            return (uint)mask.AsVector512().ExtractMostSignificantBits();
         if (Vector<int>.Count == 8)
             return mask.AsVector256().ExtractMostSignificantBits();
         if (Vector<int>.Count == 4)
             return mask.AsVector128().ExtractMostSignificantBits();
         uint bits = 0;
         for (int i = 0; i < Vector<int>.Count; ++i)
-            bits |= mask[i] != 0 ? 1u << i : 0;
+            bits |= mask[i] < 0 ? 1u << i : 0;
         return bits;
     }
 }

@@ -83,13 +83,43 @@ public sealed unsafe class TransposeTests : IDisposable
         for (int i = 0; i < 2000; ++i)
         {
             Fill(samples);
-            var indices = Indices(samples, RowCount * 16 / stride, withFlags: true);
+            var indices = Indices(samples, RowCount * 16 / stride, withFlags: i % 2 == 0);
             Unsafe.SkipInit(out Rows8 values);
             for (int k = 0; k < Rows8.Count; ++k)
                 values[k] = samples.Numbers();
             Transpose.Scatter(values, rows, stride, indices);
             Transpose.ScatterByLanes(values, copy, stride, indices);
             Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+        }
+    }
+
+    [Fact]
+    public void ManyRowsMoveByTheSameOffsets()
+    {
+        var samples = new WideSamples(5);
+        for (int i = 0; i < 2000; ++i)
+        {
+            Fill(samples);
+            var offsets = new RowOffsets(Indices(samples, RowCount / 2, withFlags: i % 2 == 0));
+            var first = Transpose.Gather(rows + Rows8.Count, 16, offsets);
+            var second = Transpose.Gather(rows + RowCount * 8, 8, offsets);
+            Assert.True(Bits(first).SequenceEqual(Bits(Transpose.GatherByLanes(rows + Rows8.Count, 16, offsets.Indices))));
+            Assert.True(Bits(second).SequenceEqual(Bits(Transpose.GatherByLanes(rows + RowCount * 8, 8, offsets.Indices))));
+            Transpose.Scatter(second, rows + Rows8.Count, 16, offsets);
+            Transpose.ScatterByLanes(second, copy + Rows8.Count, 16, offsets.Indices);
+            Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+        }
+    }
+
+    [Theory]
+    [InlineData(8), InlineData(16), InlineData(24)]
+    public void FarRowsDoNotOverflow(int stride)
+    {
+        foreach (var index in new[] { 0, 1, 1 << 26, RowOffsets.MaximumRowCount - 1 })
+        {
+            var offsets = new RowOffsets(new Vector<int>(index | 1 << 30));
+            for (int lane = 0; lane < Vector<int>.Count; ++lane)
+                Assert.Equal((long)index * stride * sizeof(float), (byte*)offsets.Row(rows, stride, lane) - (byte*)rows);
         }
     }
 
