@@ -29,8 +29,8 @@ public sealed partial class Simulation
             return;
         var used = Array.FindAll(convexTypes, Shapes.HasAny);
         var types = used.Length > 0 ? used : convexTypes;
-        Rehearsal.Run(types, threadDispatcher);
-        Solver.Rehearse();
+        WarmUpWorld.Run(types, threadDispatcher);
+        Solver.WarmUp();
         NarrowPhase.Compile(types);
         Precompilation.CompileAll(PoseIntegrator.GetType());
         foreach (var callbacks in PoseIntegrator.GetType().GetGenericArguments())

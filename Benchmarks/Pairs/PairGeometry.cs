@@ -3,7 +3,7 @@ using System.Numerics;
 
 namespace Benchmarks.Pairs;
 
-/// <summary>Directions and rotations by lot.</summary>
+/// <summary>Random directions and rotations.</summary>
 static class PairGeometry
 {
     /// <summary>A number of a range.</summary>

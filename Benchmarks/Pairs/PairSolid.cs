@@ -39,7 +39,7 @@ sealed class PairSolid
     /// <param name="IsLine">Whether it is no more than a line along the tangent.</param>
     public readonly record struct Feature(Vector3 Normal, Vector3? Tangent, bool IsLine);
 
-    /// <summary>A side to rest on, by lot.</summary>
+    /// <summary>A side to rest on, at random.</summary>
     public Feature NextFeature(Random random) => features[random.Next(features.Count)];
 
     /// <summary>A shape of random size.</summary>

@@ -116,11 +116,11 @@ public unsafe struct ConvexHullWide : IShapeWide<ConvexHull>
         {
             ref var plane = ref planes[i];
             var speed = Vector3Wide.Dot(plane.Normal, direction);
-            var room = plane.Offset - Vector3Wide.Dot(plane.Normal, position);
+            var distance = plane.Offset - Vector3Wide.Dot(plane.Normal, position);
             // Closer to parallel than this, the line stays at its distance, to rounding, over any chord: everything is inside or nothing.
             var parallel = Vector.LessThan(Vector.Abs(speed), new Vector<float>(1e-15f));
-            var outside = Wide.Select(Vector.GreaterThanOrEqual(room, Vector<float>.Zero), -everything, everything);
-            var crossing = room / speed;
+            var outside = Wide.Select(Vector.GreaterThanOrEqual(distance, Vector<float>.Zero), -everything, everything);
+            var crossing = distance / speed;
             var enters = Wide.Select(parallel, outside, Wide.Select(Vector.LessThan(speed, Vector<float>.Zero), crossing, -everything));
             // NaN, of a direction that is none, is neither entry nor exit here, and nothing in Resolve.
             var exits = Wide.Select(parallel | Vector.LessThan(speed, Vector<float>.Zero), everything, crossing);

@@ -7,7 +7,7 @@ public enum RowKind
 {
     /// <summary>C = 0; impulses of either sign.</summary>
     Equality,
-    /// <summary>C &gt;= 0; impulses are not negative, and a row with room left may use it up within the substep.</summary>
+    /// <summary>C &gt;= 0; impulses are not negative, and a row with slack left may use it up within the substep.</summary>
     Inequality,
     /// <summary>C = 0, approached no faster and pushed no harder than the joint's <see cref="ServoSettings"/> say.</summary>
     Servo,
@@ -38,7 +38,7 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>Lever arms and axes for the current poses.</summary>
     static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);
 
-    /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the room that is left.</summary>
+    /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the slack.</summary>
     static abstract void PositionError(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows error);
 
     /// <summary>J v that a motor is to bring about; asked for only where <see cref="Kind"/> is <see cref="RowKind.Motor"/>.</summary>

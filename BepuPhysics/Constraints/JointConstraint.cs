@@ -83,7 +83,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         var wanted = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)
         {
-            // Room that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
+            // Slack that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
             // The first is the smaller of the two where C > 0, the second where C < 0, since ErrorToVelocity < 1 / h.
             wanted = TRows.Min(wanted, error * new Vector<float>(-substep.InverseDt));
         }

@@ -18,9 +18,9 @@ public sealed unsafe partial class Solver
     /// <summary>Joints that make a body a hub.</summary>
     const int JointsOfHub = 3;
 
-    // Number of hubs whose joints have to be swept over in an order that is drawn, with one sweep per substep and with several.
-    int hubsToDrawForOneSweep;
-    int hubsToDrawForSweeps;
+    // Number of hubs whose joints have to be swept over in random order, with one sweep per substep and with several.
+    int hubsToShuffleForOneSweep;
+    int hubsToShuffleForSweeps;
 
     // The number of joints that are coupled through a body.
     int Degree(int bodyIndex) =>
@@ -75,8 +75,8 @@ public sealed unsafe partial class Solver
 
     void CountHub(int before, int after)
     {
-        hubsToDrawForOneSweep += Change(JointsToDrawForOneSweep);
-        hubsToDrawForSweeps += Change(JointsToDrawForSweeps);
+        hubsToShuffleForOneSweep += Change(JointsToShuffleForOneSweep);
+        hubsToShuffleForSweeps += Change(JointsToShuffleForSweeps);
 
         int Change(int limit) => (after >= limit ? 1 : 0) - (before >= limit ? 1 : 0);
     }

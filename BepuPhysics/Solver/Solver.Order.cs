@@ -11,7 +11,7 @@ namespace BepuPhysics;
 // order each time, they have complex eigenvalues. Errors then travel along the order like a wave, and the correction of positions, which comes
 // late by the delay of that wave, feeds it: arms that together are as heavy as the hub that they hang on, or heavier, throw it about until all bursts.
 //
-// In an order that is drawn anew nothing travels. Turning an order around transposes (D + L)^-1, so that its mean over all orders is
+// In a new random order nothing travels. Turning an order around transposes (D + L)^-1, so that its mean over all orders is
 // symmetric, and K's is positive: the eigenvalues of the mean are real again. Two fixed orders in turn are no remedy, least of all one order
 // and its reverse, where the last joint of a substep is the first of the next. One order for all sweeps of a substep: an exactly straight
 // chain, with three sweeps and the stiffness that they allow, gains energy where each of them has its own.
@@ -20,12 +20,12 @@ namespace BepuPhysics;
 public sealed unsafe partial class Solver
 {
     /// <summary>Joints of one body from which on a fixed order gains energy at the mass ratio that is worst for it, with one sweep per substep.</summary>
-    const int JointsToDrawForOneSweep = 8;
+    const int JointsToShuffleForOneSweep = 8;
     /// <summary>The same with several sweeps per substep, be they iterations or relaxations.</summary>
-    const int JointsToDrawForSweeps = 4;
+    const int JointsToShuffleForSweeps = 4;
 
     // Part of the state of a simulation: it begins with zero and takes the same values in each run.
-    uint drawnOrder;
+    uint shuffleState;
 
     /// <summary>Lists the batches that have joints, in the order of their indices.</summary>
     void BuildOrder(ref SolveWork work)
@@ -36,22 +36,22 @@ public sealed unsafe partial class Solver
                 work.Order.Add(i, pool);
     }
 
-    /// <summary>Draws the order of joints for the next substep, where a fixed one is not stable.</summary>
+    /// <summary>Shuffles the order of joints for the next substep, where a fixed one is not stable.</summary>
     // Fisher and Yates. Of the linear congruential generator only the upper bits count, which are the good ones.
-    void DrawOrder(ref SolveWork work)
+    void ShuffleOrder(ref SolveWork work)
     {
-        var hubs = work.Iterations + relaxationIterationCount > 1 ? hubsToDrawForSweeps : hubsToDrawForOneSweep;
-        work.DrawsOrder = hubs > 0;
-        if (!work.DrawsOrder)
+        var hubs = work.Iterations + relaxationIterationCount > 1 ? hubsToShuffleForSweeps : hubsToShuffleForOneSweep;
+        work.ShufflesOrder = hubs > 0;
+        if (!work.ShufflesOrder)
         {
             // Who comes after the last hub finds what the first one found.
-            drawnOrder = 0;
+            shuffleState = 0;
             return;
         }
         for (int i = work.Order.Count - 1; i > 0; --i)
         {
-            drawnOrder = drawnOrder * 1664525 + 1013904223;
-            var other = (int)(((ulong)drawnOrder * (ulong)(i + 1)) >> 32);
+            shuffleState = shuffleState * 1664525 + 1013904223;
+            var other = (int)(((ulong)shuffleState * (ulong)(i + 1)) >> 32);
             (work.Order[i], work.Order[other]) = (work.Order[other], work.Order[i]);
         }
     }

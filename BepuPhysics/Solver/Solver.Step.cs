@@ -15,7 +15,7 @@ namespace BepuPhysics;
 // With relaxation, poses are integrated after the iterations of each substep, and for each relaxation, for each batch: solve, without
 // correction of positions.
 //
-// Batches are solved in the order of their indices, or those of joints first, in an order that is drawn for the substep (Solver.Order.cs).
+// Batches are solved in the order of their indices, or those of joints first, in a random order for the substep (Solver.Order.cs).
 //
 // The fallback batch takes two stages each time: constraints on split bodies, then the mean of the parts of each body.
 public sealed unsafe partial class Solver
@@ -87,7 +87,7 @@ public sealed unsafe partial class Solver
         ref var set = ref bodies.Awake;
         if (set.Count == 0)
         {
-            drawnOrder = 0;
+            shuffleState = 0;
             return;
         }
         var substepDt = BeginStep(dt);
@@ -191,7 +191,7 @@ public sealed unsafe partial class Solver
             AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
             AddOptional(ref work, SolverPoint.AfterIntegration, substep);
             AddOptional(ref work, SolverPoint.BeforeWarmStart, substep);
-            DrawOrder(ref work);
+            ShuffleOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
             for (int i = work.Iterations; i > 0; --i)
@@ -241,7 +241,7 @@ public sealed unsafe partial class Solver
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
-        if (!work.DrawsOrder)
+        if (!work.ShufflesOrder)
         {
             for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
                 AddBatch(ref work, kind, substep, i, work.BlocksOfBatch[i].Start, work.BlocksOfBatch[i].Count);
@@ -296,9 +296,9 @@ public sealed unsafe partial class Solver
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
         public QuickList<BlockRange> BlocksOfBatch;
-        // Batches with joints, in the order in which the present substep sweeps over them if it is drawn.
+        // Batches with joints, in the order in which the present substep sweeps over them if it is random.
         public QuickList<int> Order;
-        public bool DrawsOrder;
+        public bool ShufflesOrder;
 
         public readonly int StageCount => Stages.Count;
 

@@ -142,7 +142,7 @@ public sealed partial class Solver
 
     void ValidateHubs()
     {
-        int drawnForOneSweep = 0, drawnForSweeps = 0;
+        int shuffledForOneSweep = 0, shuffledForSweeps = 0;
         for (int i = 0; bodies.ActiveSet.JointCounts.Allocated && i < bodies.ActiveSet.Count; ++i)
         {
             int joints = 0;
@@ -157,11 +157,11 @@ public sealed partial class Solver
                 Invariant.Require((reference & EncodedBody.HubFlag) != 0 == isHub, "flag of a hub of body", i, location.TypeId);
             }
             Invariant.Require(bodies.ActiveSet.JointCounts[i] == joints, "number of joints of body", i, joints);
-            drawnForOneSweep += Degree(i) >= JointsToDrawForOneSweep ? 1 : 0;
-            drawnForSweeps += Degree(i) >= JointsToDrawForSweeps ? 1 : 0;
+            shuffledForOneSweep += Degree(i) >= JointsToShuffleForOneSweep ? 1 : 0;
+            shuffledForSweeps += Degree(i) >= JointsToShuffleForSweeps ? 1 : 0;
         }
-        Invariant.Require(hubsToDrawForOneSweep == drawnForOneSweep && hubsToDrawForSweeps == drawnForSweeps, "number of hubs",
-            hubsToDrawForOneSweep, hubsToDrawForSweeps);
+        Invariant.Require(hubsToShuffleForOneSweep == shuffledForOneSweep && hubsToShuffleForSweeps == shuffledForSweeps, "number of hubs",
+            hubsToShuffleForOneSweep, hubsToShuffleForSweeps);
     }
 
     // Unused lanes are gathered from and scattered to: only an empty reference keeps them from touching a body.

@@ -226,9 +226,9 @@ public sealed unsafe partial class Solver
         owners.ReleaseAll();
         HandlePool.Clear();
         ForgetStepLengths();
-        drawnOrder = 0;
-        hubsToDrawForOneSweep = 0;
-        hubsToDrawForSweeps = 0;
+        shuffleState = 0;
+        hubsToShuffleForOneSweep = 0;
+        hubsToShuffleForSweeps = 0;
     }
 
     void DisposeBatch(ref ConstraintBatch batch)

@@ -59,7 +59,7 @@ sealed class Solids(AccuracyWorld world) : IDisposable
     }
 
     /// <summary>
-    /// Corners of an irregular hull between two flat ends, hexagons by lot that are nowhere closer than 20 cm to the middle line.
+    /// Corners of an irregular hull between two flat ends, random hexagons that are nowhere closer than 20 cm to the middle line.
     /// </summary>
     public static Vector3[] FlatEnded(int seed)
     {

@@ -4,12 +4,12 @@ using System.Globalization;
 
 namespace DemoTests.CollisionDetection;
 
-/// <summary>What searches took: support points, walks that met their limit, polytopes.</summary>
+/// <summary>What searches took: support points, descents that came to their limit, polytopes.</summary>
 sealed class ConvexPairEffort
 {
     readonly List<int> evaluations = [];
 
-    /// <summary>Walks that ended at their limit of steps.</summary>
+    /// <summary>Descents that ended at their limit of steps.</summary>
     public int CapCount { get; private set; }
 
     /// <summary>Searches that expanded a polytope to show that no direction is better.</summary>

@@ -117,7 +117,7 @@ public class DepthSearchAccuracyTests(ITestOutputHelper output)
             Assert.True(Math.Abs(outcome.Depth - along) < rounding, label);
             var excess = along - expected.Depth;
             excesses.Add((excess - rounding) / reference.Size);
-            // Where a search met its limit: still far from what is wrong.
+            // Where a search came to its limit: still far from what is wrong.
             var allowed = outcome.Limits > 0 ? LimitExcess : Excess;
             Assert.True(excess < allowed * reference.Size + rounding, $"{label}: {excess} too deep");
             CheckWitness(reference, offset, outcome, normal, rounding, label);
@@ -133,10 +133,10 @@ public class DepthSearchAccuracyTests(ITestOutputHelper output)
             $"limits {outcomes.Sum(o => o.Limits)}");
     }
 
-    // The walk stops at a distance from its target. Where the cores are apart, a target is that close at an angle, too.
+    // The descent stops at a distance from its target. Where the cores are apart, a target is that close at an angle, too.
     static void CheckWitness(ConvexReference reference, Double3 offset, in SearchOutcome outcome, Double3 normal, double rounding, string label)
     {
-        // One walk in a hundred of deep cylinders ends at its limit: a little farther away.
+        // One descent in a hundred of deep cylinders ends at its limit: a little farther away.
         var tolerance = (outcome.Caps > 0 ? Excess : StopTolerance) * reference.Size + rounding;
         Double3 onA = outcome.PointOnA;
         CheckOn(reference.A, onA, tolerance, label);

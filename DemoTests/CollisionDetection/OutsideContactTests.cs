@@ -86,7 +86,7 @@ public class OutsideContactTests
             ConvexShape.Cylinder(28.269716f, 34.609856f),
             new(new(-21.482603f, 10.955488f, -15.863507f), new(-0.47600615f, -0.15819946f, 0.12366532f, 0.8562114f),
                 new(-0.75253695f, -0.2268722f, -0.008941516f, 0.6181724f))),
-        // Steered by how the rim curves, the search went around in circles here: it stopped beside the nearest points, a thousandth of the size off.
+        // Newton steps throughout would run in circles here: the search stopped beside the nearest points, a thousandth of the size off.
         (ConvexShape.Triangle(new(0.5356998f, -0.73686105f, -0.037811495f), new(0.7657982f, 0.04375459f, 1.9237988f),
                 new(0.6904687f, -0.24484706f, 1.235121f)),
             ConvexShape.Cylinder(0.757827818f, 2 * 0.158781633f),

@@ -17,7 +17,7 @@ public class RestingSearchTests
     public enum Side { End, Line }
 
     const int Count = 128;
-    // Part of the smaller size by which a walk may stop beside its target.
+    // Part of the smaller size by which a descent may stop beside its target.
     const double StopTolerance = 2.1e-5;
 
     public static TheoryData<ConvexKind, Side, Side> Pairs => new()

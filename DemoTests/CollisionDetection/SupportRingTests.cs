@@ -114,27 +114,27 @@ public class SupportRingTests
     static Vector<int> Run(Func<int, Difference> create, out SupportRing ring)
     {
         var differences = new Difference[Vector<float>.Count];
-        SearchWalk walk = default;
+        SearchDescent descent = default;
         SearchFrame frame = default;
         for (int lane = 0; lane < differences.Length; ++lane)
         {
             var difference = differences[lane] = create(lane);
-            Lanes.Write(difference.Normal, ref walk.Direction, lane);
-            Lanes.Write(difference.Tip(-1), ref walk.Simplex.A.Point, lane);
-            Lanes.Write(difference.Tip(1), ref walk.Simplex.B.Point, lane);
-            Lanes.Write(difference.Tip(1), ref walk.Simplex.C.Point, lane);
+            Lanes.Write(difference.Normal, ref descent.Direction, lane);
+            Lanes.Write(difference.Tip(-1), ref descent.Simplex.A.Point, lane);
+            Lanes.Write(difference.Tip(1), ref descent.Simplex.B.Point, lane);
+            Lanes.Write(difference.Tip(1), ref descent.Simplex.C.Point, lane);
             Lanes.Write(difference.Center, ref frame.Center, lane);
             frame.Inner = frame.Inner.WithElement(lane, difference.Radius);
         }
-        walk.Depth = new Vector<float>(Depth);
+        descent.Depth = new Vector<float>(Depth);
         frame.Smaller = Vector<float>.One;
 
         ring = default;
-        ring.Start(walk, frame, new Vector<float>(Bound), Vector<int>.AllBitsSet);
+        ring.Start(descent, frame, new Vector<float>(Bound), Vector<int>.AllBitsSet);
         Assert.Equal(Vector<int>.AllBitsSet, ring.Mask);
         Support(differences, ring.Tilt(ring.Along), ref ring.Vertex0);
         Support(differences, ring.Tilt(-ring.Along), ref ring.Vertex2);
-        var across = ring.Across(walk.Direction);
+        var across = ring.Across(descent.Direction);
         Support(differences, ring.Tilt(across), ref ring.Vertex1);
         Support(differences, ring.Tilt(-across), ref ring.Vertex3);
         return ring.Certifies();

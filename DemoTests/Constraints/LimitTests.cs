@@ -204,7 +204,7 @@ public class TwistLimitTests : JointTests<TwistLimit>
     public void WholeTurnLimitsNothing(float minimum, float maximum)
     {
         for (var angle = -3.1f; angle < 3.1f; angle += 0.1f)
-            Assert.True(Room(angle, minimum, maximum) > -1e-6);
+            Assert.True(Slack(angle, minimum, maximum) > -1e-6);
     }
 
     [Theory]
@@ -216,9 +216,9 @@ public class TwistLimitTests : JointTests<TwistLimit>
     [InlineData(-3f, 2.5f, 4f - 2 * MathF.PI, 4 - (2 * Math.PI - 3))]
     [InlineData(0f, 2.5f, 4f - 2 * MathF.PI, 4 - 2 * Math.PI)]
     public void RoomIsMeasuredAroundTheCircle(float angle, float minimum, float maximum, double expected) =>
-        Assert.Equal(expected, Room(angle, minimum, maximum), 1e-6);
+        Assert.Equal(expected, Slack(angle, minimum, maximum), 1e-6);
 
-    static double Room(float angle, float minimum, float maximum)
+    static double Slack(float angle, float minimum, float maximum)
     {
         var bodies = NewBodies(new(1));
         bodies[0].Orientation = Quaternion.Identity;

@@ -100,7 +100,7 @@ public class HistoryTests
         return world.HashSteps(Steps);
     }
 
-    // Adds, removes and steps by lot, with hubs and fast bodies among what comes and goes.
+    // Adds, removes and steps at random, with hubs and fast bodies among what comes and goes.
     sealed class Churn(TestWorld world, int seed)
     {
         readonly Random random = new(seed);

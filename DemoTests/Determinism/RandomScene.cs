@@ -17,7 +17,7 @@ public enum Ingredients
     Contacts = 1,
     /// <summary>Pairs and chains of bodies in joints of all kinds.</summary>
     Joints = 2,
-    /// <summary>A body with more joints than there are batches before the order of a sweep is drawn.</summary>
+    /// <summary>A body with more joints than there are batches before the order of a sweep is random.</summary>
     Hub = 4,
     /// <summary>A body with more constraints than there are batches.</summary>
     Fallback = 8,

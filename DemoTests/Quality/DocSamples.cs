@@ -169,10 +169,10 @@ public struct HeightLimitWide : IWide<HeightLimit>
     public SpringSettingsWide SpringSettings;
 }
 
-/// <summary>What the rows need beyond the bodies: nothing but the room that is left.</summary>
+/// <summary>What the rows need beyond the bodies: nothing but the slack.</summary>
 public struct HeightLimitGeometry
 {
-    public Vector<float> Room;
+    public Vector<float> Slack;
 }
 
 /// <summary>Row of <see cref="HeightLimit"/>.</summary>
@@ -184,10 +184,10 @@ public readonly struct HeightLimitJoint : IJoint<OneBody, HeightLimitWide, Heigh
     public static RowKind Kind => RowKind.Inequality;
 
     public static void Prepare(in OneBody bodies, in HeightLimitWide prestep, out HeightLimitGeometry geometry) =>
-        geometry.Room = bodies.A.Position.Y - prestep.MinimumHeight;
+        geometry.Slack = bodies.A.Position.Y - prestep.MinimumHeight;
 
     public static void PositionError(in OneBody bodies, in HeightLimitWide prestep, in HeightLimitGeometry geometry, out Rows1 error) =>
-        error.X = geometry.Room;
+        error.X = geometry.Slack;
 
     public static void RelativeVelocity(in HeightLimitGeometry geometry, in OneBody bodies, out Rows1 velocity) =>
         velocity.X = bodies.A.Linear.Y;

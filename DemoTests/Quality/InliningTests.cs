@@ -23,7 +23,7 @@ public unsafe class InliningTests
         DefaultTypes.RegisterDefaults(solver);
         var processors = solver.TypeProcessors;
         Assert.True(processors.Count(p => p is not null) >= 15);
-        solver.Rehearse();
+        solver.WarmUp();
         var overflows = JitWatch.Instance.Overflows("BepuPhysics.Constraints.");
         Assert.True(overflows.Count == 0, string.Join("\n", overflows));
     }

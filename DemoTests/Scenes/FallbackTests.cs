@@ -72,7 +72,7 @@ public class FallbackTests
     public void Threads_do_not_change_the_hub(int relaxations) =>
         AssertSameForThreads(world => AddHub(world, speed: 1), weightless with { RelaxationCount = relaxations }, 60);
 
-    /// <summary>The order in which the batches of a hub are solved is drawn: each time in the same way.</summary>
+    /// <summary>The order in which the batches of a hub are solved is random: each time in the same way.</summary>
     [Fact]
     public void A_cleared_simulation_repeats_the_hub_to_the_bit()
     {

@@ -9,7 +9,7 @@ using Xunit;
 namespace DemoTests.Scenes;
 
 /// <summary>
-/// A crowded pit in which things are added, removed and changed by lot, beside a list of what there must be: after each step the
+/// A crowded pit in which things are added, removed and changed at random, beside a list of what there must be: after each step the
 /// simulation must be sound and hold exactly that.
 /// </summary>
 sealed class Scramble : IDisposable

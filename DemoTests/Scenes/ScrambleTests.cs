@@ -9,7 +9,7 @@ using Xunit;
 
 namespace DemoTests.Scenes;
 
-/// <summary>Adding, removing and changing things between steps, by lot and by name.</summary>
+/// <summary>Adding, removing and changing things between steps, at random and by name.</summary>
 public class ScrambleTests
 {
     static readonly SimulationAllocationSizes tiny = new(1, 1, 0, 1, 1, 1, 1);

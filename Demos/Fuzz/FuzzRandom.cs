@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Demos.Fuzz;
 
-/// <summary>Values by lot, good ones and bad ones, the same for a seed everywhere (SplitMix64, Steele, Lea and Flood 2014).</summary>
+/// <summary>Random values, good ones and bad ones, the same for a seed everywhere (SplitMix64, Steele, Lea and Flood 2014).</summary>
 sealed class FuzzRandom(ulong seed)
 {
     /// <summary>Values with which something once went wrong, or might.</summary>

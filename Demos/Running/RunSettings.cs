@@ -19,7 +19,7 @@ public sealed record RunSettings
 
     public int Threads { get; init; } = 1;
 
-    /// <summary>Seed of the scenes that are drawn by lot.</summary>
+    /// <summary>Seed of the scenes that are random.</summary>
     public int Seed { get; init; } = 1;
 
     /// <summary>Steps between two recorded hashes; 0 records none.</summary>

@@ -4,7 +4,7 @@ using System.Numerics;
 namespace Demos.Scenes;
 
 /// <summary>
-/// Numbers by lot that are the same for a seed on every machine and runtime (SplitMix64, Steele, Lea and Flood 2014).
+/// Random numbers that are the same for a seed on every machine and runtime (SplitMix64, Steele, Lea and Flood 2014).
 /// </summary>
 sealed class SceneRandom(int seed)
 {

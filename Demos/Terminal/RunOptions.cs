@@ -14,7 +14,7 @@ sealed class RunOptions
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
-    readonly Option<int> seed = Make("--seed", "Seed of scenes that are drawn by lot.", defaults.Seed);
+    readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
     readonly Option<int?> warmup = Make<int?>("--warmup", "First steps that are not measured [default: 30, at most half of the steps].");
     readonly Option<float?> frequency = Make<float?>("--frequency", "Frequency in Hz of contacts and joints [default: the engine's].");

@@ -33,7 +33,7 @@ unsafe struct DepthExpansion
     {
         /// <summary>The first corner, where nothing is at hand: in the best direction.</summary>
         First,
-        /// <summary>The fourth corner: away from the walk's triangle.</summary>
+        /// <summary>The fourth corner: away from the descent's triangle.</summary>
         Opposite,
         /// <summary>Corners one by one, where the first four are flat.</summary>
         Corner,
@@ -66,23 +66,23 @@ unsafe struct DepthExpansion
     /// <summary>Whether a direction was found that is better than wanted.</summary>
     public bool HasSwitched;
 
-    /// <summary>Starts with the simplex of a walk.</summary>
+    /// <summary>Starts with the simplex of a descent.</summary>
     /// <param name="memory">Memory.</param>
     /// <param name="frame">Tolerances.</param>
-    /// <param name="walk">Where the walk ended.</param>
+    /// <param name="descent">Where the descent ended.</param>
     /// <param name="lane">Which of its lanes.</param>
     /// <param name="wanted">Depth below which a direction is of interest.</param>
-    public DepthExpansion(PolytopeMemory* memory, in SearchFrame frame, in SearchWalk walk, int lane, double wanted)
+    public DepthExpansion(PolytopeMemory* memory, in SearchFrame frame, in SearchDescent descent, int lane, double wanted)
     {
         span = frame.Span[lane];
         slack = frame.CertificateSlack[lane];
         this.wanted = wanted;
-        best = walk.Depth[lane];
-        bestDirection = new(walk.Direction.X[lane], walk.Direction.Y[lane], walk.Direction.Z[lane]);
+        best = descent.Depth[lane];
+        bestDirection = new(descent.Direction.X[lane], descent.Direction.Y[lane], descent.Direction.Z[lane]);
         polytope = new(memory, Visibility * span);
-        Read(walk.Simplex.A, lane, out polytope[0]);
-        Read(walk.Simplex.B, lane, out polytope[1]);
-        Read(walk.Simplex.C, lane, out polytope[2]);
+        Read(descent.Simplex.A, lane, out polytope[0]);
+        Read(descent.Simplex.B, lane, out polytope[1]);
+        Read(descent.Simplex.C, lane, out polytope[2]);
         evaluationLimit = GreatestEvaluationCount;
         innerCorner = None;
         phase = Phase.Opposite;
@@ -191,19 +191,19 @@ unsafe struct DepthExpansion
         }
     }
 
-    /// <summary>Puts a walk where the best direction is.</summary>
-    /// <param name="walk">Walk.</param>
+    /// <summary>Puts a descent where the best direction is.</summary>
+    /// <param name="descent">Descent.</param>
     /// <param name="lane">Lane of it to write.</param>
     /// <param name="isSeeded">Whether it has a simplex there.</param>
-    public readonly void Write(ref SearchWalk walk, int lane, out bool isSeeded)
+    public readonly void Write(ref SearchDescent descent, int lane, out bool isSeeded)
     {
-        Lanes.Write(bestDirection.ToSingle(), ref walk.Direction, lane);
+        Lanes.Write(bestDirection.ToSingle(), ref descent.Direction, lane);
         isSeeded = hasSeed;
         if (!hasSeed)
             return;
-        WriteVertex(polytope[seed0], ref walk.Simplex.A, lane);
-        WriteVertex(polytope[seed1], ref walk.Simplex.B, lane);
-        WriteVertex(polytope[seed2], ref walk.Simplex.C, lane);
+        WriteVertex(polytope[seed0], ref descent.Simplex.A, lane);
+        WriteVertex(polytope[seed1], ref descent.Simplex.B, lane);
+        WriteVertex(polytope[seed2], ref descent.Simplex.C, lane);
     }
 
     void Start()

@@ -9,14 +9,14 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     /// <summary>Shows that the depth of the lanes that are due is the least of all directions, or finds a better one.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     static void Certify<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, Vector<int> dueMask, Vector<int> knownMask,
-        ref SearchWalk walk, ref TStatistics statistics)
+        ref SearchDescent descent, ref TStatistics statistics)
         where TStatistics : struct, ISearchStatistics
     {
         // A remembered minimum is left only for a much better one: it must not flicker between two. So that is all there is to show, too.
-        var least = Wide.Select(knownMask, walk.Depth * new Vector<float>(Hysteresis), walk.Depth) - frame.CertificateSlack;
-        var wanted = Wide.Select(knownMask, least, walk.Depth - frame.Tolerance);
+        var least = Wide.Select(knownMask, descent.Depth * new Vector<float>(Hysteresis), descent.Depth) - frame.CertificateSlack;
+        var wanted = Wide.Select(knownMask, least, descent.Depth - frame.Tolerance);
         var bound = Wide.Max(least, Vector<float>.Zero);
-        var certifiedMask = dueMask & FreeTetrahedron.Certifies(walk, frame, bound);
+        var certifiedMask = dueMask & FreeTetrahedron.Certifies(descent, frame, bound);
         statistics.TriedTetrahedron(dueMask, certifiedMask);
         var openMask = Vector.AndNot(dueMask, certifiedMask);
         if (openMask == Vector<int>.Zero)
@@ -25,7 +25,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         ring.Mask = Vector<int>.Zero;
         if (TSupportA.IsRound || TSupportB.IsRound)
         {
-            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, walk, bound, openMask, ref ring, ref statistics));
+            openMask = Vector.AndNot(openMask, CertifyByRing(a, b, frame, descent, bound, openMask, ref ring, ref statistics));
             if (openMask == Vector<int>.Zero)
                 return;
         }
@@ -35,20 +35,20 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         {
             if (openMask[lane] == 0)
                 continue;
-            ExpandLane(a, b, frame, ring, lane, wanted[lane], ref walk, ref statistics, ref switchedMask, ref seededMask);
+            ExpandLane(a, b, frame, ring, lane, wanted[lane], ref descent, ref statistics, ref switchedMask, ref seededMask);
         }
         if (switchedMask != Vector<int>.Zero)
-            Walk(a, b, frame, switchedMask, ref seededMask, ref walk, ref statistics);
+            Descend(a, b, frame, switchedMask, ref seededMask, ref descent, ref statistics);
     }
 
-    /// <summary>Expands a polytope for one lane, and puts the lane's walk where it has found something better than wanted.</summary>
+    /// <summary>Expands a polytope for one lane, and puts the lane's descent where it has found something better than wanted.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     static unsafe void ExpandLane<TStatistics>(in TShapeWideA a, in TShapeWideB b, in SearchFrame frame, in SupportRing ring,
-        int lane, double wanted, ref SearchWalk walk, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
+        int lane, double wanted, ref SearchDescent descent, ref TStatistics statistics, ref Vector<int> switchedMask, ref Vector<int> seededMask)
         where TStatistics : struct, ISearchStatistics
     {
         Unsafe.SkipInit(out PolytopeMemory memory);
-        var expansion = new DepthExpansion(&memory, frame, walk, lane, wanted);
+        var expansion = new DepthExpansion(&memory, frame, descent, lane, wanted);
         if (ring.Mask[lane] != 0)
         {
             expansion.Offer(ring.Vertex0, lane);
@@ -67,7 +67,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         statistics.Expanded(lane, expansion.Evaluations, expansion.End);
         if (!expansion.HasSwitched)
             return;
-        expansion.Write(ref walk, lane, out var isSeeded);
+        expansion.Write(ref descent, lane, out var isSeeded);
         GatherScatter.Get(ref switchedMask, lane) = -1;
         GatherScatter.Get(ref seededMask, lane) = isSeeded ? -1 : 0;
     }

@@ -28,7 +28,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
 
     /// <summary>Finds the curvature at a new farthest point, and takes the simplex there along circles.</summary>
     /// <param name="frame">Where B is, and scale.</param>
-    /// <param name="leader">The farthest point.</param>
+    /// <param name="farthest">The farthest point.</param>
     /// <param name="direction">In which it is that.</param>
     /// <param name="mask">Lanes to change.</param>
     /// <param name="count">Number of vertices that may differ, in the order of the simplex; the others are as the last of them.</param>
@@ -37,21 +37,21 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     // Points of one circle, or of the circles at both ends of a cylinder, are then those of one direction: what is left between vertices is what is
     // straight, and across it the simplex shows the way.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Follow(in SearchFrame frame, in SearchVertex leader, in Vector3Wide direction, Vector<int> mask, int count,
+    static void Follow(in SearchFrame frame, in SearchVertex farthest, in Vector3Wide direction, Vector<int> mask, int count,
         ref SearchCurvature curvature, ref SearchSimplex simplex)
     {
         Vector3Wide radialA = default, radialB = default, tangentA = default, tangentB = default;
         Vector<float> squaredA = default, squaredB = default, weightA = default, weightB = default;
         if (TSupportA.IsRound)
         {
-            radialA = TSupportA.Radial(leader.OnA);
+            radialA = TSupportA.Radial(farthest.OnA);
             squaredA = radialA.LengthSquared();
             tangentA = TSupportA.Tangent(radialA);
             weightA = SearchCurvature.FindWeight(radialA, squaredA, direction, frame.Scale);
         }
         if (TSupportB.IsRound)
         {
-            radialB = TSupportB.Radial(leader.OnB);
+            radialB = TSupportB.Radial(farthest.OnB);
             squaredB = radialB.LengthSquared();
             tangentB = Matrix3x3Wide.TransposeTimes(frame.OrientationB, TSupportB.Tangent(radialB));
             weightB = -SearchCurvature.FindWeight(Matrix3x3Wide.TransposeTimes(frame.OrientationB, radialB), squaredB, direction, frame.Scale);
@@ -113,54 +113,54 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
     /// allows. The next step then finds itself done as long as the minimum is in between.
     /// </summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Spread(in SearchFrame frame, Vector<int> mask, ref SearchWalk walk)
+    static void Spread(in SearchFrame frame, Vector<int> mask, ref SearchDescent descent)
     {
-        ref var simplex = ref walk.Simplex;
+        ref var simplex = ref descent.Simplex;
         var sameAB = SearchVertex.AreOne(simplex.A.Point, simplex.B.Point);
         var sameBC = SearchVertex.AreOne(simplex.B.Point, simplex.C.Point);
         var sameCA = SearchVertex.AreOne(simplex.C.Point, simplex.A.Point);
-        mask &= (sameAB | sameBC | sameCA) & Vector.GreaterThan(walk.Curvature.Sum, Vector<float>.Zero);
+        mask &= (sameAB | sameBC | sameCA) & Vector.GreaterThan(descent.Curvature.Sum, Vector<float>.Zero);
         if (mask == Vector<int>.Zero)
             return;
-        ref readonly var curvature = ref walk.Curvature;
+        ref readonly var curvature = ref descent.Curvature;
         var pointMask = sameAB & sameBC;
-        var across = Vector3Wide.Cross(Vector3Wide.Select(sameAB, simplex.C.Point, simplex.B.Point) - simplex.A.Point, walk.Direction);
+        var across = Vector3Wide.Cross(Vector3Wide.Select(sameAB, simplex.C.Point, simplex.B.Point) - simplex.A.Point, descent.Direction);
         across = Vector3Wide.Select(pointMask, curvature.AnyTangent(IsBothRound), across);
         var squaredAcross = across.LengthSquared();
         mask &= Vector.GreaterThan(squaredAcross, new Vector<float>(LeastSquaredSpan));
         var first = across * (Vector<float>.One / Vector.SquareRoot(squaredAcross));
-        var second = Vector3Wide.Cross(walk.Direction, first);
-        var tolerance = frame.ToleranceAt(walk.Depth);
+        var second = Vector3Wide.Cross(descent.Direction, first);
+        var tolerance = frame.ToleranceAt(descent.Depth);
         var least = new Vector<float>(LeastCurvature);
         first *= Vector.SquareRoot(tolerance / Wide.Max(curvature.Along(first, IsBothRound), least));
         second *= Wide.Mask(pointMask, Vector.SquareRoot(tolerance / Wide.Max(curvature.Along(second, IsBothRound), least)));
         // Of an edge the two vertices that are one go to either side, of a point the three go all around.
         var one = Vector<float>.One;
         var back = Wide.Select(pointMask, new Vector<float>(-0.5f), -one);
-        Turn(frame, curvature, first * Wide.Mask(sameAB | sameCA, one), mask, ref simplex.A);
-        Turn(frame, curvature, first * Wide.Select(sameAB, back, Wide.Mask(sameBC, one)) + second, mask, ref simplex.B);
-        Turn(frame, curvature, first * Wide.Mask(sameBC | sameCA, back) - second, mask, ref simplex.C);
+        Rotate(frame, curvature, first * Wide.Mask(sameAB | sameCA, one), mask, ref simplex.A);
+        Rotate(frame, curvature, first * Wide.Select(sameAB, back, Wide.Mask(sameBC, one)) + second, mask, ref simplex.B);
+        Rotate(frame, curvature, first * Wide.Mask(sameBC | sameCA, back) - second, mask, ref simplex.C);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Turn(in SearchFrame frame, in SearchCurvature curvature, in Vector3Wide turn, Vector<int> mask, ref SearchVertex vertex)
+    static void Rotate(in SearchFrame frame, in SearchCurvature curvature, in Vector3Wide rotation, Vector<int> mask, ref SearchVertex vertex)
     {
         if (TSupportA.IsRound)
         {
-            var angle = curvature.Weight * frame.InverseScale * Vector3Wide.Dot(curvature.Tangent, turn);
-            vertex.OnA = Vector3Wide.Select(mask, Turn<TShapeWideA, TSupportA>(vertex.OnA, angle), vertex.OnA);
+            var angle = curvature.Weight * frame.InverseScale * Vector3Wide.Dot(curvature.Tangent, rotation);
+            vertex.OnA = Vector3Wide.Select(mask, Rotate<TShapeWideA, TSupportA>(vertex.OnA, angle), vertex.OnA);
         }
         if (TSupportB.IsRound)
         {
             var weight = IsBothRound ? curvature.OtherWeight : curvature.Weight;
-            var angle = weight * frame.InverseScale * -Vector3Wide.Dot(IsBothRound ? curvature.OtherTangent : curvature.Tangent, turn);
-            vertex.OnB = Vector3Wide.Select(mask, Turn<TShapeWideB, TSupportB>(vertex.OnB, angle), vertex.OnB);
+            var angle = weight * frame.InverseScale * -Vector3Wide.Dot(IsBothRound ? curvature.OtherTangent : curvature.Tangent, rotation);
+            vertex.OnB = Vector3Wide.Select(mask, Rotate<TShapeWideB, TSupportB>(vertex.OnB, angle), vertex.OnB);
         }
         vertex.Point = Vector3Wide.Select(mask, frame.Difference(vertex.OnA, vertex.OnB), vertex.Point);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide Turn<TShapeWide, TSupport>(in Vector3Wide point, Vector<float> angle)
+    static Vector3Wide Rotate<TShapeWide, TSupport>(in Vector3Wide point, Vector<float> angle)
         where TShapeWide : unmanaged where TSupport : struct, ISupport<TShapeWide>
     {
         var greatest = new Vector<float>(GreatestSpread);

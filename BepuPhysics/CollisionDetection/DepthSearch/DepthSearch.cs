@@ -10,7 +10,7 @@ namespace BepuPhysics.CollisionDetection;
 /// </summary>
 /// <remarks>
 /// The depth in a direction is the height of the support plane of the Minkowski difference A - B over the origin; wanted is the least over
-/// all directions. A walk finds a local minimum for all lanes at once: it seeks the origin's projection on the best plane so far (the
+/// all directions. A descent finds a local minimum for all lanes at once: it seeks the origin's projection on the best plane so far (the
 /// "tootbird") with a simplex, as GJK seeks the origin. Where the shapes overlap deeply there are many local minima. Bounds in the lanes
 /// show cheaply that most shallow results are the least of all; for the other lanes a polytope is expanded until it shows that, one lane at
 /// a time. From step to step the pair remembers its simplex, and how deep it was when this was last shown.
@@ -55,47 +55,47 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         Unsafe.SkipInit(out result);
         SearchFrame.Create<TShapeWideA, TSupportA, TShapeWideB, TSupportB>(
             a, b, localOffsetB, localOrientationB, speculativeMargin, out var frame);
-        Unsafe.SkipInit(out SearchWalk walk);
-        var knownMask = walk.Start(state, frame);
-        Walk(a, b, frame, Vector<int>.AllBitsSet, ref knownMask, ref walk, ref statistics);
+        Unsafe.SkipInit(out SearchDescent descent);
+        var knownMask = descent.Start(state, frame);
+        Descend(a, b, frame, Vector<int>.AllBitsSet, ref knownMask, ref descent, ref statistics);
 
-        result.Depth = walk.Depth * frame.InverseScale + frame.Margins;
-        result.Near = Vector.GreaterThanOrEqual(walk.Depth, frame.LeastDepth) & Vector.GreaterThanOrEqual(result.Depth, -speculativeMargin);
+        result.Depth = descent.Depth * frame.InverseScale + frame.Margins;
+        result.Near = Vector.GreaterThanOrEqual(descent.Depth, frame.LeastDepth) & Vector.GreaterThanOrEqual(result.Depth, -speculativeMargin);
         if (result.Near == Vector<int>.Zero)
         {
-            walk.Remember(frame, Vector<int>.Zero, Vector<int>.Zero, Vector<float>.Zero, ref state);
+            descent.Remember(frame, Vector<int>.Zero, Vector<int>.Zero, Vector<float>.Zero, ref state);
             return;
         }
         var certified = Wide.Mask(knownMask, state.CertifiedDepth * frame.Scale);
-        var deep = Vector.GreaterThan(walk.Depth, frame.CertificateSlack);
-        var grown = Vector.GreaterThan(walk.Depth, certified * new Vector<float>(DeeperFactor) + frame.CertificateSlack);
+        var deep = Vector.GreaterThan(descent.Depth, frame.CertificateSlack);
+        var grown = Vector.GreaterThan(descent.Depth, certified * new Vector<float>(DeeperFactor) + frame.CertificateSlack);
         var old = Vector.GreaterThanOrEqual(state.Age, new Vector<int>(LongestAge));
         var dueMask = deep & (grown | old | Vector.OnesComplement(knownMask));
         if (dueMask != Vector<int>.Zero)
-            Certify(a, b, frame, dueMask, knownMask, ref walk, ref statistics);
-        walk.Remember(frame, deep, dueMask, certified, ref state);
+            Certify(a, b, frame, dueMask, knownMask, ref descent, ref statistics);
+        descent.Remember(frame, deep, dueMask, certified, ref state);
 
-        result.Normal = -walk.Direction;
-        result.Depth = walk.Depth * frame.InverseScale + frame.Margins;
-        result.PointOnA = PointOnA(frame, walk, TSupportA.Margin(a), TSupportB.Margin(b));
+        result.Normal = -descent.Direction;
+        result.Depth = descent.Depth * frame.InverseScale + frame.Margins;
+        result.PointOnA = PointOnA(frame, descent, TSupportA.Margin(a), TSupportB.Margin(b));
     }
 
     /// <summary>The witness on A's surface.</summary>
     // A direction that is wrong by an angle misses the point that it looks for by as much of the margin that it is followed through: with a
     // margin that is large beside the other shape, by more than that shape's size. So it starts on the shape with the smaller margin.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide PointOnA(in SearchFrame frame, in SearchWalk walk, Vector<float> marginA, Vector<float> marginB)
+    static Vector3Wide PointOnA(in SearchFrame frame, in SearchDescent descent, Vector<float> marginA, Vector<float> marginB)
     {
-        ref readonly var simplex = ref walk.Simplex;
-        var weights = simplex.GetWeights(walk.Target());
+        ref readonly var simplex = ref descent.Simplex;
+        var weights = simplex.GetWeights(descent.Target());
         var onA = simplex.A.OnA * weights.X + simplex.B.OnA * weights.Y + simplex.C.OnA * weights.Z;
-        var fromA = onA + walk.Direction * marginA;
+        var fromA = onA + descent.Direction * marginA;
         var isOnB = Vector.GreaterThan(marginA, marginB);
         if (isOnB == Vector<int>.Zero)
             return fromA;
         var onB = simplex.A.OnB * weights.X + simplex.B.OnB * weights.Y + simplex.C.OnB * weights.Z;
         var fromB = frame.OffsetB + Matrix3x3Wide.TransposeTimes(frame.OrientationB, onB) +
-            walk.Direction * (walk.Depth * frame.InverseScale + marginA);
+            descent.Direction * (descent.Depth * frame.InverseScale + marginA);
         return Vector3Wide.Select(isOnB, fromB, fromA);
     }
 

@@ -7,7 +7,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>A lower bound of the depth that costs no support point, for all lanes at once.</summary>
 /// <remarks>
 /// The depth in any direction is at least the radius of a ball about the origin that lies in the Minkowski difference, and so in the
-/// tetrahedron of any four of its points. Three are the simplex that the walk ended with. The fourth is known as well: the difference
+/// tetrahedron of any four of its points. Three are the simplex that the descent ended with. The fourth is known as well: the difference
 /// contains a ball about the offset of the centres, as large as the balls inside of both shapes together.
 /// </remarks>
 static class FreeTetrahedron
@@ -17,12 +17,12 @@ static class FreeTetrahedron
 
     /// <summary>Lanes in which no direction can be less deep than a bound; zero or more.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static Vector<int> Certifies(in SearchWalk walk, in SearchFrame frame, Vector<float> bound)
+    public static Vector<int> Certifies(in SearchDescent descent, in SearchFrame frame, Vector<float> bound)
     {
-        var a = walk.Simplex.A.Point;
-        var b = walk.Simplex.B.Point;
-        var c = walk.Simplex.C.Point;
-        var apex = frame.Center - walk.Direction * frame.Inner;
+        var a = descent.Simplex.A.Point;
+        var b = descent.Simplex.B.Point;
+        var c = descent.Simplex.C.Point;
+        var apex = frame.Center - descent.Direction * frame.Inner;
         return IsBeyond(a, b, c, apex, bound) & IsBeyond(a, b, apex, c, bound) & IsBeyond(b, c, apex, a, bound) &
             IsBeyond(c, a, apex, b, bound);
     }

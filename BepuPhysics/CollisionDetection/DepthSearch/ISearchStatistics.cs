@@ -8,7 +8,7 @@ interface ISearchStatistics
     /// <summary>A pair of support points was asked for in the lanes that are set.</summary>
     void Evaluated(Vector<int> mask);
 
-    /// <summary>A walk ended at its limit in the lanes that are set.</summary>
+    /// <summary>A descent ended at its limit in the lanes that are set.</summary>
     void Capped(Vector<int> mask);
 
     /// <summary>The free tetrahedron was tried in the lanes of the first mask, and showed that the depth is the least in those of the second.</summary>

@@ -4,13 +4,13 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>How the farthest point of the difference moves as the best direction turns, where a shape is round.</summary>
+/// <summary>How the farthest point of the difference moves as the best direction rotates, where a shape is round.</summary>
 /// <remarks>
 /// A farthest point on a circle of radius R moves along the circle's tangent, by R over the sine of the angle between the direction and the circle's
-/// axis for each radian that the direction turns that way. So the second derivative of the depth by the direction is known: for each round shape a
+/// axis for each radian that the direction rotates that way. So the second derivative of the depth by the direction is known: for each round shape a
 /// weight times the tangent times itself, and nothing for what is flat. That is enough for Newton's step to the direction in which the
-/// farthest point is where the target is seen from the simplex. Without it the walk goes on across the chord between two points of a circle,
-/// which always leads to the middle between them: a search by halves.
+/// farthest point is where the target is seen from the simplex. Without it the descent goes on across the chord between two points of a circle,
+/// which always leads to the middle between them: a bisection.
 /// </remarks>
 struct SearchCurvature
 {
@@ -44,9 +44,9 @@ struct SearchCurvature
         return Wide.Mask(Vector.GreaterThan(height * height, squaredRadius * new Vector<float>(LeastSine * LeastSine)), scale / height);
     }
 
-    /// <summary>Lanes that can be steered: the simplex is a point, or an edge that is not along the best direction.</summary>
+    /// <summary>Lanes that can be stepped: the simplex is a point, or an edge that is not along the best direction.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly Vector<int> CanSteer(in SimplexForm form, in Vector3Wide direction)
+    public readonly Vector<int> HasNewtonStep(in SimplexForm form, in Vector3Wide direction)
     {
         var along = Vector3Wide.Dot(form.Edge, direction);
         var isAcross = Vector.LessThan(along * along, form.Edge.LengthSquared() * new Vector<float>(GreatestSquaredSlope));
@@ -58,7 +58,7 @@ struct SearchCurvature
     public readonly Vector3Wide AnyTangent(bool bothRound) =>
         bothRound ? Vector3Wide.Select(Vector.GreaterThan(Weight, Vector<float>.Zero), Tangent, OtherTangent) : Tangent;
 
-    /// <summary>By how much the farthest point moves along a direction for each radian that the best direction turns to it.</summary>
+    /// <summary>By how much the farthest point moves along a direction for each radian that the best direction rotates to it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector<float> Along(in Vector3Wide direction, bool bothRound)
     {
@@ -70,40 +70,40 @@ struct SearchCurvature
         return curvature + OtherWeight * (along * along);
     }
 
-    /// <summary>Turns the best direction to where the farthest point should be.</summary>
+    /// <summary>Rotates the best direction to where the farthest point should be.</summary>
     /// <param name="form">What the simplex is.</param>
     /// <param name="offset">From the closest point of the simplex to the target.</param>
     /// <param name="length">Its length.</param>
     /// <param name="depth">Depth in the best direction.</param>
     /// <param name="best">Best direction.</param>
-    /// <param name="mask">Lanes to steer; those of others stay as they are.</param>
+    /// <param name="mask">Lanes to change; those of others stay as they are.</param>
     /// <param name="bothRound">Whether there are two tangents.</param>
     /// <param name="direction">Direction to go on in.</param>
     // With H the curvature, n the best direction and o what of the offset is across it, the step d solves (H + s) d = o. Where nothing is round, and
     // s is the offset's part along n, that is the way from the simplex to the target; where shapes are apart, it is Newton's step as it stands.
     // H = u aa' + v bb' in the plane across n, so that (H + s)^-1 o = ((trace H + s) o - u a(a.o) - v b(b.o)) / (det H + s (trace H + s)).
-    // At an edge the step is turned about it: nothing else stays across the edge.
+    // At an edge the step is a rotation about it: nothing else stays across the edge.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public readonly void Steer(in SimplexForm form, in Vector3Wide offset, Vector<float> length, Vector<float> depth, in Vector3Wide best,
+    public readonly void NewtonStep(in SimplexForm form, in Vector3Wide offset, Vector<float> length, Vector<float> depth, in Vector3Wide best,
         Vector<int> mask, bool bothRound, ref Vector3Wide direction)
     {
         var loss = new Vector<float>(GreatestLoss);
         var outward = Vector3Wide.Dot(offset, best);
         var stiffness = Wide.Max(outward, (length - outward) * new Vector<float>(Stiffness));
         var inside = Wide.Max(depth, Vector<float>.Zero);
-        Vector3Wide steered;
+        Vector3Wide stepped;
         if ((form.PointMask & mask) != Vector<int>.Zero)
         {
             var flexible = stiffness - Wide.Min(inside, Product * loss / Sum);
             var sum = Sum + flexible;
-            steered = (offset - best * outward) * sum - Tangent * (Weight * Vector3Wide.Dot(Tangent, offset));
+            stepped = (offset - best * outward) * sum - Tangent * (Weight * Vector3Wide.Dot(Tangent, offset));
             if (bothRound)
-                steered -= OtherTangent * (OtherWeight * Vector3Wide.Dot(OtherTangent, offset));
-            steered = best + steered * (Vector<float>.One / (Product + flexible * sum));
+                stepped -= OtherTangent * (OtherWeight * Vector3Wide.Dot(OtherTangent, offset));
+            stepped = best + stepped * (Vector<float>.One / (Product + flexible * sum));
         }
         else
         {
-            steered = best;
+            stepped = best;
         }
         if ((form.EdgeMask & mask) != Vector<int>.Zero)
         {
@@ -111,12 +111,12 @@ struct SearchCurvature
             var across = Vector3Wide.Cross(form.Edge, best);
             var squaredAcross = across.LengthSquared();
             var curvature = Along(across, bothRound);
-            var turn = Vector3Wide.Dot(offset, across) * Vector.SquareRoot(squaredEdge * squaredAcross) /
+            var angle = Vector3Wide.Dot(offset, across) * Vector.SquareRoot(squaredEdge * squaredAcross) /
                 (curvature - Wide.Min(inside * squaredAcross, curvature * loss) + stiffness * squaredAcross);
-            var overEdge = best * squaredEdge - form.Edge * Vector3Wide.Dot(form.Edge, best) + across * turn;
-            steered = Vector3Wide.Select(form.EdgeMask, overEdge, steered);
+            var overEdge = best * squaredEdge - form.Edge * Vector3Wide.Dot(form.Edge, best) + across * angle;
+            stepped = Vector3Wide.Select(form.EdgeMask, overEdge, stepped);
         }
-        steered *= Vector<float>.One / steered.Length();
-        direction = Vector3Wide.Select(mask, steered, direction);
+        stepped *= Vector<float>.One / stepped.Length();
+        direction = Vector3Wide.Select(mask, stepped, direction);
     }
 }

@@ -93,7 +93,7 @@ struct SearchFrame
         (onA - OffsetB - Matrix3x3Wide.TransposeTimes(OrientationB, onB)) * Scale;
 
     /// <summary>Age of a pair that has just been certified: 0 to 7, by the last bits of where it is.</summary>
-    // Pairs that met in one step would otherwise all be due again in one step.
+    // Pairs that began in one step would otherwise all be due again in one step.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector<int> AgeSpread()
     {

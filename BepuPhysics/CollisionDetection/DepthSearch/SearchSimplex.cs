@@ -51,7 +51,7 @@ struct SearchSimplex
     const float LeastSquaredSine = 1e-12f;
     // Squared ratio of lengths below which a triangle at a vertex is a needle: its far side is that short.
     const float SquaredNeedle = 1e-2f;
-    // Part of an edge that rounding may move a point along it; less than what the walk tolerates.
+    // Part of an edge that rounding may move a point along it; less than what the descent tolerates.
     const float GreatestSlip = 1e-5f;
 
     public SearchVertex A, B, C;
@@ -91,7 +91,7 @@ struct SearchSimplex
     {
         offset = default;
         var distance = new Vector<float>(float.MaxValue);
-        return TryWhole(target, Vector<int>.AllBitsSet, ref offset, ref distance);
+        return TryOldTriangle(target, Vector<int>.AllBitsSet, ref offset, ref distance);
     }
 
     /// <summary>From the closest point of the longest edge at A to the target.</summary>
@@ -115,7 +115,7 @@ struct SearchSimplex
     /// <param name="vertex">New vertex.</param>
     /// <param name="target">What the search aims at.</param>
     /// <param name="activeMask">Lanes to change.</param>
-    /// <param name="wholeMask">Lanes in which the old triangle competes, too.</param>
+    /// <param name="triangleMask">Lanes in which the old triangle competes, too.</param>
     /// <param name="oldCount">
     /// How many vertices there may be in an active lane, at least 1: of one, all three are that; of two, the third is the second. What
     /// is the same as something else then need not be tried, and would change nothing.
@@ -127,7 +127,7 @@ struct SearchSimplex
     // A vertex that is not kept is overwritten by the new one in its place, so that three masks say everything.
     // With two vertices the triangle is c, a and not a, b: of triangles that are alike the last one wins.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> wholeMask, int oldCount,
+    public void Add(in SearchVertex vertex, in Vector3Wide target, Vector<int> activeMask, Vector<int> triangleMask, int oldCount,
         out Vector3Wide offset, out SimplexForm form)
     {
         var q = target - vertex.Point;
@@ -171,12 +171,12 @@ struct SearchSimplex
         var hasEdge = (keepA | keepB | keepC) & Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
         var slip = Vector3Wide.Dot(closest, edge) / squaredEdge;
         closest -= edge * Wide.Mask(hasEdge & Vector.LessThan(Vector.Abs(slip), new Vector<float>(GreatestSlip)), slip);
-        if (wholeMask != Vector<int>.Zero)
+        if (triangleMask != Vector<int>.Zero)
         {
-            var whole = TryWhole(target, wholeMask, ref closest, ref distance);
-            keepA |= whole;
-            keepB |= whole;
-            keepC |= whole;
+            var old = TryOldTriangle(target, triangleMask, ref closest, ref distance);
+            keepA |= old;
+            keepB |= old;
+            keepC |= old;
         }
         form.PointMask = Vector.OnesComplement(keepA | keepB | keepC);
         form.EdgeMask = Vector.AndNot(keepA ^ keepB ^ keepC, keepA & keepB & keepC);
@@ -230,7 +230,7 @@ struct SearchSimplex
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly Vector<int> TryWhole(in Vector3Wide target, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
+    readonly Vector<int> TryOldTriangle(in Vector3Wide target, Vector<int> wantedMask, ref Vector3Wide closest, ref Vector<float> distance)
     {
         var e1 = B.Point - A.Point;
         var e2 = C.Point - A.Point;

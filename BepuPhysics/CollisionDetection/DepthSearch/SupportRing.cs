@@ -9,8 +9,8 @@ namespace BepuPhysics.CollisionDetection;
 /// around that of the minimum.
 /// </summary>
 /// <remarks>
-/// The walk's triangle shrinks to a point where the difference is round, and the tetrahedron on it is a needle. The ring is as wide as the
-/// slack allows. With the point that the walk found in the middle and one of the inner ball below it makes a closed surface of eight
+/// The descent's triangle shrinks to a point where the difference is round, and the tetrahedron on it is a needle. The ring is as wide as the
+/// slack allows. With the point that the descent found in the middle and one of the inner ball below it makes a closed surface of eight
 /// triangles whose corners are points of the difference. Where the origin is on the inner side of all their planes it is inside, and a ball
 /// around it that no plane cuts lies in the difference: no depth is less than its radius.
 /// </remarks>
@@ -24,7 +24,7 @@ struct SupportRing
     // In sizes of the smaller shape. The ring reaches the tilt times a radius of curvature to the side, and there its planes must be as far from
     // the origin as the depth: with depths of more than the tilt times this, they hardly ever are.
     const float GreatestRadius = 1.6f;
-    // Part of the longest edge of the walk's triangle that must be across the direction, squared; and length at which there is an edge.
+    // Part of the longest edge of the descent's triangle that must be across the direction, squared; and length at which there is an edge.
     const float LeastAcross = 0.5f;
     const float LeastSquaredEdge = 1e-12f;
     const float LeastEdge = 1e-6f;
@@ -41,20 +41,20 @@ struct SupportRing
     /// <summary>Chooses which way to tilt, and how far.</summary>
     // A plane through the middle of the ring that is tilted by an angle is the depth times the angle's cosine away: so far that this is the bound,
     // or nearly.
-    // First along the longest edge of the walk's triangle: where the difference is flat, its face is longest about there.
+    // First along the longest edge of the descent's triangle: where the difference is flat, its face is longest about there.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Start(in SearchWalk walk, in SearchFrame frame, Vector<float> bound, Vector<int> openMask)
+    public void Start(in SearchDescent descent, in SearchFrame frame, Vector<float> bound, Vector<int> openMask)
     {
         // All lanes of the mask are deeper than the slack, which is above zero.
-        tilt = Wide.Min(Vector.SquareRoot((walk.Depth - bound) * new Vector<float>(2) / walk.Depth), new Vector<float>(GreatestTilt));
-        Mask = openMask & Vector.LessThan(walk.Depth, tilt * frame.Smaller * new Vector<float>(GreatestRadius));
+        tilt = Wide.Min(Vector.SquareRoot((descent.Depth - bound) * new Vector<float>(2) / descent.Depth), new Vector<float>(GreatestTilt));
+        Mask = openMask & Vector.LessThan(descent.Depth, tilt * frame.Smaller * new Vector<float>(GreatestRadius));
         if (Mask == Vector<int>.Zero)
             return;
         tiltedScale = Vector<float>.One / Vector.SquareRoot(Vector<float>.One + tilt * tilt);
         squaredBound = bound * bound;
-        normal = walk.Direction;
-        ref readonly var simplex = ref walk.Simplex;
-        var weights = simplex.GetWeights(walk.Target());
+        normal = descent.Direction;
+        ref readonly var simplex = ref descent.Simplex;
+        var weights = simplex.GetWeights(descent.Target());
         top = simplex.A.Point * weights.X + simplex.B.Point * weights.Y + simplex.C.Point * weights.Z;
         bottom = frame.Center - normal * frame.Inner;
 

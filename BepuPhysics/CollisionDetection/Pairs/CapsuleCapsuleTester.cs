@@ -20,7 +20,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
     // Squared sine above which the direction across two crossing segments is better known from their cross product than from a distance.
     const float CrossingSineSquared = 1e-4f;
     // Part of the size of the pair below which the distance of the segments is rounding and its direction noise.
-    const float MeetingDistance = 1e-6f;
+    const float IntersectionDistance = 1e-6f;
     // A contact may be where the other segment is this part of the smaller radius to the side: the surface is farther there by the square
     // of it.
     const float SideDeviation = 0.02f;
@@ -57,18 +57,18 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         s = Wide.Clamp(height, -a.HalfLength, a.HalfLength);
         var separation = new Vector3Wide(-(t.X + v.X * onB), s - height, -(t.Z + v.Z * onB));
 
-        // From an inner point of B's segment it is across that. What is left along it is rounding, which counts when the segments nearly meet.
+        // From an inner point of B's segment it is across that. What is left along it is rounding, which counts when the segments nearly intersect.
         var innerA = Vector.LessThan(Vector.Abs(s), a.HalfLength);
         var innerB = Vector.LessThan(Vector.Abs(onB), b.HalfLength);
         separation -= v * Wide.Mask(innerB, Vector3Wide.Dot(separation, v));
         var distance = separation.Length();
-        // A direction across both segments, any across the first where they are parallel. Segments that meet are pushed apart along it.
+        // A direction across both segments, any across the first where they are parallel. Segments that intersect are pushed apart along it.
         var inverseSine = Wide.Select(parallel, one, one / Vector.SquareRoot(sineSquared));
         var acrossX = Wide.Select(parallel, one, v.Z * inverseSine);
         var acrossZ = Wide.Mask(~parallel, -v.X * inverseSine);
         var side = Wide.CopySign(one, acrossX * separation.X + acrossZ * separation.Z);
-        var meeting = Vector.LessThanOrEqual(distance, (radius + a.HalfLength + b.HalfLength) * new Vector<float>(MeetingDistance));
-        var useAcross = meeting | (innerA & innerB & Vector.GreaterThan(sineSquared, new Vector<float>(CrossingSineSquared)));
+        var intersecting = Vector.LessThanOrEqual(distance, (radius + a.HalfLength + b.HalfLength) * new Vector<float>(IntersectionDistance));
+        var useAcross = intersecting | (innerA & innerB & Vector.GreaterThan(sineSquared, new Vector<float>(CrossingSineSquared)));
         var normal = Vector3Wide.Select(
             useAcross, new(acrossX * side, zero, acrossZ * side), separation * (one / distance));
 

@@ -15,7 +15,7 @@ namespace BepuPhysics.CollisionDetection;
 public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, CylinderWide, Few2<ContactWide>>
 {
     // Part of the size of the pair below which the distance of segment and cylinder is rounding and its direction noise.
-    const float MeetingDistance = 3e-6f;
+    const float IntersectionDistance = 3e-6f;
     // Part of the size of the pair by which the way over the rim must beat the others: rounding is below it.
     const float AxisTolerance = 1e-6f;
     // Part of the size of the pair that a segment may be beside a face and still be over it: along the face's border, contacts must not
@@ -71,7 +71,7 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
 
         LeaveByEndOrSide(halfLength, b, frame, out least);
         LeaveOverRim(halfLength, b, frame, size, ref least);
-        var isApart = Vector.GreaterThan(distance, size * new Vector<float>(MeetingDistance));
+        var isApart = Vector.GreaterThan(distance, size * new Vector<float>(IntersectionDistance));
         least.Normal = Vector3Wide.Select(isApart, outside * (one / distance), least.Normal);
         least.Depth = Wide.Select(isApart, -distance, least.Depth);
         least.Place = Wide.Select(isApart, nearest, least.Place);

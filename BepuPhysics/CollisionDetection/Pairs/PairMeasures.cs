@@ -12,7 +12,7 @@ struct PairMeasures
     public float ReachA;
     /// <summary>Distance from B's centre to the farthest point of B, m.</summary>
     public float ReachB;
-    /// <summary>Number of support points that the walk took; certificates are rare, and not in it.</summary>
+    /// <summary>Number of support points that the descent took; certificates are rare, and not in it.</summary>
     public int Evaluations;
 }
 

@@ -2,7 +2,7 @@ using System.Numerics;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Counts the support points of each lane's walk, by which slow lanes are told from quick ones.</summary>
+/// <summary>Counts the support points of each lane's descent, by which slow lanes are told from quick ones.</summary>
 struct SearchEffort : ISearchStatistics
 {
     /// <summary>Number of support points of each shape.</summary>

@@ -66,7 +66,7 @@ struct DistanceLimitGeometry
     /// <summary>Lever arm of B crossed with the direction.</summary>
     public Vector3Wide AngularB;
     /// <summary>Distance that is left to the nearer limit; negative beyond it.</summary>
-    public Vector<float> Room;
+    public Vector<float> Slack;
 }
 
 /// <summary>Row of <see cref="DistanceLimit"/>.</summary>
@@ -80,8 +80,8 @@ readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, Distan
 {
     // Squares of lengths lose digits below this, so the direction is not a unit vector any more: what floats can hold, no size of a thing.
     const float LeastLengthSquared = 1e-30f;
-    // Room to a maximum such as float.MaxValue: no speed uses it up, and it can be divided by a timestep.
-    const float EndlessRoom = 1e18f;
+    // Slack to a maximum such as float.MaxValue: no speed uses it up, and it can be divided by a timestep.
+    const float EndlessSlack = 1e18f;
 
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
@@ -102,7 +102,7 @@ readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, Distan
         var belowMaximum = prestep.MaximumDistance - length;
         var useMinimum =
             Vector.LessThan(Vector.Abs(aboveMinimum), Vector.Abs(belowMaximum)) & Vector.GreaterThan(prestep.MinimumDistance, Vector<float>.Zero);
-        geometry.Room = Wide.Min(Wide.Select(useMinimum, aboveMinimum, belowMaximum), new Vector<float>(EndlessRoom));
+        geometry.Slack = Wide.Min(Wide.Select(useMinimum, aboveMinimum, belowMaximum), new Vector<float>(EndlessSlack));
 
         var sign = Wide.Select(useMinimum, -Vector<float>.One, Vector<float>.One);
         var apart = Vector.GreaterThan(lengthSquared, new Vector<float>(LeastLengthSquared));
@@ -115,7 +115,7 @@ readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, Distan
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void PositionError(in TwoBodies bodies, in DistanceLimitWide prestep, in DistanceLimitGeometry geometry, out Rows1 error) =>
-        error.X = geometry.Room;
+        error.X = geometry.Slack;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

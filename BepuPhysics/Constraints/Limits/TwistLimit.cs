@@ -54,7 +54,7 @@ struct TwistLimitGeometry
     /// <summary>Angular Jacobian of A; of B it is the opposite.</summary>
     public Vector3Wide Axis;
     /// <summary>Angle that is left to the nearer limit, radians; negative beyond it.</summary>
-    public Vector<float> Room;
+    public Vector<float> Slack;
 }
 
 /// <summary>Row of <see cref="TwistLimit"/>.</summary>
@@ -91,7 +91,7 @@ readonly struct TwistLimitJoint : IJoint<TwoBodies, TwistLimitWide, TwistLimitGe
         var halfRange = range * 0.5f;
         var deviation = halfTwist + halfTwist - (prestep.MinimumAngle + halfRange);
         deviation -= Vector.Floor(deviation * turns + new Vector<float>(0.5f)) * turn;
-        geometry.Room = halfRange - Vector.Abs(deviation);
+        geometry.Slack = halfRange - Vector.Abs(deviation);
 
         var defined = q.Z * q.Z + q.W * q.W;
         var scale = Wide.Mask(Vector.GreaterThan(defined, new Vector<float>(LeastDefined)), Wide.Sign(deviation) / defined);
@@ -101,7 +101,7 @@ readonly struct TwistLimitJoint : IJoint<TwoBodies, TwistLimitWide, TwistLimitGe
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void PositionError(in TwoBodies bodies, in TwistLimitWide prestep, in TwistLimitGeometry geometry, out Rows1 error) =>
-        error.X = geometry.Room;
+        error.X = geometry.Slack;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

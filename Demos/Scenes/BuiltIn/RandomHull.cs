@@ -3,7 +3,7 @@ using System.Numerics;
 
 namespace Demos.Scenes.BuiltIn;
 
-/// <summary>Hulls by lot: points on an ellipsoid that keep some distance from each other, so that all are corners.</summary>
+/// <summary>Random hulls: points on an ellipsoid that keep some distance from each other, so that all are corners.</summary>
 static class RandomHull
 {
     // Part of the largest half axis that each of the others may lack.

@@ -4,7 +4,7 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
+static partial class FlatClosedForm<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
 {
     /// <summary>A face and the side of a cylinder.</summary>
     // A line over a face is deepest at the end that is lower, or where it leaves the face on its way there. The direction is the face's normal, or it is

@@ -10,9 +10,9 @@ namespace BepuPhysics.CollisionDetection;
 /// <remarks>
 /// Where both points are inside of the axes, the direction is at right angles to both, and exact. An end of an axis stands for its rim: exact but for
 /// the square of the angle by which the direction is not at a right angle to that axis. Sides that cross at any angle could be found so as well; but
-/// a walk is quick there, and leaves a simplex.
+/// a descent is quick there, and leaves a simplex.
 /// </remarks>
-static class SideMeeting
+static class SideClosedForm
 {
     // Cosine of the angle between the direction and an axis up to which it is the side that is touched, and sine of that between axes that are
     // nearly parallel.
@@ -51,7 +51,7 @@ static class SideMeeting
         var found = between * (Vector<float>.One / between.Length());
         var cosineB = Vector3Wide.Dot(found, axis);
         var greatest = new Vector<float>(GreatestCosine);
-        // Two axes that meet have no direction: NaN, which is not less.
+        // Two axes that intersect have no direction: NaN, which is not less.
         mask &= Vector.LessThan(Vector.Abs(found.Y), greatest) & Vector.LessThan(Vector.Abs(cosineB), greatest);
         var acrossA = radiusA / Vector.SquareRoot(found.X * found.X + found.Z * found.Z);
         var radialB = found - axis * cosineB;

@@ -4,13 +4,13 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Where a walk is: its simplex, the best direction, and the depth in it.</summary>
-struct SearchWalk
+/// <summary>Where a descent is: its simplex, the best direction, and the depth in it.</summary>
+struct SearchDescent
 {
-    // Squared sine below which the remembered triangle shows no direction, and cosine of the angle by which its normal may have turned from
-    // the remembered direction.
+    // Squared sine below which the remembered triangle shows no direction, and cosine of the angle between its normal and
+    // the remembered direction up to which it is used.
     const float LeastSquaredSine = 1e-6f;
-    const float GreatestTurnCosine = 0.9f;
+    const float LeastNormalCosine = 0.9f;
 
     public SearchSimplex Simplex;
     /// <summary>The farthest point that was found last.</summary>
@@ -24,7 +24,7 @@ struct SearchWalk
     /// <summary>Of the cores, scaled.</summary>
     public Vector<float> Depth;
 
-    /// <summary>What the walk seeks: the origin's projection on the best plane, or the origin where that plane is beyond it.</summary>
+    /// <summary>What the descent seeks: the origin's projection on the best plane, or the origin where that plane is beyond it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector3Wide Target() => Direction * Wide.Max(Depth, Vector<float>.Zero);
 
@@ -38,7 +38,7 @@ struct SearchWalk
             Vector.GreaterThan(distance, Vector<float>.Zero), frame.Center * (-Vector<float>.One / distance), up);
         Depth = Vector<float>.Zero;
         var knownMask = Vector.GreaterThan(state.Direction.LengthSquared(), new Vector<float>(0.5f));
-        // Without a simplex the walk starts with the first support point.
+        // Without a simplex the descent starts with the first support point.
         if (knownMask == Vector<int>.Zero)
             return knownMask;
         Place(state.PointA0, state.PointB0, frame, out Simplex.A);
@@ -54,7 +54,7 @@ struct SearchWalk
         var along = Vector3Wide.Dot(normal, state.Direction);
         var useNormal =
             Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
-            Vector.GreaterThan(Vector.Abs(along), length * new Vector<float>(GreatestTurnCosine));
+            Vector.GreaterThan(Vector.Abs(along), length * new Vector<float>(LeastNormalCosine));
         var known = Vector3Wide.Select(useNormal, normal * Wide.CopySign(Vector<float>.One / length, along), state.Direction);
         Direction = Vector3Wide.Select(knownMask, known, Direction);
         return knownMask;

@@ -4,9 +4,9 @@ namespace BepuPhysics;
 public sealed unsafe partial class Solver
 {
     /// <summary>Runs the loops of each registered type over a bundle without constraints.</summary>
-    internal void Rehearse()
+    internal void WarmUp()
     {
         foreach (var processor in processors)
-            processor?.Rehearse(pool);
+            processor?.WarmUp(pool);
     }
 }

@@ -8,15 +8,15 @@ using BepuUtilities.Memory;
 namespace BepuPhysics;
 
 /// <summary>A small world of its own in which each pair of convex shapes meets, so that a real one finds its code compiled.</summary>
-readonly struct Rehearsal : IDisposable
+readonly struct WarmUpWorld : IDisposable
 {
     // A runtime that compiles in tiers counts to thirty before it compiles a method well, and starts to do so a tenth of a second later.
     const int StepCount = 40;
     const float Spacing = 10;
     const int ThreadsBit = 1 << 31;
 
-    // Shape types that this process has rehearsed, as bits, and whether it did so with threads: what is compiled stays so.
-    static int rehearsed;
+    // Shape types that this process has warmed up, as bits, and whether it did so with threads: what is compiled stays so.
+    static int warmedUp;
 
     readonly BufferPool pool;
     readonly Simulation simulation;
@@ -25,7 +25,7 @@ readonly struct Rehearsal : IDisposable
     readonly BodyInertia[] inertias = new BodyInertia[ConvexHull.Id + 1];
 
     // All of the shapes are about one metre high.
-    Rehearsal(BufferPool pool)
+    WarmUpWorld(BufferPool pool)
     {
         this.pool = pool;
         simulation = Simulation.Create(
@@ -55,10 +55,10 @@ readonly struct Rehearsal : IDisposable
         var parts = dispatcher is null ? 0 : ThreadsBit;
         foreach (var type in types)
             parts |= 1 << type;
-        if ((Interlocked.Or(ref rehearsed, parts) & parts) == parts)
+        if ((Interlocked.Or(ref warmedUp, parts) & parts) == parts)
             return;
         using var pool = new BufferPool();
-        using var rehearsal = new Rehearsal(pool);
+        using var world = new WarmUpWorld(pool);
         var place = 0;
         foreach (var a in types)
         {
@@ -66,12 +66,12 @@ readonly struct Rehearsal : IDisposable
             {
                 if (a > b)
                     continue;
-                rehearsal.Add(a, b, place++, Quaternion.Identity);
-                rehearsal.Add(b, a, place++, Exact.Normalize(new Quaternion(.3f, .1f, .2f, 1)));
+                world.Add(a, b, place++, Quaternion.Identity);
+                world.Add(b, a, place++, Exact.Normalize(new Quaternion(.3f, .1f, .2f, 1)));
             }
         }
         for (int i = 0; i < StepCount; ++i)
-            rehearsal.simulation.Timestep(1 / 60f, i % 2 == 0 ? null : dispatcher);
+            world.simulation.Timestep(1 / 60f, i % 2 == 0 ? null : dispatcher);
     }
 
     // Bodies over each other and over what does not move: contacts on one body and on two, new, kept and gone.

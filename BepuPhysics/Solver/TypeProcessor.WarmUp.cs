@@ -8,10 +8,10 @@ namespace BepuPhysics.Constraints;
 public abstract partial class TypeProcessor
 {
     // As many calls as a runtime that compiles in tiers wants to see before it compiles a method well.
-    const int RehearsalCount = 40;
+    const int WarmUpCount = 40;
 
     /// <summary>Runs every loop of the type over a bundle without constraints, so that it is compiled.</summary>
-    internal unsafe void Rehearse(BufferPool pool)
+    internal unsafe void WarmUp(BufferPool pool)
     {
         var batch = default(TypeBatch);
         Span<int> none = stackalloc int[BodiesPerConstraint];
@@ -29,7 +29,7 @@ public abstract partial class TypeProcessor
         var bodies = new SolverBodies(
             motions.Memory, inertias.Memory, (BodyVelocity*)(inertias.Memory + 1), inertias.Memory + 2);
         var split = new SplitBodies(shares.Memory, velocities.Memory);
-        for (int i = 0; i < RehearsalCount; ++i)
+        for (int i = 0; i < WarmUpCount; ++i)
         {
             // Of the first substep, of a later one, and of a relaxation.
             var substep = new Substep(i % 2, 1 / 240f, relaxations: i % 3, isRelaxation: i % 3 == 2);

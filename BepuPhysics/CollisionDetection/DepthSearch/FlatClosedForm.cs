@@ -11,7 +11,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <remarks>
 /// <para>
 /// What rests is tilted by thousandths of a radian, and these decide the direction of least depth: it runs from one face's normal to the
-/// other's, and a rim's farthest point around half of the rim, as the bodies turn by as much. A walk takes long to find its way there.
+/// other's, and a rim's farthest point around half of the rim, as the bodies turn by as much. A descent takes long to find its way there.
 /// </para>
 /// <para>
 /// But seen along the face's normal n, the depth of two flat features is linear, g.x, over the places x at which they overlap, where g is the
@@ -28,7 +28,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <typeparam name="TSupportF">Its faces; of a cylinder, its ends.</typeparam>
 /// <typeparam name="TShapeWideG">The cylinder.</typeparam>
 /// <typeparam name="TSupportG">Its measures.</typeparam>
-static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
+static partial class FlatClosedForm<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
     where TShapeWideF : unmanaged where TSupportF : struct, ISupport<TShapeWideF>
     where TShapeWideG : unmanaged where TSupportG : struct, ISupport<TShapeWideG>
 {

@@ -4,7 +4,7 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
+static partial class FlatClosedForm<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
 {
     /// <summary>A face and the end of a cylinder.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -27,8 +27,8 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
             var center = underMiddle - tilt * gap;
             var far = center + slope * (radius * inverseSlope);
             mask &= TSupportF.IsCylinder
-                ? MeetDisc(DiscRadius(f), center, radius, slope, inverseSlope, far, out place, out tilt, out isRim)
-                : MeetPolygon(face, center, radius, slope, far, out place, out tilt, out isRim);
+                ? DeepestOverDisc(DiscRadius(f), center, radius, slope, inverseSlope, far, out place, out tilt, out isRim)
+                : DeepestOverPolygon(face, center, radius, slope, far, out place, out tilt, out isRim);
         }
         mask &= Vector.LessThan(tilt.LengthSquared(), new Vector<float>(GreatestSquaredTilt));
         if (mask == Vector<int>.Zero)
@@ -62,7 +62,7 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
     // Where one rim reaches farthest, if that is inside of the other; otherwise the corner of the lens that does. There, with the vectors p and q from
     // the centres to the corner, g = s p + t q, and both are positive.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> MeetDisc(Vector<float> radiusF, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, Vector<float> inverseSlope,
+    static Vector<int> DeepestOverDisc(Vector<float> radiusF, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, Vector<float> inverseSlope,
         in Vector2Wide far, out Vector2Wide place, out Vector2Wide tilt, out Vector<int> isRim)
     {
         var squaredF = radiusF * radiusF;
@@ -89,11 +89,11 @@ static partial class FlatMeeting<TShapeWideF, TSupportF, TShapeWideG, TSupportG>
         return isFarF | isRim | isCorner;
     }
 
-    /// <summary>The deepest place of the overlap of a polygon and a disc; parameters as of <see cref="MeetDisc"/>.</summary>
+    /// <summary>The deepest place of the overlap of a polygon and a disc; parameters as of <see cref="DeepestOverDisc"/>.</summary>
     // Where the rim reaches farthest, if that is inside of the polygon; the corner that reaches farthest, if it is inside of the rim; otherwise where
     // the rim crosses an edge. With the edge's normal m and the vector q from the centre to the crossing, g = s m + t q, both positive.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> MeetPolygon(in SearchFace face, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, in Vector2Wide far,
+    static Vector<int> DeepestOverPolygon(in SearchFace face, in Vector2Wide center, Vector<float> radius, in Vector2Wide slope, in Vector2Wide far,
         out Vector2Wide place, out Vector2Wide tilt, out Vector<int> isRim)
     {
         var zero = Vector<float>.Zero;
