@@ -130,7 +130,7 @@ public class PairHistoryTests
         for (int i = 0; i < 2000; ++i)
         {
             var found = new Found();
-            var allowed = PairHistory.Tolerance * ReachB;
+            var allowed = RetestBound.Tolerance * ReachB;
             var scale = allowed * MathF.Pow(10, random.NextSingle() * 4 - 2.5f);
             var translation = Direction(random) * scale * random.NextSingle();
             var turn = Turn(Direction(random) * (scale / ReachB * random.NextSingle()));
@@ -174,7 +174,7 @@ public class PairHistoryTests
         Assert.True(found.Reuse(found.A, found.B, out _, Margin));
         Assert.False(found.Reuse(found.A, found.B, out _, Margin * 2));
         // Contacts farther apart than the pair may move unnoticed are of no interest.
-        Assert.True(found.Reuse(found.A, found.B, out _, PairHistory.Tolerance * ReachB * 0.5f));
+        Assert.True(found.Reuse(found.A, found.B, out _, RetestBound.Tolerance * ReachB * 0.5f));
     }
 
     [Fact]
@@ -191,7 +191,7 @@ public class PairHistoryTests
     public void A_history_ends()
     {
         var found = new Found();
-        for (int i = 0; i < PairHistory.Lifetime; ++i)
+        for (int i = 0; i < RetestBound.Lifetime; ++i)
             Assert.True(found.Reuse(found.A, found.B, out _));
 
         Assert.False(found.Reuse(found.A, found.B, out _));

@@ -9,20 +9,9 @@ unsafe partial struct PairHistory
     /// <summary>The first row of the histories of a bundle.</summary>
     struct PoseRow
     {
-        public QuaternionWide Turn;
+        public QuaternionWide Orientation;
         public Vector3Wide Offset;
-        public Vector<float> Room;
-    }
-
-    /// <summary>The rows with the contacts of a bundle.</summary>
-    struct ContactRows
-    {
-        public Vector3Wide Normal;
-        public Few4<Vector3Wide> Places;
-        public Few4<Vector<float>> Depths;
-        public Few4<Vector<int>> Features;
-        // Fills the last row up.
-        public Vector<float> Padding;
+        public Vector<float> Clearance;
     }
 
     /// <summary>Records the outcome of the tests of a bundle.</summary>
@@ -53,16 +42,17 @@ unsafe partial struct PairHistory
         var aIsLarger = Vector.GreaterThan(measures.ReachA, measures.ReachB);
         var toLarger = QuaternionWide.Conjugate(QuaternionWide.Select(aIsLarger, pose.OrientationA, pose.OrientationB));
 
-        // The same operations in the same order as in FindPose: a pair that has not moved has the pose that was recorded.
+        // The same operations in the same order as in RetestBound.Holds: a pair that has not moved has the pose that was recorded.
         PoseRow row;
-        row.Turn = QuaternionWide.Concatenate(QuaternionWide.Select(aIsLarger, pose.OrientationB, pose.OrientationA), toLarger);
+        row.Orientation = QuaternionWide.Concatenate(QuaternionWide.Select(aIsLarger, pose.OrientationB, pose.OrientationA), toLarger);
         row.Offset = toLarger * Vector3Wide.Select(aIsLarger, pose.OffsetB, -pose.OffsetB);
-        row.Room = Wide.Select(isApart, -measures.Depth - (measures.ReachA + measures.ReachB) * new Vector<float>(Rounding), speculativeMargin);
+        row.Clearance = Wide.Select(
+            isApart, -measures.Depth - (measures.ReachA + measures.ReachB) * new Vector<float>(RetestBound.Rounding), speculativeMargin);
         Transpose.Scatter(Unsafe.As<PoseRow, Rows8>(ref row), (float*)histories, Stride, indices);
         if ((isCarried & recordedMask) != Vector<int>.Zero)
             RecordContacts(histories, indices, pose, flipMask, aIsLarger, toLarger, ref found);
 
-        var remaining = (isApart | isCarried) & new Vector<int>(Lifetime);
+        var remaining = (isApart | isCarried) & new Vector<int>(RetestBound.Lifetime);
         var reach = Wide.Select(aIsLarger, measures.ReachB, measures.ReachA);
         var callersAIsLarger = aIsLarger ^ flipMask;
         var isSlow = Vector.GreaterThan(measures.Evaluations, new Vector<int>(QuickEvaluations));
@@ -71,10 +61,10 @@ unsafe partial struct PairHistory
             if (indices[lane] < 0)
                 continue;
             ref var history = ref histories[indices[lane]];
-            history.reach = reach[lane];
-            history.remaining = (short)remaining[lane];
-            history.contactMask = (byte)contactMask[lane];
-            history.aIsLarger = callersAIsLarger[lane] != 0;
+            history.bound.Reach = reach[lane];
+            history.bound.Remaining = (short)remaining[lane];
+            history.bound.ContactMask = (byte)contactMask[lane];
+            history.bound.AIsLarger = callersAIsLarger[lane] != 0;
             history.isSlow = isSlow[lane] != 0;
         }
     }
@@ -84,7 +74,7 @@ unsafe partial struct PairHistory
         Vector<int> aIsLarger, in QuaternionWide toLarger, ref ConvexManifoldWide<TContacts> found)
         where TContacts : unmanaged, IFew<ContactWide>
     {
-        Unsafe.SkipInit(out ContactRows rows);
+        Unsafe.SkipInit(out CarriedContactsWide rows);
         var axes = Matrix3x3Wide.FromQuaternion(toLarger);
         var normal = Matrix3x3Wide.TransposeTimes(axes, found.Normal);
         rows.Normal = Vector3Wide.Select(flipMask, -normal, normal);
@@ -92,13 +82,13 @@ unsafe partial struct PairHistory
         for (int i = 0; i < TContacts.Count; ++i)
         {
             ref var contact = ref found.Contacts[i];
-            rows.Places[i] = Matrix3x3Wide.TransposeTimes(axes, contact.OffsetA - center);
+            rows.Positions[i] = Matrix3x3Wide.TransposeTimes(axes, contact.OffsetA - center);
             rows.Depths[i] = contact.Depth;
             rows.Features[i] = contact.FeatureId;
         }
         rows.Padding = Vector<float>.Zero;
-        ref var source = ref Unsafe.As<ContactRows, Rows8>(ref rows);
-        for (int i = 0; i < sizeof(ContactRows) / sizeof(Rows8); ++i)
-            Transpose.Scatter(Unsafe.Add(ref source, i), (float*)&histories->normal + i * Rows8.Count, Stride, indices);
+        ref var source = ref Unsafe.As<CarriedContactsWide, Rows8>(ref rows);
+        for (int i = 0; i < sizeof(CarriedContactsWide) / sizeof(Rows8); ++i)
+            Transpose.Scatter(Unsafe.Add(ref source, i), (float*)&histories->contacts + i * Rows8.Count, Stride, indices);
     }
 }

@@ -1,42 +1,24 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What the last test of a pair found and where its bodies were, for pairs whose test costs more than remembering it.</summary>
+/// <summary>What is remembered of the last test of a pair, for pairs whose test costs more than remembering it.</summary>
 /// <remarks>
-/// It serves twice. The depth search starts from the simplex that it ended with. And while the bodies have hardly moved against each
-/// other, there is no test at all: shapes that were farther apart than they can have come closer since still have no contacts, and
-/// contacts are carried along with the surfaces that they lie on.
+/// A record of three parts, each with its own type: whether the outcome still holds (<see cref="RetestBound"/>), the contacts to carry along while it
+/// does (<see cref="CarriedContacts"/>), and the simplex that the next search starts with when it does not (<see cref="DepthSearchState"/>). The record
+/// itself knows which shapes they are of, where they lie, and how bundles of them are read and written.
 /// </remarks>
-// What carrying contacts along costs in accuracy: a vertex that rests on a face is followed exactly, as the face turns with its body;
-// other features slide by the square of the angle, which the tolerance bounds to 1e-6 of the size. The normal turns with the larger
-// shape; where it belongs to the smaller, it lags by up to Tolerance rad until the next test.
-// Everything is in the axes of the larger shape, as seen from the centre of the smaller: contacts are short distances then, even on a floor
-// of a kilometre.
-// Four cache lines. The first decides whether there will be a test, and all that a pair without contacts needs. But for the second row of eight
+// Four cache lines. The first decides whether there will be a test, and is all that a pair without contacts needs. But for the second row of eight
 // floats, all is written as bundles, and the search's state is read so.
 [StructLayout(LayoutKind.Sequential, Size = 4 * CacheLine)]
 unsafe partial struct PairHistory
 {
-    // Pose of the smaller shape in the frame of the larger at the last test.
-    Quaternion turn;
-    Vector3 offset;
-    // Of a pair without contacts: how much closer the shapes may come, less the margin, until they can have some. Of others: the margin that
-    // these were found with.
-    float room;
-    // Distance from the centre of the smaller shape to its farthest point.
-    float reach;
-    // Steps until the next test, come what may; zero where nothing is known.
-    short remaining;
-    // A bit for each of the places below that has a contact.
-    byte contactMask;
-    bool aIsLarger;
+    RetestBound bound;
+    // Whether the last search took more support points than a quick one does.
     bool isSlow;
     ShapeIdentity shapeA;
     ShapeIdentity shapeB;
@@ -45,28 +27,13 @@ unsafe partial struct PairHistory
     /// <summary>Where the depth search ended, and which corners were the first contacts.</summary>
     public DepthSearchState Search;
 
-    Vector3 normal;
-    FourVectors places;
-    FourFloats depths;
-    FeatureIds features;
+    CarriedContacts contacts;
 
     const int CacheLine = 64;
 
-    /// <summary>Greatest displacement, against each other, of bodies whose contacts are carried along; part of the smaller's reach.</summary>
-    public const float Tolerance = 1e-3f;
-
-    /// <summary>
-    /// Steps after which a pair is tested even though it has not moved: a bound for the drift of carried contacts, and for how long a
-    /// shape that was changed in place keeps the contacts of its old form.
-    /// </summary>
-    public const int Lifetime = 16;
-
-    // Support points of a search beyond which it is a slow one: a step of a walk costs several times what finding the old simplex right does.
+    // Support points of a search beyond which it is a slow one: a step of a descent costs several times what finding the old simplex right does.
     const int QuickEvaluations = 1;
     const int SlowFlag = 1 << 30;
-
-    // Relative rounding of offsets and depths, with room: what shapes that are apart must be farther apart by.
-    const float Rounding = 1e-5f;
 
     /// <summary>Forgets everything unless the pair has the shapes that the history is about.</summary>
     public void Identify(in ShapeIdentity a, in ShapeIdentity b)
@@ -98,25 +65,16 @@ unsafe partial struct PairHistory
     public bool TryReuse(in Vector3 offsetB, in Quaternion currentA, in Quaternion currentB, float speculativeMargin,
         ref ConvexContactManifold result)
     {
-        if (remaining == 0)
+        if (!bound.Holds(offsetB, currentA, currentB, speculativeMargin, out var translation, out var rotation))
             return false;
-        --remaining;
-        FindPose(offsetB, currentA, currentB, out var currentTurn, out var currentOffset);
-        var translation = currentOffset - offset;
-        var displacement = Exact.Length(translation) + reach * Displacement(currentTurn);
-        if (contactMask == 0)
+        if (bound.ContactMask == 0)
         {
-            if (!(displacement + speculativeMargin < room))
-                return false;
             result.Count = 0;
             result.OffsetB = offsetB;
             result.Normal = default;
             return true;
         }
-        var allowed = Tolerance * reach;
-        if (!(displacement < allowed && (speculativeMargin <= room || speculativeMargin <= allowed)))
-            return false;
-        Carry(offsetB, translation, currentTurn, aIsLarger ? currentA : currentB, ref result);
+        contacts.Carry(bound, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB, ref result);
         return true;
     }
 
@@ -147,54 +105,6 @@ unsafe partial struct PairHistory
         ref var source = ref Unsafe.As<DepthSearchStateWide, Rows8>(ref Unsafe.AsRef(in state));
         for (int i = 0; i < SearchRowCount; ++i)
             Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, Stride, indices);
-    }
-
-    /// <summary>Pose of the smaller shape in the frame of the larger.</summary>
-    readonly void FindPose(in Vector3 offsetB, in Quaternion turnA, in Quaternion turnB, out Quaternion relative, out Vector3 place)
-    {
-        var toLarger = Exact.Conjugate(aIsLarger ? turnA : turnB);
-        relative = Exact.Concatenate(aIsLarger ? turnB : turnA, toLarger);
-        place = Exact.Rotate(aIsLarger ? offsetB : -offsetB, toLarger);
-    }
-
-    /// <summary>Upper bound of how far a point of the smaller shape at a distance of one has moved by rotation, as the larger one sees it.</summary>
-    // Unit quaternions q and r that differ by a rotation of t have |q - r| = 2 sin(t / 4); a point at a distance of 1 moves by
-    // 2 sin(t / 2) = 4 sin(t / 4) cos(t / 4) <= 2 |q - r|. A dot product near one would lose the angle to rounding.
-    readonly float Displacement(in Quaternion current)
-    {
-        var sign = Exact.Dot(turn, current) < 0 ? -1f : 1f;
-        var x = current.X - sign * turn.X;
-        var y = current.Y - sign * turn.Y;
-        var z = current.Z - sign * turn.Z;
-        var w = current.W - sign * turn.W;
-        return 2 * MathF.Sqrt(x * x + y * y + z * z + w * w);
-    }
-
-    // Each contact is a point of the larger shape's surface and one of the smaller's, half its depth to either side.
-    readonly void Carry(in Vector3 offsetB, in Vector3 translation, in Quaternion currentTurn, in Quaternion larger, ref ConvexContactManifold result)
-    {
-        Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(turn), currentTurn), out var rotation);
-        Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
-        result.OffsetB = offsetB;
-        Matrix3x3.Transform(normal, toWorld, out result.Normal);
-        // From the larger shape's surface to the smaller one's where they touch.
-        var across = aIsLarger ? normal : -normal;
-        var center = aIsLarger ? offsetB : default;
-        var count = 0;
-        for (int i = 0; contactMask >> i != 0; ++i)
-        {
-            if ((contactMask >> i & 1) == 0)
-                continue;
-            ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, count++);
-            var halfway = across * (depths[i] * 0.5f);
-            var onLarger = places[i] - halfway - translation;
-            Matrix3x3.Transform(places[i] + halfway, rotation, out var onSmaller);
-            Matrix3x3.Transform((onLarger + onSmaller) * 0.5f, toWorld, out var place);
-            carried.Offset = place + center;
-            carried.Depth = Exact.Dot(onSmaller - onLarger, across);
-            carried.FeatureId = features[i];
-        }
-        result.Count = count;
     }
 }
 

@@ -1,0 +1,62 @@
+using System.Numerics;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Contacts of a pair in the frames of its shapes, from which they follow wherever these move by a little.</summary>
+// In the axes of the larger shape, as seen from the centre of the smaller, like the pose of RetestBound.
+struct CarriedContacts
+{
+    // From B to A.
+    Vector3 normal;
+    FourVectors positions;
+    FourFloats depths;
+    FeatureIds features;
+
+    /// <summary>Finds the contacts where the shapes are now.</summary>
+    /// <param name="bound">Which contacts there are, and where the shapes were.</param>
+    /// <param name="offsetB">Position of B less that of A.</param>
+    /// <param name="translation">By how much the smaller shape has moved since, in the frame of the larger.</param>
+    /// <param name="relative">Its orientation in that frame.</param>
+    /// <param name="larger">Orientation of the larger shape.</param>
+    /// <param name="result">The contacts.</param>
+    // Each contact is a point of the larger shape's surface and one of the smaller's, half its depth to either side.
+    public readonly void Carry(in RetestBound bound, in Vector3 offsetB, in Vector3 translation, in Quaternion relative, in Quaternion larger,
+        ref ConvexContactManifold result)
+    {
+        Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(bound.Orientation), relative), out var rotation);
+        Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
+        result.OffsetB = offsetB;
+        Matrix3x3.Transform(normal, toWorld, out result.Normal);
+        // From the larger shape's surface to the smaller one's where they touch.
+        var across = bound.AIsLarger ? normal : -normal;
+        var center = bound.AIsLarger ? offsetB : default;
+        var count = 0;
+        for (int i = 0; bound.ContactMask >> i != 0; ++i)
+        {
+            if ((bound.ContactMask >> i & 1) == 0)
+                continue;
+            ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, count++);
+            var halfway = across * (depths[i] * 0.5f);
+            var onLarger = positions[i] - halfway - translation;
+            Matrix3x3.Transform(positions[i] + halfway, rotation, out var onSmaller);
+            Matrix3x3.Transform((onLarger + onSmaller) * 0.5f, toWorld, out var position);
+            carried.Offset = position + center;
+            carried.Depth = Exact.Dot(onSmaller - onLarger, across);
+            carried.FeatureId = features[i];
+        }
+        result.Count = count;
+    }
+}
+
+/// <summary>A bundle of <see cref="CarriedContacts"/>, in whole rows of eight.</summary>
+struct CarriedContactsWide
+{
+    public Vector3Wide Normal;
+    public Few4<Vector3Wide> Positions;
+    public Few4<Vector<float>> Depths;
+    public Few4<Vector<int>> Features;
+    // Fills the last row up.
+    public Vector<float> Padding;
+}
