@@ -60,6 +60,13 @@ public class PairHistoryRecordTests
                     said += $" {contact.Offset} {contact.Depth} {contact.FeatureId}";
                 }
             }
+            // How far it may move, which is by how far the smaller of the two reaches: to one part in sixteen of what reaches differ by.
+            for (int i = 0; i < 16; ++i)
+            {
+                var copy = history;
+                var way = new Vector3(0, RetestBound.Tolerance * (1 + i / 16f), 0);
+                said += copy.TryReuse(Found.OffsetB + way, A, B, Margin, ref recalled[0]) ? " near" : " far";
+            }
             return said;
         }
     }
