@@ -265,7 +265,7 @@ unsafe struct FaceOverlap
         exists &= Vector.GreaterThanOrEqual(depth, MinimumDepth);
         candidate.X = x;
         candidate.Y = y;
-        candidate.Depth = Wide.Select(exists, Wide.Min(depth, PairDepth), new Vector<float>(FaceCandidate.None));
+        candidate.Depth = Wide.Select(exists, Wide.Min(depth, PairDepth), new Vector<float>(IContactCandidate.None));
         candidate.Name = new Vector<int>(name);
         CandidateCount += Vector.EqualsAll(exists, Vector<int>.Zero) ? 0 : 1;
     }

@@ -165,12 +165,12 @@ struct BoxFaces
         ref var first = ref candidates.At(index);
         first.X = middleX + alongX * start;
         first.Y = middleY + alongY * start;
-        first.Depth = Wide.Select(isOver, middleDepth + alongDepth * start, new Vector<float>(ContactCandidates.None));
+        first.Depth = Wide.Select(isOver, middleDepth + alongDepth * start, new Vector<float>(IContactCandidate.None));
         ref var second = ref candidates.At(index + 1);
         second.X = middleX + alongX * end;
         second.Y = middleY + alongY * end;
         var isCutOff = isOver & Vector.LessThan(end, one);
-        second.Depth = Wide.Select(isCutOff, middleDepth + alongDepth * end, new Vector<float>(ContactCandidates.None));
+        second.Depth = Wide.Select(isCutOff, middleDepth + alongDepth * end, new Vector<float>(IContactCandidate.None));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -185,7 +185,7 @@ struct BoxFaces
         ref var corner = ref candidates.At(index);
         corner.X = x;
         corner.Y = y;
-        corner.Depth = Wide.Select(isUnder, CenterDepth + s * EdgeSDepth + t * EdgeTDepth, new Vector<float>(ContactCandidates.None));
+        corner.Depth = Wide.Select(isUnder, CenterDepth + s * EdgeSDepth + t * EdgeTDepth, new Vector<float>(IContactCandidate.None));
     }
 
     /// <summary>A point of B's face that is near to A's, for faces that overlap by no more than rounding.</summary>
