@@ -10,7 +10,7 @@ namespace BepuPhysics;
 /// <param name="shapesPerType">Number of shapes of each type.</param>
 /// <param name="constraints">Number of constraints, contacts included.</param>
 /// <param name="constraintsPerTypeBatch">Number of constraints for which a new type batch has room.</param>
-/// <param name="constraintCountPerBodyEstimate">Number of constraints for which a new body has room.</param>
+/// <param name="constraintCountPerBodyEstimate">Has no effect: constraints take no memory of bodies.</param>
 public struct SimulationAllocationSizes(
     int bodies, int statics, int islands, int shapesPerType, int constraints, int constraintsPerTypeBatch, int constraintCountPerBodyEstimate)
 {
@@ -26,7 +26,7 @@ public struct SimulationAllocationSizes(
     public int Constraints = constraints;
     /// <summary>Number of constraints for which a new type batch has room.</summary>
     public int ConstraintsPerTypeBatch = constraintsPerTypeBatch;
-    /// <summary>Number of constraints for which a new body has room.</summary>
+    /// <summary>Has no effect: constraints take no memory of bodies. From 0 to a million.</summary>
     public int ConstraintCountPerBodyEstimate = constraintCountPerBodyEstimate;
 
     internal static SimulationAllocationSizes Default => new(4096, 4096, 0, 128, 16384, 256, 8);

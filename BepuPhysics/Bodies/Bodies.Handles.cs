@@ -67,23 +67,11 @@ public sealed partial class Bodies
     void ThrowMissing(BodyHandle handle)
     {
         world.CheckAlive();
-        throw new ArgumentException(IsStale(handle) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+        throw owners.Missing(handle, handle.Value, handle.Slot);
     }
 
     /// <summary>Refuses a change of values while a step reads or writes them.</summary>
     internal void CheckWritable(string operation) => world.CheckWritable(operation);
 
-    // What a removal needs is there from the beginning: it takes no memory.
-    void EnsureSlots(int capacity)
-    {
-        var previous = Locations.Length;
-        if (capacity > previous)
-        {
-            Pool.ResizeToAtLeast(ref Locations, capacity, previous);
-            for (int i = previous; i < Locations.Length; ++i)
-                Locations[i].SetIndex = -1;
-        }
-        owners.EnsureCapacity(Locations.Length, Pool);
-        HandlePool.EnsureCapacity(Locations.Length, Pool);
-    }
+    void EnsureSlots(int count) => owners.EnsureSlots(count, new BodyMemoryLocation { SetIndex = -1 }, ref Locations, ref HandlePool, Pool);
 }

@@ -24,8 +24,7 @@ public sealed unsafe partial class Bodies
     public Buffer<BodySet> Sets;
     /// <summary>Memory of the bodies.</summary>
     public BufferPool Pool { get; }
-    /// <summary>Least number of constraints for which the list of a body has room; from 0 to a million. Nothing depends on it any more: lists of
-    /// constraints take no memory of bodies.</summary>
+    /// <summary>Has no effect, and is what it was set to: constraints take no memory of bodies. From 0 to a million.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The number is negative or more than a million; nothing was changed.</exception>
     public int MinimumConstraintCapacityPerBody
     {
@@ -215,13 +214,8 @@ public sealed unsafe partial class Bodies
     void MakeRoom(in BodyDescription description)
     {
         ref var set = ref ActiveSet;
-        if (HandlePool.AvailableIdCount == 0)
-        {
-            var slot = HandlePool.HighestPossiblyClaimedId + 1;
-            if (slot >= MaximumCount)
-                throw new InvalidOperationException($"There are {MaximumCount} bodies, as many as a simulation holds.");
-            EnsureSlots(slot + 1);
-        }
+        if (HandleOwners.NeedsSlot(HandlePool, MaximumCount, "bodies", out var slotCount))
+            EnsureSlots(slotCount);
         if (set.Count == set.Capacity)
             set.Resize(set.Capacity * 2, Pool);
         set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);

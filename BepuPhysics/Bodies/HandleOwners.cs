@@ -1,3 +1,6 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Runtime.CompilerServices;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
@@ -66,8 +69,50 @@ struct HandleOwners
         }
     }
 
-    /// <summary>Makes room for a number of slots.</summary>
-    internal void EnsureCapacity(int capacity, BufferPool pool)
+    /// <summary>What is said of a handle that names nothing.</summary>
+    internal readonly ArgumentException Missing<THandle>(THandle handle, int value, int slot) =>
+        new(IsStale(value, slot) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+
+    /// <summary>Whether one more handle needs a slot that there is no row for yet.</summary>
+    /// <param name="ids">Free slots.</param>
+    /// <param name="maximumCount">Greatest number of slots.</param>
+    /// <param name="kind">What the handles name, for a reader.</param>
+    /// <param name="count">Number of slots that there must be then.</param>
+    /// <exception cref="InvalidOperationException">There are no more slots.</exception>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static bool NeedsSlot(in IdPool ids, int maximumCount, string kind, out int count)
+    {
+        count = ids.HighestPossiblyClaimedId + 2;
+        if (ids.AvailableIdCount > 0)
+            return false;
+        if (count > maximumCount)
+            ThrowFull(maximumCount, kind);
+        return true;
+    }
+
+    [DoesNotReturn]
+    static void ThrowFull(int maximumCount, string kind) =>
+        throw new InvalidOperationException($"There are {maximumCount} {kind}, as many as a simulation holds.");
+
+    /// <summary>Makes room for a number of slots, their rows, and their return: what a removal needs is there from the beginning.</summary>
+    /// <param name="count">Number of slots.</param>
+    /// <param name="absent">Row of a slot that is free.</param>
+    /// <param name="rows">A row for each slot.</param>
+    /// <param name="ids">Free slots.</param>
+    /// <param name="pool">Pool.</param>
+    internal void EnsureSlots<TRow>(int count, in TRow absent, ref Buffer<TRow> rows, ref IdPool ids, BufferPool pool) where TRow : unmanaged
+    {
+        var previous = rows.Length;
+        if (count > previous)
+        {
+            pool.ResizeToAtLeast(ref rows, count, previous);
+            rows.AsSpan()[previous..].Fill(absent);
+        }
+        EnsureCapacity(rows.Length, pool);
+        ids.EnsureCapacity(rows.Length, pool);
+    }
+
+    void EnsureCapacity(int capacity, BufferPool pool)
     {
         if (capacity <= values.Length)
             return;

@@ -262,7 +262,7 @@ public sealed unsafe partial class Statics
     void ThrowMissing(StaticHandle handle)
     {
         world.CheckAlive();
-        throw new ArgumentException(IsStale(handle) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+        throw owners.Missing(handle, handle.Value, handle.Slot);
     }
 
     void CheckIndex(int index)
@@ -280,31 +280,14 @@ public sealed unsafe partial class Statics
 
     void MakeRoom()
     {
-        if (HandlePool.AvailableIdCount == 0)
-        {
-            var slot = HandlePool.HighestPossiblyClaimedId + 1;
-            if (slot >= MaximumCount)
-                throw new InvalidOperationException($"There are {MaximumCount} statics, as many as a simulation holds.");
-            EnsureSlots(slot + 1);
-        }
+        if (HandleOwners.NeedsSlot(HandlePool, MaximumCount, "statics", out var slotCount))
+            EnsureSlots(slotCount);
         if (Count == Capacity)
             MakeRoomFor(Count * 2);
         broadPhase.MakeRoomFor(0, broadPhase.StaticTree.LeafCount + 1);
     }
 
-    // What a removal needs is there from the beginning: it takes no memory.
-    void EnsureSlots(int capacity)
-    {
-        var previous = Indices.Length;
-        if (capacity > previous)
-        {
-            pool.ResizeToAtLeast(ref Indices, capacity, previous);
-            for (int i = previous; i < Indices.Length; ++i)
-                Indices[i] = -1;
-        }
-        owners.EnsureCapacity(Indices.Length, pool);
-        HandlePool.EnsureCapacity(Indices.Length, pool);
-    }
+    void EnsureSlots(int count) => owners.EnsureSlots(count, -1, ref Indices, ref HandlePool, pool);
 
     BoundingBox BoundsOf(in RigidPose pose, TypedIndex shape)
     {

@@ -142,13 +142,8 @@ public sealed unsafe partial class Solver
     /// <summary>Adds a constraint of a registered type; the caller writes its description.</summary>
     internal ConstraintHandle AddUnwritten(ReadOnlySpan<BodyHandle> bodyHandles, int typeId)
     {
-        if (HandlePool.AvailableIdCount == 0)
-        {
-            var slot = HandlePool.HighestPossiblyClaimedId + 1;
-            if (slot >= MaximumCount)
-                throw new InvalidOperationException($"There are {MaximumCount} constraints, as many as a simulation holds.");
-            EnsureSlots(slot + 1);
-        }
+        if (HandleOwners.NeedsSlot(HandlePool, MaximumCount, "constraints", out var slotCount))
+            EnsureSlots(slotCount);
         var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
         Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
         for (int i = 0; i < bodyHandles.Length; ++i)

@@ -193,23 +193,13 @@ public sealed unsafe partial class Solver
     void ThrowMissing(ConstraintHandle handle)
     {
         world.CheckAlive();
-        throw new ArgumentException(
-            owners.IsStale(handle.Value, handle.Slot) ? $"There is no {handle} any more: it was removed." : $"There is no {handle}.", nameof(handle));
+        throw owners.Missing(handle, handle.Value, handle.Slot);
     }
 
-    // What a removal needs is there from the beginning: it takes no memory.
-    void EnsureSlots(int capacity)
+    void EnsureSlots(int count)
     {
-        var previous = Locations.Length;
-        if (capacity > previous)
-        {
-            pool.ResizeToAtLeast(ref Locations, capacity, previous);
-            for (int i = previous; i < Locations.Length; ++i)
-                Locations[i].SetIndex = -1;
-        }
+        owners.EnsureSlots(count, new ConstraintLocation { SetIndex = -1 }, ref Locations, ref HandlePool, pool);
         Edges.EnsureCapacity(Locations.Length, pool);
-        owners.EnsureCapacity(Locations.Length, pool);
-        HandlePool.EnsureCapacity(Locations.Length, pool);
     }
 
     internal void Clear()
