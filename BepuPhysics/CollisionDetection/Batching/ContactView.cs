@@ -90,11 +90,7 @@ unsafe ref struct ContactView
     readonly float Depth(in Origin origin) => results[origin.Result].Manifold.GetDepth(origin.Contact);
 
     // Features of different children have different ids, as far as 32 bits can tell.
-    static int Mix(int featureId, ChildIds children)
-    {
-        var mixed = (uint)children.A * 2654435769u ^ (uint)children.B * 2246822519u;
-        return featureId ^ (int)(mixed ^ mixed >> 15);
-    }
+    static int Mix(int featureId, ChildIds children) => featureId ^ CollidablePairComparer.Hash((uint)children.A, (uint)children.B);
 
     /// <summary>
     /// Takes over what was changed in a nonconvex view: places, depths, normals, and what was removed. Contacts are known by their feature

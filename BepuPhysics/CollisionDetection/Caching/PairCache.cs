@@ -13,10 +13,13 @@ public struct CollidablePairComparer : IEqualityComparerRef<CollidablePair>
     public readonly bool Equals(ref CollidablePair a, ref CollidablePair b) => a.A.Packed == b.A.Packed && a.B.Packed == b.B.Packed;
 
     /// <inheritdoc/>
-    // Multiplying by odd constants near 2^32 over the golden ratio spreads neighbouring handles over the table.
-    public readonly int Hash(ref CollidablePair item)
+    public readonly int Hash(ref CollidablePair item) => Hash(item.A.Packed, item.B.Packed);
+
+    /// <summary>A number for two, in their order.</summary>
+    // Multiplying by odd constants near 2^32 over the golden ratio spreads neighbouring numbers over all bits.
+    internal static int Hash(uint a, uint b)
     {
-        var mixed = (item.A.Packed * 2654435769u) ^ (item.B.Packed * 2246822519u);
+        var mixed = (a * 2654435769u) ^ (b * 2246822519u);
         return (int)(mixed ^ mixed >> 15);
     }
 }
