@@ -7,13 +7,9 @@ namespace BepuPhysics;
 /// <summary>Checks of the values that describe bodies and statics.</summary>
 static class BodyChecks
 {
-    /// <summary>Greatest deviation of a squared length from 1 that still counts as a unit vector or quaternion.</summary>
-    // Wide enough for user code that normalises in float and rounds on the way, narrow enough to find what was never normalised.
-    const float UnitTolerance = 1e-2f;
-
     const float LeastInverseMass = 1 / Limits.MaximumMass, GreatestInverseMass = 1 / Limits.MinimumMass;
 
-    internal static bool HasUnitLength(float lengthSquared) => MathF.Abs(lengthSquared - 1) <= UnitTolerance;
+    internal static bool HasUnitLength(float lengthSquared) => MathF.Abs(lengthSquared - 1) <= UnitTolerance.Described;
 
     internal static void Position(Vector3 value, string name) => Bounded(value, Limits.MaximumPosition, name);
 

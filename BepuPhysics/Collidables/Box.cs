@@ -139,9 +139,8 @@ public struct BoxWide : IShapeWide<Box>
     internal static void IntersectSlab(
         Vector<float> position, Vector<float> direction, Vector<float> halfExtent, out Vector<float> entry, out Vector<float> exit)
     {
-        // A line that is closer to parallel than this stays at its distance, to rounding, over any chord of any box: the interval is
-        // then everything or nothing. NaN directions come out as nothing in Resolve.
-        var parallel = Vector.LessThan(Vector.Abs(direction), new Vector<float>(1e-15f));
+        // Along a parallel line the interval is everything or nothing. NaN directions come out as nothing in Resolve.
+        var parallel = Vector.LessThan(Vector.Abs(direction), new Vector<float>(CenteredRayWide.ParallelSpeed));
         var inside = Vector.LessThanOrEqual(Vector.Abs(position), halfExtent);
         var everything = new Vector<float>(float.MaxValue);
         var toLower = (-halfExtent - position) / direction;

@@ -17,6 +17,12 @@ namespace BepuPhysics.Collidables;
 /// </remarks>
 struct CenteredRayWide
 {
+    /// <summary>
+    /// Component of the unit direction across a face or an axis below which the line is parallel: it stays at its distance, to rounding, over any
+    /// chord of any shape, and no distance is divided by less.
+    /// </summary>
+    public const float ParallelSpeed = 1e-15f;
+
     /// <summary>Point of the line closest to the centre of the shape, relative to that centre, m.</summary>
     public Vector3Wide Closest;
     /// <summary>Unit direction; NaN where the ray has none.</summary>

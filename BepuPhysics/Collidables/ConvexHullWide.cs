@@ -117,8 +117,8 @@ public unsafe struct ConvexHullWide : IShapeWide<ConvexHull>
             ref var plane = ref planes[i];
             var speed = Vector3Wide.Dot(plane.Normal, direction);
             var distance = plane.Offset - Vector3Wide.Dot(plane.Normal, position);
-            // Closer to parallel than this, the line stays at its distance, to rounding, over any chord: everything is inside or nothing.
-            var parallel = Vector.LessThan(Vector.Abs(speed), new Vector<float>(1e-15f));
+            // Of a parallel line everything is inside, or nothing.
+            var parallel = Vector.LessThan(Vector.Abs(speed), new Vector<float>(CenteredRayWide.ParallelSpeed));
             var outside = Wide.Select(Vector.GreaterThanOrEqual(distance, Vector<float>.Zero), -everything, everything);
             var crossing = distance / speed;
             var enters = Wide.Select(parallel, outside, Wide.Select(Vector.LessThan(speed, Vector<float>.Zero), crossing, -everything));

@@ -140,7 +140,7 @@ public struct CylinderWide : IShapeWide<Cylinder>
         var p = line.Closest;
         var d = line.Direction;
         var length = Vector.SquareRoot(d.X * d.X + d.Z * d.Z);
-        var parallel = Vector.LessThan(length, new Vector<float>(1e-15f));
+        var parallel = Vector.LessThan(length, new Vector<float>(CenteredRayWide.ParallelSpeed));
         var inverse = Vector<float>.One / length;
         var x = d.X * inverse;
         var z = d.Z * inverse;

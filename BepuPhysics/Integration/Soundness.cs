@@ -14,8 +14,6 @@ static class Soundness
 {
     /// <summary>Square of the greatest distance from the origin, m, and of the greatest speeds, m/s and rad/s, that count as sound.</summary>
     const float GreatestSquare = 1e25f;
-    /// <summary>How far the squared length of a quaternion that a game has written may be from 1 before it is no rotation any more.</summary>
-    const float GreatestDeviation = 0.5f;
 
     /// <summary>Lanes with a sound pose and velocity.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -23,7 +21,7 @@ static class Soundness
     {
         var deviation = Vector.Abs(LengthSquared(pose.Orientation) - Vector<float>.One);
         var motion = pose.Position.LengthSquared() + velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
-        return Vector.LessThanOrEqual(deviation, new Vector<float>(GreatestDeviation)) &
+        return Vector.LessThanOrEqual(deviation, new Vector<float>(UnitTolerance.Sound)) &
             Vector.LessThanOrEqual(motion, new Vector<float>(GreatestSquare));
     }
 
@@ -56,7 +54,7 @@ static class Soundness
 
     /// <summary>Whether one pose is sound.</summary>
     internal static bool IsSound(in RigidPose pose) => Exact.LengthSquared(pose.Position) <= GreatestSquare &&
-        MathF.Abs(Exact.Dot(pose.Orientation, pose.Orientation) - 1) <= GreatestDeviation;
+        MathF.Abs(Exact.Dot(pose.Orientation, pose.Orientation) - 1) <= UnitTolerance.Sound;
 
     /// <summary>Whether one velocity is sound.</summary>
     internal static bool IsSound(in BodyVelocity velocity) =>

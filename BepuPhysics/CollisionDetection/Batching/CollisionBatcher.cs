@@ -25,9 +25,6 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
     /// <summary>Receives the results.</summary>
     public TCallbacks Callbacks;
 
-    // How far the squared length of a rotation may be from one.
-    const float UnitTolerance = 1e-3f;
-
     readonly CollisionTaskRegistry registry;
     readonly PairHistory* histories;
     PairBatches batches;
@@ -278,7 +275,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
         var squares = Vector128.LoadUnsafe(in orientation.X) * Vector128.LoadUnsafe(in orientation.X);
         squares += Vector128.Shuffle(squares, Vector128.Create(2, 3, 0, 1));
         squares += Vector128.Shuffle(squares, Vector128.Create(1, 0, 3, 2));
-        return Vector128.LessThan(Vector128.Abs(squares - Vector128<float>.One), Vector128.Create(UnitTolerance));
+        return Vector128.LessThan(Vector128.Abs(squares - Vector128<float>.One), Vector128.Create(UnitTolerance.Tested));
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -8,8 +8,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
 {
     // Points of circles whose angles differ by less than 60 degrees are one that has moved.
     const float NearCosine = 0.5f;
-    // Squared length, in units of the search, below which an edge is none; and the least curvature that a spread is measured by.
-    const float LeastSquaredSpan = 1e-14f;
+    // The least curvature, in units of the search, that a spread is measured by.
     const float LeastCurvature = 1e-3f;
     // Angle around a circle, rad, by which a point is moved at most: with a square root's first two terms it stays on the circle to rounding.
     const float GreatestSpread = 0.02f;
@@ -127,7 +126,7 @@ public static partial class DepthSearch<TShapeWideA, TSupportA, TShapeWideB, TSu
         var across = Vector3Wide.Cross(Vector3Wide.Select(sameAB, simplex.C.Point, simplex.B.Point) - simplex.A.Point, descent.Direction);
         across = Vector3Wide.Select(pointMask, curvature.AnyTangent(IsBothRound), across);
         var squaredAcross = across.LengthSquared();
-        mask &= Vector.GreaterThan(squaredAcross, new Vector<float>(LeastSquaredSpan));
+        mask &= Vector.GreaterThan(squaredAcross, new Vector<float>(SearchTolerances.SquaredSamePoint));
         var first = across * (Vector<float>.One / Vector.SquareRoot(squaredAcross));
         var second = Vector3Wide.Cross(descent.Direction, first);
         var tolerance = frame.ToleranceAt(descent.Depth);

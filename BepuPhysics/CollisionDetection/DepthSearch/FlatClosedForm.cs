@@ -35,7 +35,7 @@ static partial class FlatClosedForm<TShapeWideF, TSupportF, TShapeWideG, TSuppor
     // Cosine of the angle to the direction up to which a face faces it.
     const float LeastFacingCosine = 0.7f;
     // Tangent of the angle between the face and an end or a side up to which they count as nearly parallel.
-    const float GreatestSlope = 0.05f;
+    const float GreatestSlope = SearchTolerances.NearlyParallel;
     // Square of the slope of a direction against the face's normal: where an edge hardly cuts a rim it may be anything.
     const float GreatestSquaredTilt = 4 * GreatestSlope * GreatestSlope;
     // Where the cylinder is seen to be depends on the direction that it is seen from, so the place is found again with the direction that was found

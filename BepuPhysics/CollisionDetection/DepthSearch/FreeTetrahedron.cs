@@ -12,9 +12,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 static class FreeTetrahedron
 {
-    // Squared sine below which a side is too narrow to say where its plane is.
-    const float LeastSquaredSine = 1e-6f;
-
     /// <summary>Lanes in which no direction can be less deep than a bound; zero or more.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static Vector<int> Certifies(in SearchDescent descent, in SearchFrame frame, Vector<float> bound)
@@ -38,7 +35,7 @@ static class FreeTetrahedron
         var offset = Vector3Wide.Dot(normal, a);
         var outward = Vector3Wide.Dot(normal, a - opposite);
         var scaledOffset = Wide.Select(Vector.LessThan(outward, Vector<float>.Zero), -offset, offset);
-        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
+        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(SearchTolerances.SquaredSineOfPlane)) &
             Vector.GreaterThanOrEqual(scaledOffset, bound * Vector.SquareRoot(squared));
     }
 }

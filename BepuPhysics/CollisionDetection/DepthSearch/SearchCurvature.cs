@@ -14,8 +14,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 struct SearchCurvature
 {
-    // Sine of the angle to the axis below which the end of a cylinder counts as flat: around it, farthest points run too fast for a step.
-    const float LeastSine = 0.05f;
     // Part of the curvature that the depth may take away. Where shapes overlap, the target moves along with the plane: a depth of h is a curvature
     // of -h. Where that is more than there is, the direction is no minimum, and steps remain steps down.
     const float GreatestLoss = 0.9f;
@@ -41,7 +39,7 @@ struct SearchCurvature
     public static Vector<float> FindWeight(in Vector3Wide radial, Vector<float> squaredRadius, in Vector3Wide direction, Vector<float> scale)
     {
         var height = Vector3Wide.Dot(radial, direction);
-        return Wide.Mask(Vector.GreaterThan(height * height, squaredRadius * new Vector<float>(LeastSine * LeastSine)), scale / height);
+        return Wide.Mask(Vector.GreaterThan(height * height, squaredRadius * new Vector<float>(SearchTolerances.NearlyParallel * SearchTolerances.NearlyParallel)), scale / height);
     }
 
     /// <summary>Lanes that can be stepped: the simplex is a point, or an edge that is not along the best direction.</summary>

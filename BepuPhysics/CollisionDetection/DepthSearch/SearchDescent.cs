@@ -7,9 +7,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Where a descent is: its simplex, the best direction, and the depth in it.</summary>
 struct SearchDescent
 {
-    // Squared sine below which the remembered triangle shows no direction, and cosine of the angle between its normal and
-    // the remembered direction up to which it is used.
-    const float LeastSquaredSine = 1e-6f;
+    // Cosine of the angle between the remembered triangle's normal and the remembered direction up to which the normal is used.
     const float LeastNormalCosine = 0.9f;
 
     public SearchSimplex Simplex;
@@ -53,7 +51,7 @@ struct SearchDescent
         var length = Vector.SquareRoot(squared);
         var along = Vector3Wide.Dot(normal, state.Direction);
         var useNormal =
-            Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
+            Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(SearchTolerances.SquaredSineOfPlane)) &
             Vector.GreaterThan(Vector.Abs(along), length * new Vector<float>(LeastNormalCosine));
         var known = Vector3Wide.Select(useNormal, normal * Wide.CopySign(Vector<float>.One / length, along), state.Direction);
         Direction = Vector3Wide.Select(knownMask, known, Direction);

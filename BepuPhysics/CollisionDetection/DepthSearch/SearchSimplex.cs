@@ -46,9 +46,6 @@ struct SimplexForm
 /// <summary>Up to three points of the Minkowski difference. A segment or a single point repeats some of its vertices.</summary>
 struct SearchSimplex
 {
-    // Squared length, in units of the search, below which two vertices are one; squared sine below which three are on a line.
-    const float LeastSquaredEdge = 1e-14f;
-    const float LeastSquaredSine = 1e-12f;
     // Squared ratio of lengths below which a triangle at a vertex is a needle: its far side is that short.
     const float SquaredNeedle = 1e-2f;
     // Part of an edge that rounding may move a point along it; less than what the descent tolerates.
@@ -168,7 +165,7 @@ struct SearchSimplex
         // the far end of an edge is not across it, and stays.
         var edge = Vector3Wide.Select(keepA, a, Vector3Wide.Select(keepB, b, c));
         var squaredEdge = Wide.Select(keepA, squaredA, Wide.Select(keepB, squaredB, squaredC));
-        var hasEdge = (keepA | keepB | keepC) & Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
+        var hasEdge = (keepA | keepB | keepC) & Vector.GreaterThan(squaredEdge, new Vector<float>(SearchTolerances.SquaredSamePoint));
         var slip = Vector3Wide.Dot(closest, edge) / squaredEdge;
         closest -= edge * Wide.Mask(hasEdge & Vector.LessThan(Vector.Abs(slip), new Vector<float>(GreatestSlip)), slip);
         if (triangleMask != Vector<int>.Zero)
@@ -205,12 +202,12 @@ struct SearchSimplex
         var shortEdge = Vector3Wide.Select(longIsB, c, b);
         var squaredLong = Wide.Select(longIsB, squaredB, squaredC);
         var squaredShort = Wide.Select(longIsB, squaredC, squaredB);
-        var hasEdge = Vector.GreaterThan(squaredLong, new Vector<float>(LeastSquaredEdge));
+        var hasEdge = Vector.GreaterThan(squaredLong, new Vector<float>(SearchTolerances.SquaredSamePoint));
         var inverse = Wide.Mask(hasEdge, one / squaredLong);
         var across = shortEdge - longEdge * (Vector3Wide.Dot(shortEdge, longEdge) * inverse);
         across -= longEdge * (Vector3Wide.Dot(across, longEdge) * inverse);
         var squaredAcross = across.LengthSquared();
-        var isTriangle = Vector.GreaterThan(squaredAcross, squaredShort * new Vector<float>(LeastSquaredSine));
+        var isTriangle = Vector.GreaterThan(squaredAcross, squaredShort * new Vector<float>(SearchTolerances.SquaredSineOfLine));
         var shortWeight = Wide.Clamp(Wide.Mask(isTriangle, Vector3Wide.Dot(q, across) / squaredAcross), zero, one);
         var longWeight = Vector3Wide.Dot(q - shortEdge * shortWeight, longEdge) * inverse;
         // Where edges are all but parallel, the first weight may be off by any part of one, and then no second weight makes that good. The point
@@ -244,7 +241,7 @@ struct SearchSimplex
     static Vector<int> TrySegment(
         in Vector3Wide q, in Vector3Wide edge, Vector<float> squaredEdge, ref Vector3Wide closest, ref Vector<float> distance)
     {
-        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(LeastSquaredEdge));
+        var hasEdge = Vector.GreaterThan(squaredEdge, new Vector<float>(SearchTolerances.SquaredSamePoint));
         var along = Wide.Clamp(
             Wide.Mask(hasEdge, Vector3Wide.Dot(q, edge) / squaredEdge), Vector<float>.Zero, Vector<float>.One);
         var candidate = q - edge * along;
@@ -288,7 +285,7 @@ struct SearchSimplex
         var scaled = height / determinant;
         var squared = height * scaled;
         var better = wantedMask &
-            Vector.GreaterThan(determinant, squared1 * squared2 * new Vector<float>(LeastSquaredSine)) &
+            Vector.GreaterThan(determinant, squared1 * squared2 * new Vector<float>(SearchTolerances.SquaredSineOfLine)) &
             Vector.GreaterThanOrEqual(u, Vector<float>.Zero) & Vector.GreaterThanOrEqual(v, Vector<float>.Zero) &
             Vector.LessThanOrEqual(sum, determinant) & Vector.LessThanOrEqual(squared, distance);
         closest = Vector3Wide.Select(better, normal * scaled, closest);

@@ -14,9 +14,8 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 static class SideClosedForm
 {
-    // Cosine of the angle between the direction and an axis up to which it is the side that is touched, and sine of that between axes that are
-    // nearly parallel.
-    const float GreatestCosine = 0.05f;
+    // Cosine of the angle between the direction and an axis up to which it is the side that is touched, and sine of that between axes.
+    const float GreatestCosine = SearchTolerances.NearlyParallel;
 
     /// <summary>Finds direction and points.</summary>
     /// <param name="radiusA">Radius of the first cylinder.</param>

@@ -17,8 +17,6 @@ namespace BepuPhysics.CollisionDetection;
 struct SupportRing
 {
     public const int VertexCount = 4;
-    // Squared sine below which a triangle is too narrow to say where its plane is.
-    const float LeastSquaredSine = 1e-6f;
     // Tangent of the tilt, at most: where shapes hardly touch, anything would do.
     const float GreatestTilt = 0.5f;
     // In sizes of the smaller shape. The ring reaches the tilt times a radius of curvature to the side, and there its planes must be as far from
@@ -108,7 +106,7 @@ struct SupportRing
         var outward = Vector3Wide.Cross(e1, e2);
         var squared = outward.LengthSquared();
         var offset = Vector3Wide.Dot(outward, a);
-        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(LeastSquaredSine)) &
+        return Vector.GreaterThan(squared, e1.LengthSquared() * e2.LengthSquared() * new Vector<float>(SearchTolerances.SquaredSineOfPlane)) &
             Vector.GreaterThan(offset, Vector<float>.Zero) & Vector.GreaterThanOrEqual(offset * offset, squaredBound * squared);
     }
 

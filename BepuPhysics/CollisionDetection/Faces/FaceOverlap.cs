@@ -17,9 +17,11 @@ unsafe struct FaceOverlap
     // counts as inside. The second is a few roundings of a coordinate.
     const float BorderTolerance = 5e-6f;
     const float BorderRounding = 2e-7f;
-    // A contact may be where the other of two round segments is this part of the smaller radius to the side: the surface is farther there
-    // by the square of it.
-    const float SideDeviation = 0.02f;
+    /// <summary>
+    /// A contact may be where the other of two round segments is this part of the smaller radius to the side, or of the mean of radius and size where
+    /// a capsule is the smaller: the surface is farther there by the square of it.
+    /// </summary>
+    public const float SideDeviation = 0.02f;
     // Segments that are beside each other for less than so many of their deviations cross.
     const float MinimumSegmentLength = 10;
 

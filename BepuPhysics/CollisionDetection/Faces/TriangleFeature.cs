@@ -8,9 +8,11 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>A triangle, from the side that the direction looks to.</summary>
 public readonly struct TriangleFeature : IContactFeature<TriangleWide>
 {
-    // Sine by which a direction may point behind a one-sided triangle. A triangle that is touched at an edge, in its plane, would
-    // otherwise be there or not by rounding.
-    const float BehindSine = 1e-4f;
+    /// <summary>
+    /// Sine by which a direction may point behind a one-sided triangle. A triangle that is touched at an edge, in its plane, would
+    /// otherwise be there or not by rounding, and so would one whose plane a segment crosses.
+    /// </summary>
+    internal const float BehindSine = 1e-4f;
 
     /// <inheritdoc/>
     public static int MaximumVertexCount => 3;

@@ -13,13 +13,6 @@ namespace BepuPhysics.CollisionDetection;
 // Axes are compared by depth |depth| m.m / m.m, which needs no root: nine roots become one.
 static class BoxAxes
 {
-    // Squared sine below which two edges are parallel: edges at that angle leave each other's line by 1e-6 of their length, and the faces
-    // beside them show the depth as well to that.
-    const float ParallelSineSquared = 1e-12f;
-    // An edge must beat the faces by this part of the smaller box. Rounding is below it, so faces that rest on each other keep their
-    // normal.
-    const float EdgeTolerance = 1e-5f;
-
     /// <summary>Finds the axis of least depth.</summary>
     /// <param name="a">First boxes.</param>
     /// <param name="b">Second boxes.</param>
@@ -47,7 +40,7 @@ static class BoxAxes
         var edgeNormal = edges.Normal();
         var edgeDepth = Wide.CopySign(Vector.SquareRoot(Vector.Abs(edges.Score)), edges.Score);
         var size = Wide.Min(a.HalfWidth + a.HalfHeight + a.HalfLength, b.HalfWidth + b.HalfHeight + b.HalfLength);
-        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(EdgeTolerance), depth);
+        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(PairTolerances.EdgeAdvantage), depth);
         depth = Wide.Select(useEdge, edgeDepth, depth);
         normal = Vector3Wide.Select(useEdge, edgeNormal, normal);
         normal = Vector3Wide.Select(Vector.GreaterThan(Vector3Wide.Dot(normal, offsetB), Vector<float>.Zero), -normal, normal);
@@ -124,7 +117,7 @@ static class BoxAxes
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         static Vector<float> Rate(Vector<float> scaledDepth, Vector<float> sineSquared) => Wide.Select(
-            Vector.GreaterThan(sineSquared, new Vector<float>(ParallelSineSquared)),
+            Vector.GreaterThan(sineSquared, new Vector<float>(PairTolerances.ParallelBoxEdge)),
             scaledDepth * Vector.Abs(scaledDepth) / sineSquared,
             new Vector<float>(float.MaxValue));
 

@@ -7,9 +7,6 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Parts of lines against boxes.</summary>
 static class BoxLine
 {
-    // In place of a direction along a face: the line then crosses the planes of that pair of faces far off.
-    const float LeastSpeed = 1e-20f;
-
     /// <summary>Finds the place on a part of a line that is nearest to a box; in the middle of those that are equally near.</summary>
     /// <param name="start">Where the place is zero, from the box's centre in its axes.</param>
     /// <param name="direction">Way per unit of place; of any length.</param>
@@ -54,7 +51,7 @@ static class BoxLine
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Cross(Vector<float> start, Vector<float> speed, Vector<float> extent, out Vector<float> enter, out Vector<float> leave)
     {
-        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(LeastSpeed)), speed);
+        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(PairTolerances.LeastSpeed)), speed);
         var middle = -start * inverse;
         var reach = extent * Vector.Abs(inverse);
         enter = middle - reach;

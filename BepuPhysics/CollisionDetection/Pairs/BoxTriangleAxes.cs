@@ -14,16 +14,6 @@ namespace BepuPhysics.CollisionDetection;
 // covers that.
 struct BoxTriangleAxes
 {
-    // Squared sine below which two edges are parallel: edges at that angle leave each other's line by 1e-6 of their length, and the faces
-    // beside them show the depth as well to that.
-    const float ParallelSineSquared = 1e-12f;
-    // An axis of edges must beat the faces by this part of the smaller shape. Rounding is below it, so faces that rest on each other keep
-    // their normal.
-    const float EdgeTolerance = 1e-5f;
-    // Nearest points must show this much more than the axes, by the smaller shape.
-    const float NearestTolerance = 1e-6f;
-    // Part of the smaller shape by which nearest points may be farther apart than the axis shows and still be what it belongs to.
-    const float TouchTolerance = 1e-5f;
     // Depth up to which the nearest points are looked for, by the smaller shape.
     const float ShallowTolerance = 1e-4f;
 
@@ -98,7 +88,7 @@ struct BoxTriangleAxes
 
         // Edges.
         var edgeDepth = Wide.CopySign(Vector.SquareRoot(Vector.Abs(edges.Score)), edges.Score);
-        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(EdgeTolerance), depth);
+        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(PairTolerances.EdgeAdvantage), depth);
         depth = Wide.Select(useEdge, edgeDepth, depth);
         normal = Vector3Wide.Select(useEdge, edges.GetNormal(), normal);
         Normal = normal;
@@ -137,7 +127,7 @@ struct BoxTriangleAxes
             var extent = Vector3Wide.Abs(Vector3Wide.Cross(edge, half)) - Vector3Wide.Abs(middle);
             var absolute = Vector3Wide.Abs(edge);
             var squares = edge * edge;
-            var floor = (squares.X + squares.Y + squares.Z) * new Vector<float>(ParallelSineSquared);
+            var floor = (squares.X + squares.Y + squares.Z) * new Vector<float>(PairTolerances.ParallelBoxEdge);
             var score = Rate(box.HalfHeight * absolute.Z + box.HalfLength * absolute.Y + extent.X, squares.Y + squares.Z, floor);
             var scoreY = Rate(box.HalfLength * absolute.X + box.HalfWidth * absolute.Z + extent.Y, squares.Z + squares.X, floor);
             var scoreZ = Rate(box.HalfWidth * absolute.Y + box.HalfHeight * absolute.X + extent.Z, squares.X + squares.Y, floor);
@@ -207,13 +197,13 @@ struct BoxTriangleAxes
         Triangle.Project(axis, out _, out var greatest);
         var absolute = Vector3Wide.Abs(axis);
         var depth = greatest + box.HalfWidth * absolute.X + box.HalfHeight * absolute.Y + box.HalfLength * absolute.Z;
-        var better = mask & Vector.LessThan(depth, Depth - size * new Vector<float>(NearestTolerance)) &
+        var better = mask & Vector.LessThan(depth, Depth - size * new Vector<float>(PairTolerances.NearestAdvantage)) &
             Vector.GreaterThan(absolute.X + absolute.Y + absolute.Z, new Vector<float>(0.5f));
         Depth = Wide.Select(better, depth, Depth);
         Normal = Vector3Wide.Select(better, axis, Normal);
         // Touching at corners, many axes show the same, but not the place.
         var isTouching = mask & Vector.LessThan(Vector.SquareRoot(nearest.SquaredDistance),
-            Vector.Abs(Depth) + size * new Vector<float>(TouchTolerance));
+            Vector.Abs(Depth) + size * new Vector<float>(PairTolerances.SamePoints));
         PointOnBox = Vector3Wide.Select(better | isTouching, nearest.PointOnBox, PointOnBox);
     }
 

@@ -15,17 +15,6 @@ namespace BepuPhysics.CollisionDetection;
 // the axis is the better known of the two; elsewhere the distance is greater than what any axis shows.
 public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2<ContactWide>>
 {
-    // Part of the size of the pair by which an edge must beat the faces, and by which the nearest points must lie beside an axis that shows
-    // their distance: rounding is below it.
-    const float AxisTolerance = 1e-6f;
-    // Squared sine below which a segment is parallel to an edge: a segment at that angle is 1e-6 of its length off.
-    const float ParallelSineSquared = 1e-12f;
-    // Part of the size of the pair that a segment may be beside a face and still be over it: along the face's border, contacts must not
-    // depend on rounding.
-    const float BorderTolerance = 3e-6f;
-    // Contacts nearer to each other than this part of the capsule's size are one.
-    const float MinimumContactDistance = 0.02f;
-
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Test(in CapsuleWide a, in BoxWide b, in PairPoseWide pose, Vector<float> speculativeMargin,
@@ -49,7 +38,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         FindLeastDepth(center, direction, a.HalfLength, half, size, out var coreDepth, out var normal);
 
         var beyondAxis = outside - normal * Wide.Max(-coreDepth, Vector<float>.Zero);
-        var usePoint = Vector.GreaterThan(beyondAxis.Length(), size * new Vector<float>(AxisTolerance));
+        var usePoint = Vector.GreaterThan(beyondAxis.Length(), size * new Vector<float>(PairTolerances.CapsuleAdvantage));
         normal = Vector3Wide.Select(usePoint, outside * (Vector<float>.One / distance), normal);
         var pairDepth = a.Radius + Wide.Select(usePoint, -distance, coreDepth);
 
@@ -65,7 +54,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
 
         var onFace = center - normal * height;
         var alongFace = direction - normal * slope;
-        var border = size * new Vector<float>(BorderTolerance);
+        var border = size * new Vector<float>(PairTolerances.CapsuleBorder);
         var start = -a.HalfLength;
         var end = a.HalfLength;
         ClipToSlab(onFace.X, alongFace.X, half.X + border, useX, ref start, ref end);
@@ -79,7 +68,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         start = Wide.Select(usePoint, Wide.Min(start, nearest), start);
         end = Wide.Select(usePoint, Wide.Max(end, nearest), end);
 
-        var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(MinimumContactDistance));
+        var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(PairTolerances.SameContactOnFace));
         var deeper = Wide.Select(Vector.LessThan(slope, Vector<float>.Zero), end, start);
         manifold.Normal = Matrix3x3Wide.TransposeTimes(axes, normal);
         ref var first = ref manifold.Contacts[0];
@@ -127,7 +116,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         TryEdge(crossX, squares.Y + squares.Z, new(zero, -direction.Z, direction.Y), ref edgeDepth, ref edgeNormal);
         TryEdge(crossY, squares.Z + squares.X, new(direction.Z, zero, -direction.X), ref edgeDepth, ref edgeNormal);
         TryEdge(crossZ, squares.X + squares.Y, new(-direction.Y, direction.X, zero), ref edgeDepth, ref edgeNormal);
-        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(AxisTolerance), depth);
+        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(PairTolerances.CapsuleAdvantage), depth);
         depth = Wide.Select(useEdge, edgeDepth, depth);
         normal = Vector3Wide.Select(useEdge, edgeNormal, normal);
         normal = Vector3Wide.Select(Vector.LessThan(Vector3Wide.Dot(normal, center), zero), -normal, normal);
@@ -139,7 +128,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
     {
         var inverse = Vector<float>.One / Vector.SquareRoot(sineSquared);
         var axisDepth = scaledDepth * inverse;
-        var better = Vector.LessThan(axisDepth, depth) & Vector.GreaterThan(sineSquared, new Vector<float>(ParallelSineSquared));
+        var better = Vector.LessThan(axisDepth, depth) & Vector.GreaterThan(sineSquared, new Vector<float>(PairTolerances.ParallelBoxEdge));
         depth = Wide.Select(better, axisDepth, depth);
         normal = Vector3Wide.Select(better, axis * inverse, normal);
     }
@@ -149,7 +138,7 @@ public readonly struct CapsuleBoxTester : IPairTester<CapsuleWide, BoxWide, Few2
         ref Vector<float> start, ref Vector<float> end)
     {
         // A segment that moves less than the tolerance of the border over its whole length counts as parallel to it.
-        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(BorderTolerance)), speed);
+        var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), new Vector<float>(PairTolerances.CapsuleBorder)), speed);
         var middle = -position * inverse;
         var reach = extent * Vector.Abs(inverse);
         start = Wide.Select(isFaceAxis, start, Wide.Max(start, middle - reach));

@@ -15,17 +15,10 @@ namespace BepuPhysics.CollisionDetection;
 //   denominator both cancel for nearly parallel segments; here their relative errors stay small, and the distance is right to rounding.
 public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWide, Few2<ContactWide>>
 {
-    // Squared sine below which segments count as parallel: at this angle a segment leaves the other's line by 3e-6 of its length.
-    const float ParallelSineSquared = 1e-11f;
     // Squared sine above which the direction across two crossing segments is better known from their cross product than from a distance.
     const float CrossingSineSquared = 1e-4f;
     // Part of the size of the pair below which the distance of the segments is rounding and its direction noise.
     const float IntersectionDistance = 1e-6f;
-    // A contact may be where the other segment is this part of the smaller radius to the side: the surface is farther there by the square
-    // of it.
-    const float SideDeviation = 0.02f;
-    // Contacts nearer to each other than this part of the sum of the radii are one.
-    const float MinimumContactDistance = 0.2f;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -47,7 +40,7 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
 
         // Parallel segments are equally near all along that stretch, or nearest at its ends, which have then passed each other.
         var sineSquared = v.X * v.X + v.Z * v.Z;
-        var parallel = Vector.LessThan(sineSquared, new Vector<float>(ParallelSineSquared));
+        var parallel = Vector.LessThan(sineSquared, new Vector<float>(PairTolerances.ParallelSegment));
         var across = t.X * v.X + t.Z * v.Z;
         var s = Wide.Select(parallel, new Vector<float>(0.5f) * (start + end), t.Y - v.Y * (across / sineSquared));
         s = Wide.Clamp(s, -a.HalfLength, a.HalfLength);
@@ -81,11 +74,11 @@ public readonly struct CapsuleCapsuleTester : IPairTester<CapsuleWide, CapsuleWi
         var inverseRatio = Wide.CopySign(Wide.Min(Vector.Abs(denominator / numerator), new Vector<float>(2f)), numerator);
         reach = b.HalfLength * Vector.Abs(inverseRatio);
         var middle = s - onB * inverseRatio;
-        var deviation = Wide.Min(a.Radius, b.Radius) * new Vector<float>(SideDeviation) * inverseSine;
+        var deviation = Wide.Min(a.Radius, b.Radius) * new Vector<float>(FaceOverlap.SideDeviation) * inverseSine;
         deviation = Wide.Select(parallel, a.HalfLength + a.HalfLength, deviation);
         start = Wide.Min(s, Wide.Max(Wide.Max(-a.HalfLength, middle - reach), s - deviation));
         end = Wide.Max(s, Wide.Min(Wide.Min(a.HalfLength, middle + reach), s + deviation));
-        var two = Vector.GreaterThan(end - start, radius * new Vector<float>(MinimumContactDistance));
+        var two = Vector.GreaterThan(end - start, radius * new Vector<float>(PairTolerances.SameContactOnSide));
         start = Wide.Select(two, start, s);
 
         // Along the normal, the distance is linear in the place on A.

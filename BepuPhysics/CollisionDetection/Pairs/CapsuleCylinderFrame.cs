@@ -12,10 +12,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </summary>
 struct CapsuleCylinderFrame
 {
-    // Sine of the angle between segment and axis below which a direction across them is taken from nowhere: its square must not underflow.
-    const float ParallelSineSquared = 1e-20f;
-    // A speed that the places where the segment crosses a plane may be divided by: they are then far off, and finite.
-    const float LeastSpeed = 1e-20f;
     // A step cubes the error. Where the segment touches the rim along itself it only halves the distance from the root, but the depth depends
     // on the fourth power of that.
     const int StepCount = 4;
@@ -54,7 +50,7 @@ struct CapsuleCylinderFrame
         var directionZ = Vector3Wide.Dot(worldZ, u);
 
         var runSquared = directionX * directionX + directionZ * directionZ;
-        frame.HasPassing = Vector.GreaterThan(runSquared, new Vector<float>(ParallelSineSquared));
+        frame.HasPassing = Vector.GreaterThan(runSquared, new Vector<float>(PairTolerances.ParallelToAxis));
         var run = Wide.Mask(frame.HasPassing, Vector.SquareRoot(runSquared));
         var inverseRun = Wide.Mask(frame.HasPassing, one / run);
         // Where the segment is parallel to the axis, any directions across do.
@@ -128,7 +124,7 @@ struct CapsuleCylinderFrame
     {
         var zero = Vector<float>.Zero;
         var one = Vector<float>.One;
-        var inverseRise = one / Wide.Max(Rise, new Vector<float>(LeastSpeed));
+        var inverseRise = one / Wide.Max(Rise, new Vector<float>(PairTolerances.LeastSpeed));
         var low = Wide.Max(-halfLength, (-cylinder.HalfLength - Center.Y) * inverseRise);
         var high = Wide.Min(halfLength, (cylinder.HalfLength - Center.Y) * inverseRise);
         var start = Wide.Clamp(Wide.Min(Wide.Max(Passing, low), high), -halfLength, halfLength);

@@ -16,17 +16,6 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
 {
     // Part of the size of the pair below which the distance of segment and cylinder is rounding and its direction noise.
     const float IntersectionDistance = 3e-6f;
-    // Part of the size of the pair by which the way over the rim must beat the others: rounding is below it.
-    const float AxisTolerance = 1e-6f;
-    // Part of the size of the pair that a segment may be beside a face and still be over it: along the face's border, contacts must not
-    // depend on rounding.
-    const float BorderTolerance = 3e-6f;
-    // How far a contact may lie beside the line of the side that faces the capsule, as part of the radius, or of its mean with a smaller
-    // capsule's size: the surface is farther there by half the square of it.
-    const float SideDeviation = 0.02f;
-    // Contacts nearer to each other than this part of the capsule's size are one; on the side, of the smaller of that and the radius.
-    const float MinimumEndDistance = 0.02f;
-    const float MinimumSideDistance = 0.2f;
 
     struct Least
     {
@@ -111,7 +100,7 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
         var fromAxis = Vector.SquareRoot(frame.Center.X * frame.Center.X + frame.ToRim * frame.ToRim);
         var scaledDepth = b.Radius * frame.Rise * fromAxis - toSide * frame.Center.X +
             (b.HalfLength * frame.Run - frame.Above) * frame.ToRim;
-        var tolerance = size * new Vector<float>(AxisTolerance);
+        var tolerance = size * new Vector<float>(PairTolerances.CapsuleAdvantage);
         var depth = scaledDepth * inverse;
         // At a length of rounding the direction is noise, and one of the others is as good.
         var use = Vector.LessThan(depth + tolerance, least.Depth) & Vector.GreaterThan(squaredLength, tolerance * tolerance);
@@ -142,9 +131,9 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
 
         var onFace = center - normal * height;
         var alongFace = new Vector3Wide(-normal.X * slope, frame.Rise - normal.Y * slope, frame.Run - normal.Z * slope);
-        var border = size * new Vector<float>(BorderTolerance);
+        var border = size * new Vector<float>(PairTolerances.CapsuleBorder);
         // A segment that moves less than the tolerance of the border over its whole length does not cross it.
-        var leastSpeed = new Vector<float>(BorderTolerance);
+        var leastSpeed = new Vector<float>(PairTolerances.CapsuleBorder);
         var acrossSquared = alongFace.X * alongFace.X + alongFace.Z * alongFace.Z;
         var speed = Wide.Select(useEnd, Vector.SquareRoot(acrossSquared), Vector.Abs(alongFace.Y));
         var inverseSpeed = one / Wide.Max(speed, leastSpeed);
@@ -163,7 +152,7 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
         var turn = Wide.Max(Vector.Abs(faceX * frame.Run), new Vector<float>(1e-6f));
         var capsuleSize = a.HalfLength + a.Radius;
         var sideSize = Wide.Min(capsuleSize, b.Radius);
-        var deviation = Vector.SquareRoot(b.Radius * sideSize) * new Vector<float>(SideDeviation) / turn;
+        var deviation = Vector.SquareRoot(b.Radius * sideSize) * new Vector<float>(FaceOverlap.SideDeviation) / turn;
         deviation = Wide.Select(useEnd, a.HalfLength + a.HalfLength, deviation);
         start = Wide.Max(start, least.Place - deviation);
         end = Wide.Min(end, least.Place + deviation);
@@ -177,7 +166,7 @@ public readonly struct CapsuleCylinderTester : IPairTester<CapsuleWide, Cylinder
         start = Wide.Select(isOver, Wide.Min(start, deepest), deepest);
         end = Wide.Select(isOver, Wide.Max(end, deepest), deepest);
         var leastDistance = Wide.Select(
-            useEnd, capsuleSize * new Vector<float>(MinimumEndDistance), sideSize * new Vector<float>(MinimumSideDistance));
+            useEnd, capsuleSize * new Vector<float>(PairTolerances.SameContactOnFace), sideSize * new Vector<float>(PairTolerances.SameContactOnSide));
         // A segment that stands on the face is over one place of it.
         var extent = end - start;
         var two = Vector.GreaterThan(extent * extent * alongFace.LengthSquared(), leastDistance * leastDistance);

@@ -22,24 +22,12 @@ namespace BepuPhysics.CollisionDetection;
 // of the two; elsewhere the distance is greater than what any axis shows.
 public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, TriangleWide, Few2<ContactWide>>
 {
-    // Part of the size of the pair by which an edge must beat the face, and by which the nearest points must lie beside an axis that shows
-    // their distance: rounding is below it.
-    const float AxisTolerance = 1e-6f;
-    // Squared sine below which the segment is parallel to an edge: at this angle it leaves the edge's line by 3e-6 of its length.
-    const float ParallelSineSquared = 1e-11f;
-    // How far a normal may point behind a one-sided triangle: a segment across the plane has normals within it, to rounding.
-    const float BehindTolerance = 1e-4f;
     // Cosine between the normals of contact and face below which the triangle is met edge on.
     const float EdgeOnCosine = 0.1f;
-    // Part of the size of the pair that a segment may be beside the face and still be over it: along the face's border, contacts must not
-    // depend on rounding.
-    const float BorderTolerance = 3e-6f;
     // Sides that are each moved out by a border meet farther beyond their corner: at the tip of a needle, a hundred borders away from a
     // triangle that has a hundredth of its length as its width. A side gets this many times the sine of its sharper corner of the border, at
     // most all of it. So two sides meet no more than twice as many borders beyond their corner.
     const float SharpSine = 1.5f;
-    // Contacts nearer to each other than this part of the capsule's size are one.
-    const float MinimumContactDistance = 0.02f;
 
     // Part of the size of the pair by which two distances may differ and be the same to the rounding of the corners.
     const float SameDistance = 5e-7f;
@@ -181,7 +169,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var useBack = Vector.LessThan(backDepth, frontDepth) & b.TwoSidedMask;
         var faceDepth = Wide.Select(useBack, backDepth, frontDepth);
         var faceNormal = Vector3Wide.Select(useBack, -front, front);
-        var tolerance = scratch.Size * new Vector<float>(AxisTolerance);
+        var tolerance = scratch.Size * new Vector<float>(PairTolerances.CapsuleAdvantage);
         var axisDepth = Wide.CopySign(Vector.SquareRoot(Vector.Abs(search.AxisScore)), search.AxisScore);
         var useEdge = Vector.LessThan(axisDepth + tolerance, faceDepth);
         var coreDepth = Wide.Select(useEdge, axisDepth, faceDepth);
@@ -198,7 +186,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         // A triangle without area has no front, and no contacts.
         scratch.Exists = Vector.GreaterThan(front.LengthSquared(), new Vector<float>(0.5f)) & (b.TwoSidedMask |
             (Vector.GreaterThanOrEqual(height, zero) &
-            Vector.GreaterThanOrEqual(Vector3Wide.Dot(normal, front), new Vector<float>(-BehindTolerance))));
+            Vector.GreaterThanOrEqual(Vector3Wide.Dot(normal, front), new Vector<float>(-TriangleFeature.BehindSine))));
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -212,7 +200,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var inverseFacing = Vector<float>.One / facing;
         var slope = front.Y * inverseFacing;
         var height = scratch.Height * inverseFacing;
-        var border = scratch.Size * new Vector<float>(BorderTolerance);
+        var border = scratch.Size * new Vector<float>(PairTolerances.CapsuleBorder);
         var start = -a.HalfLength;
         var end = a.HalfLength;
         // The sine at a corner is twice the area over the lengths of its sides: at the sharper end of a side, that with the longer of the others.
@@ -234,7 +222,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         end = Wide.Select(isOver, Wide.Max(end, deepest), deepest);
         slope = Wide.Mask(isOver, slope);
 
-        var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(MinimumContactDistance));
+        var two = Vector.GreaterThan(end - start, (a.HalfLength + a.Radius) * new Vector<float>(PairTolerances.SameContactOnFace));
         var worldNormal = Matrix3x3Wide.TransposeTimes(scratch.Axes, normal);
         manifold.Normal = worldNormal;
         ref readonly var u = ref scratch.Axes.Y;
@@ -268,7 +256,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var inverseAcross = one / acrossSquared;
         var squared = acrossSquared + edge.Y * edge.Y;
         var inverseSquared = one / squared;
-        var parallel = Vector.LessThan(acrossSquared, squared * new Vector<float>(ParallelSineSquared));
+        var parallel = Vector.LessThan(acrossSquared, squared * new Vector<float>(PairTolerances.ParallelSegment));
         // A parallel segment is equally near all along the stretch that they share: in its middle.
         var shared = Wide.Clamp(start.Y, -halfLength, halfLength) + Wide.Clamp(start.Y + edge.Y, -halfLength, halfLength);
         var away = start.X * edge.X + start.Z * edge.Z;
@@ -296,7 +284,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         var score = depth * Vector.Abs(depth) * inverseAcross;
         var toFront = axisX * triangle.Front.X + axisZ * triangle.Front.Z;
         var isAllowed = twoSided | Vector.GreaterThanOrEqual(
-            toFront * Vector.Abs(toFront), acrossSquared * new Vector<float>(-BehindTolerance * BehindTolerance));
+            toFront * Vector.Abs(toFront), acrossSquared * new Vector<float>(-TriangleFeature.BehindSine * TriangleFeature.BehindSine));
         var better = Vector.AndNot(Vector.LessThan(score, search.AxisScore) & isAllowed, parallel);
         search.AxisX = Wide.Select(better, axisX, search.AxisX);
         search.AxisZ = Wide.Select(better, axisZ, search.AxisZ);
@@ -339,7 +327,7 @@ public readonly unsafe struct CapsuleTriangleTester : IPairTester<CapsuleWide, T
         // A segment that moves less than the tolerance of the border over its whole length counts as parallel to it.
         var along = Vector3Wide.Dot(side.Outward, normal);
         var speed = side.Outward.Y - along * slope;
-        var least = side.Length * new Vector<float>(BorderTolerance);
+        var least = side.Length * new Vector<float>(PairTolerances.CapsuleBorder);
         var inverse = Vector<float>.One / Wide.CopySign(Wide.Max(Vector.Abs(speed), least), speed);
         var crossing = (border - (side.Beyond - along * height)) * inverse;
         var leaves = Vector.GreaterThan(inverse, Vector<float>.Zero);

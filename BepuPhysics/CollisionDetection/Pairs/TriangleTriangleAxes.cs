@@ -12,15 +12,6 @@ namespace BepuPhysics.CollisionDetection;
 // edges out of its right direction, and then it is an axis still.
 struct TriangleTriangleAxes
 {
-    // Squared sine below which two edges are parallel. The direction of their product is wrong by the rounding of an edge over the sine, and
-    // without it the depth is wrong by up to the sine times the shorter edge: both are some 2e-4 here.
-    const float ParallelSineSquared = 1e-7f;
-    // An axis of edges must beat the normals by this part of the smaller triangle. Rounding is below it.
-    const float EdgeTolerance = 1e-5f;
-    // Nearest points must show this much more than the axes, by the smaller triangle.
-    const float NearestTolerance = 1e-6f;
-    // Part of the smaller triangle by which nearest points may be farther apart than the axis shows and still be what it belongs to.
-    const float TouchTolerance = 1e-5f;
     // Part of the smaller triangle by which the edges of an axis may miss each other where they should cross.
     const float GapTolerance = 1e-4f;
     // Depth up to which the nearest points are looked for, by the smaller triangle: in one plane, rounding may show a depth.
@@ -56,9 +47,9 @@ struct TriangleTriangleAxes
         edges.Score = new Vector<float>(float.MaxValue);
         edges.Axis = A.AB;
         edges.IndexA = edges.IndexB = Vector<int>.Zero;
-        edges.FloorAB = B.AB.LengthSquared() * new Vector<float>(ParallelSineSquared);
-        edges.FloorBC = B.BC.LengthSquared() * new Vector<float>(ParallelSineSquared);
-        edges.FloorCA = B.CA.LengthSquared() * new Vector<float>(ParallelSineSquared);
+        edges.FloorAB = B.AB.LengthSquared() * new Vector<float>(PairTolerances.ParallelTriangleEdge);
+        edges.FloorBC = B.BC.LengthSquared() * new Vector<float>(PairTolerances.ParallelTriangleEdge);
+        edges.FloorCA = B.CA.LengthSquared() * new Vector<float>(PairTolerances.ParallelTriangleEdge);
         edges.Test(B, A.A, A.AB, -A.CA, 0);
         edges.Test(B, A.B, A.BC, -A.AB, 1);
         edges.Test(B, A.C, A.CA, -A.BC, 2);
@@ -76,7 +67,7 @@ struct TriangleTriangleAxes
         var useB = TryFace(B.Front, ref depth, ref normal);
 
         var edgeDepth = Wide.CopySign(Vector.SquareRoot(Vector.Abs(edges.Score)), edges.Score);
-        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(EdgeTolerance), depth) &
+        var useEdge = Vector.LessThan(edgeDepth + size * new Vector<float>(PairTolerances.EdgeAdvantage), depth) &
             Vector.LessThan(edges.Score, new Vector<float>(float.MaxValue));
         depth = Wide.Select(useEdge, edgeDepth, depth);
         normal = Vector3Wide.Select(useEdge, Vector3Wide.Normalize(edges.Axis), normal);
@@ -288,13 +279,13 @@ struct TriangleTriangleAxes
         A.Project(axis, out var least, out _);
         B.Project(axis, out _, out var greatest);
         var depth = greatest - least;
-        var better = mask & Vector.LessThan(depth, Depth - size * new Vector<float>(NearestTolerance)) &
+        var better = mask & Vector.LessThan(depth, Depth - size * new Vector<float>(PairTolerances.NearestAdvantage)) &
             Vector.GreaterThan(axis.LengthSquared(), new Vector<float>(0.5f));
         Depth = Wide.Select(better, depth, Depth);
         Normal = Vector3Wide.Select(better, axis, Normal);
         // Touching at corners, many axes show the same, but not the place.
         var isTouching = mask & Vector.LessThan(Vector.SquareRoot(nearest.SquaredDistance),
-            Vector.Abs(Depth) + size * new Vector<float>(TouchTolerance));
+            Vector.Abs(Depth) + size * new Vector<float>(PairTolerances.SamePoints));
         PointOnA = Vector3Wide.Select(better | isTouching, pointOnA, PointOnA);
         var isOnFace = Vector.AndNot(mask & (isFaceOfA | isFaceOfB), better | isTouching);
         if (!Vector.EqualsAll(isOnFace, Vector<int>.Zero))
