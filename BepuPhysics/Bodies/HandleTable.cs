@@ -41,9 +41,6 @@ public readonly unsafe struct HandleTable<T> where T : unmanaged
         }
     }
 
-    /// <summary>Address of the row of a slot that exists.</summary>
-    internal T* PointerTo(int slot) => rows + slot;
-
     [DoesNotReturn]
     static void ThrowOutOfRange(int handleValue) =>
         throw new ArgumentOutOfRangeException(nameof(handleValue), handleValue, "No handle of that slot was ever given out.");

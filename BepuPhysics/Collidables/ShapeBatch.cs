@@ -264,9 +264,6 @@ public abstract unsafe class ShapeBatch
         Check.That(left >= 0);
     }
 
-    /// <summary>Number of bodies and statics that use a shape, which exists.</summary>
-    internal int CountUses(int shapeIndex) => uses[shapeIndex];
-
     /// <summary>Refuses a shape that does not exist, or that something uses.</summary>
     internal void CheckUnused(int shapeIndex)
     {

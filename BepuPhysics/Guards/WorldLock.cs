@@ -38,9 +38,6 @@ sealed class WorldLock
     /// <summary>Whether the world has come to its end.</summary>
     internal bool HasEnded => end is not null;
 
-    /// <summary>Whether anything goes on.</summary>
-    internal bool IsBusy => Volatile.Read(ref holder) != 0 || Volatile.Read(ref stepper) != 0 || IsRead;
-
     bool IsRead
     {
         get

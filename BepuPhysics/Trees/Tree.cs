@@ -71,8 +71,6 @@ public unsafe partial struct Tree
     /// <summary>Edges on the longest way from the root to a leaf: zero for an empty tree, one for a tree of one or two leaves.</summary>
     public readonly int Height => LeafCount == 0 ? 0 : Metanodes[0].Height;
 
-    readonly Node* NodePointer => Nodes.Memory;
-
     internal readonly NodeChild* Children => (NodeChild*)Nodes.Memory;
 
     /// <summary>Creates an empty tree.</summary>
