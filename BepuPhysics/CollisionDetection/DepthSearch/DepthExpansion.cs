@@ -9,8 +9,27 @@ namespace BepuPhysics.CollisionDetection;
 /// until that is no nearer than the best depth that was found: then no direction is better.
 /// </summary>
 /// <remarks>
-/// Asks for support points one after the other: <see cref="Next"/> says in which direction, <c>Add</c> takes the answer. Points are
-/// floats, the geometry between them is in double precision.
+/// <para>
+/// The expanding polytope algorithm of van den Bergen ("Proximity queries and penetration depth computation on 3D game objects", 2001), started
+/// from what the descent has found. Asks for support points one after the other: <see cref="Next"/> says in which direction, <c>Add</c> takes
+/// the answer. Points are floats, the geometry between them is in double precision.
+/// </para>
+/// <para>
+/// First a tetrahedron is needed. The descent's triangle is three of its corners; the fourth is a point of the inner ball beyond the origin, or the
+/// support point away from the triangle (Opposite). Where that is flat, corners are looked for one by one, each as far as possible from the
+/// point, line or plane of those before (Corner); where none is far enough, the difference has no volume, and its thin side has been looked at. Then
+/// the face that is nearest to the origin is expanded again and again (Expand):
+/// </para>
+/// <code>
+///   First ---> Corner <---- Start <---- Opposite
+///                 |           |
+///                 v           v
+///          Ended (Flat)    Expand ----> Ended: Certified, Apart, Limit ----> Restart with smaller cores: First
+/// </code>
+/// <para>
+/// Invariants: <see cref="best"/> is the least depth of all directions asked for, so an upper bound; no direction is less deep than the least height
+/// of the polytope's planes, a lower bound; it ends when the two meet, to the slack. Whatever ends it, <see cref="best"/> holds.
+/// </para>
 /// </remarks>
 unsafe struct DepthExpansion
 {

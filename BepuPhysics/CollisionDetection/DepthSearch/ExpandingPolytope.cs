@@ -16,10 +16,13 @@ struct PolytopeVertex
 /// A closed surface of triangles with its vertices on the Minkowski difference, which grows towards it. The least height of its planes over
 /// the origin is a lower bound of the depth in any direction.
 /// </summary>
-// Also where the surface is slightly dented, as it may get by the threshold of visibility: a ball about the origin that all planes are
-// outside of is inside the surface, and so in the convex hull of the vertices.
+// A new vertex outside of some faces (visible from it) removes these; what is left open is bounded by their horizon, a loop of edges, and closed by
+// a fan of faces from the horizon to the vertex, as in Quickhull.
+//   FindVisible -> KeepConnected (rounding) -> the horizon -> AddFan, into the places of the faces that went
+// The lower bound holds also where the surface is slightly dented, as it may get by the threshold of visibility: a ball about the origin
+// that all planes are outside of is inside the surface, and so in the convex hull of the vertices.
 // Faces have no order and no links: a new vertex is compared with all their planes, several at once, which for some dozens of faces is less
-// work than going from neighbour to neighbour; and the rim of those that go is what their edges leave when the pairs are taken out.
+// work than going from neighbour to neighbour; and the horizon of those that go is what their edges leave when the pairs are taken out.
 unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
 {
     // Below this, a normal's length says that its face has no area. Edges are about one unit long.
@@ -70,13 +73,13 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
         int b = 1, c = 2;
         if (Volume() > 0)
             (b, c) = (c, b);
-        memory->Rim[0] = (byte)b;
-        memory->Rim[1] = (byte)c;
+        memory->Horizon[0] = (byte)b;
+        memory->Horizon[1] = (byte)c;
         AddFan(1, 0);
-        memory->Rim[0] = 0;
-        memory->Rim[1] = (byte)c;
-        memory->Rim[2] = (byte)b;
-        memory->Rim[3] = 0;
+        memory->Horizon[0] = 0;
+        memory->Horizon[1] = (byte)c;
+        memory->Horizon[2] = (byte)b;
+        memory->Horizon[3] = 0;
         AddFan(3, 3);
     }
 
@@ -112,41 +115,41 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     /// <summary>Takes in the vertex behind the last one, if it is outside.</summary>
     public bool TryExpand()
     {
-        var seeingCount = FindSeeing(NoFace, this[VertexCount].Point);
-        if (seeingCount == 0)
+        var visibleCount = FindVisible(NoFace, this[VertexCount].Point);
+        if (visibleCount == 0)
             return false;
-        Replace(memory->Removed[0], seeingCount);
+        Replace(memory->Removed[0], visibleCount);
         return true;
     }
 
     /// <summary>Takes in the vertex behind the last one.</summary>
-    /// <param name="seen">A face that sees it.</param>
+    /// <param name="visible">A face that is visible from it.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public void Expand(int seen) => Replace(seen, FindSeeing(seen, this[VertexCount].Point));
+    public void Expand(int visible) => Replace(visible, FindVisible(visible, this[VertexCount].Point));
 
-    /// <summary>Replaces faces that see the vertex behind the last one by new ones that end in it.</summary>
-    void Replace(int seen, int removedCount)
+    /// <summary>Replaces faces that are visible from the vertex behind the last one by new ones that end in it.</summary>
+    void Replace(int visible, int removedCount)
     {
         var vertex = VertexCount++;
-        if (!TryFindRim(removedCount, out var rimCount))
+        if (!TryFindHorizon(removedCount, out var horizonCount))
         {
-            // By rounding: the faces that see a point of a convex surface do not enclose any that does not, and are connected.
-            removedCount = KeepConnected(seen, removedCount);
-            if (!TryFindRim(removedCount, out rimCount))
+            // By rounding: the faces that are visible from a point outside of a convex surface do not enclose any that does not, and are connected.
+            removedCount = KeepConnected(visible, removedCount);
+            if (!TryFindHorizon(removedCount, out horizonCount))
             {
-                // One face alone always has a rim.
-                memory->Removed[0] = (short)seen;
+                // One face alone always has a horizon.
+                memory->Removed[0] = (short)visible;
                 removedCount = 1;
-                TryFindRim(removedCount, out rimCount);
+                TryFindHorizon(removedCount, out horizonCount);
             }
         }
         for (int i = removedCount - 1; i >= 0; --i)
             Move(--faceCount, memory->Removed[i]);
-        AddFan(rimCount, vertex);
+        AddFan(horizonCount, vertex);
     }
 
     /// <summary>Lists the faces that a point is over, and one of which that is known.</summary>
-    readonly int FindSeeing(int seen, in DoubleVector3 point)
+    readonly int FindVisible(int visible, in DoubleVector3 point)
     {
         var count = 0;
         var x = Vector256.Create(point.X);
@@ -158,8 +161,8 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
             var height = Vector256.Load(memory->NormalX + i) * x + Vector256.Load(memory->NormalY + i) * y +
                 Vector256.Load(memory->NormalZ + i) * z - Vector256.Load(memory->Offset + i);
             var bits = Vector256.GreaterThan(height, threshold).ExtractMostSignificantBits();
-            if (seen >= i && seen < i + Vector256<double>.Count)
-                bits |= 1u << (seen - i);
+            if (visible >= i && visible < i + Vector256<double>.Count)
+                bits |= 1u << (visible - i);
             if (faceCount - i < Vector256<double>.Count)
                 bits &= (1u << (faceCount - i)) - 1;
             for (; bits != 0; bits &= bits - 1)
@@ -169,15 +172,15 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     }
 
     /// <summary>Lists the vertices around the removed faces; false where that is not one ring.</summary>
-    readonly bool TryFindRim(int removedCount, out int rimCount)
+    readonly bool TryFindHorizon(int removedCount, out int horizonCount)
     {
         if (removedCount == 1)
         {
             GetCorners(memory->Removed[0], out var a, out var b, out var c);
-            memory->Rim[0] = memory->Rim[3] = (byte)a;
-            memory->Rim[1] = (byte)b;
-            memory->Rim[2] = (byte)c;
-            rimCount = 3;
+            memory->Horizon[0] = memory->Horizon[3] = (byte)a;
+            memory->Horizon[1] = (byte)b;
+            memory->Horizon[2] = (byte)c;
+            horizonCount = 3;
             return true;
         }
         for (int i = 0; i < removedCount; ++i)
@@ -196,26 +199,26 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
         }
         var start = 0;
         var isSimple = true;
-        rimCount = 0;
+        horizonCount = 0;
         for (int i = 0; i < removedCount; ++i)
         {
             GetCorners(memory->Removed[i], out var a, out var b, out var c);
-            AddEdge(a, b, ref start, ref rimCount, ref isSimple);
-            AddEdge(b, c, ref start, ref rimCount, ref isSimple);
-            AddEdge(c, a, ref start, ref rimCount, ref isSimple);
+            AddEdge(a, b, ref start, ref horizonCount, ref isSimple);
+            AddEdge(b, c, ref start, ref horizonCount, ref isSimple);
+            AddEdge(c, a, ref start, ref horizonCount, ref isSimple);
         }
         if (!isSimple)
             return false;
         var vertex = start;
-        for (int i = 0; i < rimCount; ++i)
+        for (int i = 0; i < horizonCount; ++i)
         {
-            memory->Rim[i] = (byte)vertex;
-            vertex = memory->NextOnRim[vertex];
-            if (vertex == start && i != rimCount - 1)
+            memory->Horizon[i] = (byte)vertex;
+            vertex = memory->NextOnHorizon[vertex];
+            if (vertex == start && i != horizonCount - 1)
                 return false;
         }
-        memory->Rim[rimCount] = (byte)start;
-        return rimCount > 0;
+        memory->Horizon[horizonCount] = (byte)start;
+        return horizonCount > 0;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -223,28 +226,28 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
     {
         memory->Edges[2 * vertex] = 0;
         memory->Edges[2 * vertex + 1] = 0;
-        memory->NextOnRim[vertex] = None;
+        memory->NextOnHorizon[vertex] = None;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly void AddEdge(int from, int to, ref int start, ref int rimCount, ref bool isSimple)
+    readonly void AddEdge(int from, int to, ref int start, ref int horizonCount, ref bool isSimple)
     {
         if ((memory->Edges[2 * to + (from >> 6)] >> from & 1) != 0)
             return;
-        isSimple &= memory->NextOnRim[from] == None;
-        memory->NextOnRim[from] = (byte)to;
+        isSimple &= memory->NextOnHorizon[from] == None;
+        memory->NextOnHorizon[from] = (byte)to;
         start = from;
-        ++rimCount;
+        ++horizonCount;
     }
 
     /// <summary>Leaves those of the removed faces that are connected to one of them by edges.</summary>
-    readonly int KeepConnected(int seen, int removedCount)
+    readonly int KeepConnected(int visible, int removedCount)
     {
         // Connected ones to the front.
         var connectedCount = 0;
         for (int i = 0; i < removedCount; ++i)
         {
-            if (memory->Removed[i] == seen)
+            if (memory->Removed[i] == visible)
                 Swap(i, connectedCount++);
         }
         for (int i = 0; i < connectedCount; ++i)
@@ -288,7 +291,7 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
         memory->Corners[to] = memory->Corners[from];
     }
 
-    /// <summary>Adds a face from each edge of the rim to a vertex.</summary>
+    /// <summary>Adds a face from each edge of the horizon to a vertex.</summary>
     void AddFan(int edgeCount, int vertex)
     {
         ref var tip = ref this[vertex].Point;
@@ -298,11 +301,11 @@ unsafe struct ExpandingPolytope(PolytopeMemory* memory, double visibility)
         var infinity = Vector256.Create(double.PositiveInfinity);
         for (int i = 0; i < edgeCount; i += Vector256<double>.Count)
         {
-            // Beyond the last edge, where the rim holds anything, the last one once more.
-            int i0 = memory->Rim[i], i1 = memory->Rim[i + 1];
-            int i2 = i + 2 <= edgeCount ? memory->Rim[i + 2] : i1;
-            int i3 = i + 3 <= edgeCount ? memory->Rim[i + 3] : i2;
-            int i4 = i + 4 <= edgeCount ? memory->Rim[i + 4] : i3;
+            // Beyond the last edge, where the horizon holds anything, the last one once more.
+            int i0 = memory->Horizon[i], i1 = memory->Horizon[i + 1];
+            int i2 = i + 2 <= edgeCount ? memory->Horizon[i + 2] : i1;
+            int i3 = i + 3 <= edgeCount ? memory->Horizon[i + 3] : i2;
+            int i4 = i + 4 <= edgeCount ? memory->Horizon[i + 4] : i3;
             ref var p0 = ref this[i0].Point;
             ref var p1 = ref this[i1].Point;
             ref var p2 = ref this[i2].Point;

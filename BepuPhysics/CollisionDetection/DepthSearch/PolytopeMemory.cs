@@ -10,8 +10,8 @@ unsafe struct PolytopeMemory
     public const int VertexCapacity = 128;
     /// <summary>A closed surface of triangles has twice as many faces as vertices, less four; and what a vector writes behind them.</summary>
     public const int FaceCapacity = 2 * VertexCapacity + Behind;
-    const int RimCapacity = VertexCapacity + Behind;
-    // Doubles of a vector, and the first vertex of the rim once more.
+    const int HorizonCapacity = VertexCapacity + Behind;
+    // Doubles of a vector, and the first vertex of the horizon once more.
     const int Behind = 5;
 
     [InlineArray(VertexCapacity)]
@@ -33,8 +33,8 @@ unsafe struct PolytopeMemory
     public fixed ulong Edges[2 * VertexCapacity];
     /// <summary>Numbers of the faces that go, ascending.</summary>
     public fixed short Removed[FaceCapacity];
-    public fixed byte Rim[RimCapacity];
-    /// <summary>By vertex: the next one around the rim.</summary>
-    public fixed byte NextOnRim[256];
+    public fixed byte Horizon[HorizonCapacity];
+    /// <summary>By vertex: the next one around the horizon.</summary>
+    public fixed byte NextOnHorizon[256];
     public VertexArray Vertices;
 }

@@ -14,6 +14,8 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 struct SearchCurvature
 {
+    // Squared sine of the angle to the axis below which the end of a cylinder counts as flat.
+    const float FlatSquaredSine = SearchTolerances.NearlyParallel * SearchTolerances.NearlyParallel;
     // Part of the curvature that the depth may take away. Where shapes overlap, the target moves along with the plane: a depth of h is a curvature
     // of -h. Where that is more than there is, the direction is no minimum, and steps remain steps down.
     const float GreatestLoss = 0.9f;
@@ -23,7 +25,7 @@ struct SearchCurvature
     // Squared cosine of the angle between an edge of the simplex and the best direction up to which it says where to go.
     const float GreatestSquaredSlope = 0.75f;
 
-    /// <summary>A's tangent, and that of B where both are round, as long as the radius; that of B where only B is round. Across the best direction.</summary>
+    /// <summary>A's tangent, and that of B where both are round, as long as the radius; that of B where only B is round.</summary>
     public Vector3Wide Tangent, OtherTangent;
     /// <summary>What the squares of tangents are multiplied by; zero where the shape counts as flat.</summary>
     public Vector<float> Weight, OtherWeight;
@@ -39,7 +41,7 @@ struct SearchCurvature
     public static Vector<float> FindWeight(in Vector3Wide radial, Vector<float> squaredRadius, in Vector3Wide direction, Vector<float> scale)
     {
         var height = Vector3Wide.Dot(radial, direction);
-        return Wide.Mask(Vector.GreaterThan(height * height, squaredRadius * new Vector<float>(SearchTolerances.NearlyParallel * SearchTolerances.NearlyParallel)), scale / height);
+        return Wide.Mask(Vector.GreaterThan(height * height, squaredRadius * new Vector<float>(FlatSquaredSine)), scale / height);
     }
 
     /// <summary>Lanes that can be stepped: the simplex is a point, or an edge that is not along the best direction.</summary>

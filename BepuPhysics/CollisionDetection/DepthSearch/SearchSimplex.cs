@@ -44,6 +44,18 @@ struct SimplexForm
 }
 
 /// <summary>Up to three points of the Minkowski difference. A segment or a single point repeats some of its vertices.</summary>
+/// <remarks>
+/// <para>
+/// The subproblem of GJK: of a new vertex and the old ones, which span what is closest to the target? <see cref="Add"/> tries the vertex alone, the
+/// three segments and the three triangles at it, each by projection (Ericson, Real-Time Collision Detection, 5.1), keeps the closest, and with it
+/// the vertices that span it. The old triangle competes only where it was remembered: a descent's own old triangle has been left already.
+/// </para>
+/// <para>
+/// Invariants: a simplex is never farther from the target than the new vertex; its three places always hold points of the difference, so that no lane
+/// needs a count; all three masks of a lane that is done say "keep". Where two trials are equal to the bit, the last one wins, on
+/// which the shorter paths for new pairs rely.
+/// </para>
+/// </remarks>
 struct SearchSimplex
 {
     // Squared ratio of lengths below which a triangle at a vertex is a needle: its far side is that short.

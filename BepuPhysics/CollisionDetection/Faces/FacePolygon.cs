@@ -50,6 +50,19 @@ struct FaceFrame
 }
 
 /// <summary>The features of a bundle of shapes, seen along the normal.</summary>
+/// <remarks>
+/// <para>
+/// What is left of a shape once the normal is known: a convex polygon, or a segment, in the plane across the normal, with the height of its own plane
+/// over each place (<see cref="HeightAt"/>). The depth of a contact is then a sum of two heights, and clipping (<see cref="FaceOverlap"/>,
+/// after Sutherland and Hodgman) needs two coordinates and a line for each edge: how far inside of it a point is.
+/// </para>
+/// <para>
+/// <see cref="Project"/> makes it, from the shape's vertices; a plane that is nearly along the normal has no height that could be trusted, and is
+/// replaced by its highest edge. <see cref="Widen"/> then moves edges out by a border, so that features whose edges coincide overlap whatever
+/// rounding says. Invariants: vertices run counter-clockwise in the frame of either shape; beyond its own count a lane repeats its first vertex, whose
+/// edges have no length and hold everything; a disc is a circle to what it cuts and a polygon of sixteen corners to what names contacts.
+/// </para>
+/// </remarks>
 unsafe partial struct FacePolygon
 {
     // Cosine of the angle of a plane to the normal below which its slope says more about rounding than about the surface: at this one,
@@ -104,7 +117,7 @@ unsafe partial struct FacePolygon
     {
         var vertices = Vertices;
         var margin = Feature.Margin;
-        var turn = new Vector<float>(winding);
+        var sign = new Vector<float>(winding);
         var extent = Vector<float>.Zero;
         var highest = new Vector<float>(-float.MaxValue);
         var point = points[0];
@@ -126,7 +139,7 @@ unsafe partial struct FacePolygon
             vertex.EdgeY = edgeY;
             vertex.EdgeHeight = Vector3Wide.Dot(edge, frame.Outwards);
             var lengthSquared = edgeX * edgeX + edgeY * edgeY;
-            var inverse = Wide.DivideOrZero(turn, Vector.SquareRoot(lengthSquared));
+            var inverse = Wide.DivideOrZero(sign, Vector.SquareRoot(lengthSquared));
             vertex.LineX = -edgeY * inverse;
             vertex.LineY = edgeX * inverse;
             vertex.LineOffset = Wide.Select(Vector.Equals(inverse, Vector<float>.Zero), new Vector<float>(Everything),

@@ -24,7 +24,10 @@ static class PairTolerances
     /// </summary>
     public const float ParallelTriangleEdge = 1e-7f;
 
-    /// <summary>A segment and a cylinder's axis, in place of zero: below this a direction across both is taken from nowhere, and its square must not underflow.</summary>
+    /// <summary>
+    /// A segment and a cylinder's axis, in place of zero: below this a direction across both is taken from nowhere, and its square must not
+    /// underflow.
+    /// </summary>
     public const float ParallelToAxis = 1e-20f;
 
     /// <summary>
