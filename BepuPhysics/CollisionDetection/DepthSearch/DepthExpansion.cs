@@ -21,10 +21,10 @@ namespace BepuPhysics.CollisionDetection;
 /// the face that is nearest to the origin is expanded again and again (Expand):
 /// </para>
 /// <code>
-///   First ---> Corner <---- Start <---- Opposite
-///                 |           |
-///                 v           v
-///          Ended (Flat)    Expand ----> Ended: Certified, Apart, Limit ----> Restart with smaller cores: First
+///   First -&gt; Corner &lt;- Start &lt;- Opposite
+///              |         |
+///              v         v
+///        Ended (Flat)  Expand -&gt; Ended (Certified, Apart or Limit) -&gt; Restart with smaller cores: First
 /// </code>
 /// <para>
 /// Invariants: <see cref="best"/> is the least depth of all directions asked for, so an upper bound; no direction is less deep than the least height
