@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using BepuUtilities.Memory;
