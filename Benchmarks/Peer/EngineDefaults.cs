@@ -13,6 +13,14 @@ static class EngineDefaults
     /// <summary>Metres per second.</summary>
     public const float MaximumRecoveryVelocity = 2;
 
+    /// <summary>Seconds: it has no limit of its own, and hangs without one.</summary>
+    public const float MaximumTimestep = 1;
+
+    /// <summary>Hz.</summary>
+    public const float MaximumSpringFrequency = 1e6f;
+
+    public const float MaximumDampingRatio = 1e6f;
+
     public static SpringSettings ContactSpring => new(30, 1);
 
     public static SpringSettings JointSpring => new(30, 1);

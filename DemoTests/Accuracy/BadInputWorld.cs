@@ -5,6 +5,7 @@ using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using Demos.Accuracy;
 
 namespace DemoTests.Accuracy;
 

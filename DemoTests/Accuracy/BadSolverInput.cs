@@ -3,6 +3,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
+using Demos.Accuracy;
 
 namespace DemoTests.Accuracy;
 

@@ -1,3 +1,4 @@
+using Demos.Accuracy;
 using Xunit;
 
 namespace DemoTests.Accuracy;

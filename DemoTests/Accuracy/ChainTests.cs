@@ -1,4 +1,5 @@
 using System;
+using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

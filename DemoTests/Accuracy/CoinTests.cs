@@ -1,9 +1,10 @@
 using System;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Scenes;
 using DemoTests.Scenes;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
+using Demos.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 

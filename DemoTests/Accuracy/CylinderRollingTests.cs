@@ -2,7 +2,8 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -3,7 +3,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 
 namespace DemoTests.Accuracy;
 

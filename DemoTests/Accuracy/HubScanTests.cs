@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -4,6 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -5,6 +5,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

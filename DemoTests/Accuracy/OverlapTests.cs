@@ -4,6 +4,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -3,7 +3,8 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 
 namespace DemoTests.Accuracy;
 

@@ -1,7 +1,8 @@
 using System;
 using System.Numerics;
 using BepuPhysics;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

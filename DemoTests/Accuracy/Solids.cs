@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using Demos.Accuracy;
 
 namespace DemoTests.Accuracy;
 

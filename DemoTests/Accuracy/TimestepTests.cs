@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -2,7 +2,7 @@ using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using DemoTests.Support;
+using Demos.References;
 using FsCheck;
 using FsCheck.Fluent;
 using Xunit;

@@ -5,7 +5,7 @@ using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

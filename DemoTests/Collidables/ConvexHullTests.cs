@@ -5,7 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Collidables;

@@ -3,7 +3,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using DemoTests.Support;
+using Demos.References;
 using FsCheck;
 using FsCheck.Fluent;
 using Xunit;

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
+using Demos.References;
 
 namespace DemoTests.Collidables;
 

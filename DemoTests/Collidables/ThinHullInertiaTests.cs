@@ -4,7 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Collidables;

@@ -5,7 +5,7 @@ using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.CollisionDetection;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Collidables;

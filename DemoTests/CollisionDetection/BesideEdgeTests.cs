@@ -4,8 +4,9 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Accuracy;
 using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -3,6 +3,7 @@ using System.Linq;
 using System.Threading.Tasks;
 using BepuPhysics.CollisionDetection;
 using DemoTests.Support;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

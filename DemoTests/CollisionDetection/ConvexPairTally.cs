@@ -4,6 +4,7 @@ using System.Globalization;
 using System.Linq;
 using BepuPhysics.CollisionDetection;
 using DemoTests.Support;
+using Demos.References;
 
 namespace DemoTests.CollisionDetection;
 

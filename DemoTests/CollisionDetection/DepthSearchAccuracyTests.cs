@@ -4,6 +4,7 @@ using System.Linq;
 using System.Numerics;
 using BepuUtilities.Memory;
 using DemoTests.Support;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -7,6 +7,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using DemoTests.Support;
+using Demos.References;
 
 namespace DemoTests.CollisionDetection;
 

@@ -5,6 +5,7 @@ using System.Numerics;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
 using DemoTests.Support;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using BepuPhysics.CollisionDetection;
 using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

@@ -7,6 +7,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
 using DemoTests.Accuracy;
+using Demos.Accuracy;
 using Xunit;
 using Harness = DemoTests.CollisionDetection.FaceHarness<
     DemoTests.CollisionDetection.FaceTestPolygon, DemoTests.CollisionDetection.FaceTestPolygonWide, DemoTests.CollisionDetection.FaceTestFeature,

@@ -4,7 +4,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

@@ -2,7 +2,7 @@ using System;
 using System.Numerics;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

@@ -3,7 +3,7 @@ using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using DemoTests.Support;
+using Demos.References;
 
 namespace DemoTests.CollisionDetection;
 

@@ -1,7 +1,7 @@
 using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using DemoTests.Accuracy;
+using Demos.Accuracy;
 using Xunit;
 
 namespace DemoTests.Regression;

@@ -114,7 +114,7 @@ public class CrowdTests
         using var pool = new BufferPool();
         using var dispatcher = new ThreadDispatcher(2);
         var simulation = Simulation.Create(
-            pool, new FaultyContacts(fault), new Accuracy.WorldGravity(new()), new SolveDescription(1, 4));
+            pool, new FaultyContacts(fault), new Demos.Accuracy.WorldGravity(new()), new SolveDescription(1, 4));
         var sphere = new Sphere(.5f);
         var shape = simulation.Shapes.Add(sphere);
         for (int i = 0; i < CrowdSize; ++i)

@@ -5,7 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.Accuracy;
+using Demos.Accuracy;
 using Xunit;
 
 namespace DemoTests.Robustness;

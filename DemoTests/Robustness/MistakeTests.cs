@@ -112,7 +112,7 @@ public class MistakeTests
     [Fact]
     public void A_kinematic_that_is_put_into_a_body_pushes_it_out_slowly()
     {
-        using var world = new TestWorld(new Accuracy.AccuracySettings { Gravity = default }, material: new PairMaterialProperties(.5f, 2, default));
+        using var world = new TestWorld(new Demos.Accuracy.AccuracySettings { Gravity = default }, material: new PairMaterialProperties(.5f, 2, default));
         var wall = world.AddKinematic(new Box(1, 4, 4), new RigidPose(new Vector3(-5, 0, 0)));
         var box = world.AddDynamic(new Box(1, 1, 1), 1, RigidPose.Identity);
         world.Step();

@@ -1,8 +1,8 @@
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Accuracy;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Scenes;

@@ -4,7 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Accuracy;
+using Demos.Accuracy;
 using Xunit;
 
 namespace DemoTests.Scenes;

@@ -4,6 +4,7 @@ using BepuPhysics;
 using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Support;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Scenes;

@@ -4,11 +4,11 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
+using Demos.Accuracy;
 using Demos.Engine;
+using Demos.References;
 using Demos.Running;
 using Demos.Scenes;
-using DemoTests.Accuracy;
-using DemoTests.Support;
 
 namespace DemoTests.Scenes;
 

@@ -1,8 +1,9 @@
 using System;
 using System.Linq;
-using Demos.Scenes;
 using DemoTests.Accuracy;
-using DemoTests.Support;
+using Demos.Accuracy;
+using Demos.References;
+using Demos.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using DemoTests.Accuracy;
+using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

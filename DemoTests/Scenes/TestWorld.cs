@@ -6,7 +6,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.Accuracy;
+using Demos.Accuracy;
 
 namespace DemoTests.Scenes;
 

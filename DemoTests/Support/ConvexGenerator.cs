@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using System.Numerics;
+using Demos.References;
 
 namespace DemoTests.Support;
 

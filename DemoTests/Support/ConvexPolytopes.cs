@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using Demos.References;
 
 namespace DemoTests.Support;
 

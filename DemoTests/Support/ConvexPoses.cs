@@ -1,4 +1,5 @@
 using System.Numerics;
+using Demos.References;
 
 namespace DemoTests.Support;
 

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using Demos.References;
 
 namespace DemoTests.Support;
 

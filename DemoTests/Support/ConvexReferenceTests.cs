@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
 using System.Threading.Tasks;
+using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -1,4 +1,5 @@
 using System;
+using Demos.References;
 
 namespace DemoTests.Support;
 

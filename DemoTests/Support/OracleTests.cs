@@ -1,4 +1,5 @@
 using System;
+using Demos.References;
 using Xunit;
 
 namespace DemoTests.Support;
@@ -55,6 +56,34 @@ public class OracleTests
         var expected = DoubleQuaternion.FromAxisAngle(momentum * (1 / momentum.Length), momentum.Length / 2 * 1.5)
             * DoubleQuaternion.FromAxisAngle(new(0, 1, 0), 4 * (1 - 1d / 2) * 1.5);
         Assert.True(DoubleQuaternion.AngleBetween(expected, body.Orientation) < 1e-9);
+    }
+
+    [Fact]
+    public void TopConvergesWithTheFourthPowerOfTheStep()
+    {
+        var reference = TopAfter(.2, 1e-6);
+        double coarse = (TopAfter(.2, 4e-4).Axis - reference.Axis).Length, fine = (TopAfter(.2, 2e-4).Axis - reference.Axis).Length;
+        Assert.InRange(coarse / fine, 10, 40);
+        Assert.True((TopAfter(.2, 1 / 12000.0).Axis - reference.Axis).Length < 1e-7);
+    }
+
+    [Fact]
+    public void TopKeepsEnergyAndPrecessesAtItsKnownRate()
+    {
+        var start = TopAfter(0, 1);
+        var end = TopAfter(10, 1 / 12000.0);
+        Assert.Equal(start.Energy, end.Energy, start.Energy * 1e-7);
+        // A fast top's rate, around which it nods by a few thousandths of a radian.
+        double turned = Math.Atan2(start.Axis.Z * end.Axis.X - start.Axis.X * end.Axis.Z, start.Axis.X * end.Axis.X + start.Axis.Z * end.Axis.Z);
+        Assert.Equal(10 * HeavyTop.FastPrecession(9.81 * .5, .125, 200), Math.Abs(turned), .005);
+        Assert.Equal(Math.Cos(Math.PI / 6), end.Axis.Y, .001);
+    }
+
+    static HeavyTop TopAfter(double duration, double step)
+    {
+        var top = HeavyTop.OfDisc(.5, .1, 1, .5, 200, Math.PI / 6, 9.81);
+        top.Advance(duration, step);
+        return top;
     }
 
     [Theory]

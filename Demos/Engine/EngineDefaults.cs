@@ -12,6 +12,14 @@ static class EngineDefaults
     /// <summary>Metres per second.</summary>
     public const float MaximumRecoveryVelocity = 2;
 
+    /// <summary>Seconds.</summary>
+    public const float MaximumTimestep = Limits.MaximumTimestep;
+
+    /// <summary>Hz.</summary>
+    public const float MaximumSpringFrequency = Limits.MaximumSpringFrequency;
+
+    public const float MaximumDampingRatio = Limits.MaximumDampingRatio;
+
     /// <summary>Contacts as hard as the step allows.</summary>
     public static SpringSettings ContactSpring => default;
 

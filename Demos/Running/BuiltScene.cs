@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
+using Demos.Engine;
 
 namespace Demos.Running;
 
@@ -29,7 +30,7 @@ sealed class BuiltScene
         int highest = simulation.Bodies.HandlePool.HighestPossiblyClaimedId;
         for (int slot = 0; slot <= highest; ++slot)
         {
-            if (simulation.Bodies.TryGetHandle(slot, out BodyHandle handle))
+            if (EngineHandles.TryGetHandle(simulation.Bodies, slot, out BodyHandle handle))
                 found.Add(handle);
         }
         handles = [.. found];

@@ -93,7 +93,7 @@ sealed class SceneBuilder
         if (body.Kind == SceneBodyKind.Static)
         {
             StaticHandle handle = simulation.Statics.Add(new StaticDescription(pose, shapeIndex));
-            SetGroup(staticGroups, handle.Slot, body.Group);
+            SetGroup(staticGroups, EngineHandles.Number(handle), body.Group);
             return;
         }
         var velocity = new BodyVelocity(body.LinearVelocity + SceneMath.Cross(body.AngularVelocity, offset), body.AngularVelocity);
@@ -101,7 +101,7 @@ sealed class SceneBuilder
         bodies[index] = simulation.Bodies.Add(body.Kind == SceneBodyKind.Kinematic
             ? BodyDescription.CreateKinematic(pose, velocity, shapeIndex, activity)
             : BodyDescription.CreateDynamic(pose, velocity, InertiaOf(body, shape!), shapeIndex, activity));
-        SetGroup(bodyGroups, bodies[index].Slot, body.Group);
+        SetGroup(bodyGroups, EngineHandles.Number(bodies[index]), body.Group);
     }
 
     /// <summary>Masses and sizes may be so small, or so large, that single precision cannot hold what follows from them.</summary>
@@ -198,7 +198,7 @@ sealed class SceneBuilder
             var activity = new BodyActivityDescription(scene.Sleep ? SleepThreshold : -1);
             standIn = simulation.Bodies.Add(BodyDescription.CreateKinematic(pose, new CollidableDescription(default), activity));
             standIns.Add(index, standIn);
-            SetGroup(bodyGroups, standIn.Slot, -1);
+            SetGroup(bodyGroups, EngineHandles.Number(standIn), -1);
         }
         return standIn;
     }

@@ -2,6 +2,7 @@ using System.Runtime.CompilerServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
+using Demos.Engine;
 
 namespace Demos.Running;
 
@@ -48,8 +49,8 @@ struct SceneNarrowPhaseCallbacks(ContactRecorder recorder, PairMaterialPropertie
     static bool MayCollide(int groupA, int groupB) => groupA >= 0 && groupB >= 0 && (groupA == 0 || groupA != groupB);
 
     readonly int GroupOf(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static
-        ? recorder.StaticGroups[collidable.Slot]
-        : recorder.BodyGroups[collidable.Slot];
+        ? recorder.StaticGroups[EngineHandles.Number(collidable)]
+        : recorder.BodyGroups[EngineHandles.Number(collidable)];
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     readonly void Record<TManifold>(int workerIndex, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>

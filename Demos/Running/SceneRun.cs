@@ -161,7 +161,7 @@ public sealed class SceneRun : IDisposable
     static void Refuse(RunSettings settings)
     {
         Require(settings.Steps is null or > 0, "steps", settings.Steps);
-        Require(settings.StepDuration is > 0 and <= Limits.MaximumTimestep, "dt", settings.StepDuration);
+        Require(settings.StepDuration is > 0 and <= EngineDefaults.MaximumTimestep, "dt", settings.StepDuration);
         Require(settings.Substeps is > 0 and <= MaximumSweeps, "substeps", settings.Substeps);
         Require(settings.Iterations is > 0 and <= MaximumSweeps, "iterations", settings.Iterations);
         Require(settings.Relaxations is >= 0 and <= MaximumSweeps, "relaxations", settings.Relaxations);
@@ -170,8 +170,8 @@ public sealed class SceneRun : IDisposable
         Require(settings.Threads is > 0 and <= 1024, "threads", settings.Threads);
         Require(settings.HashEvery >= 0, "hash-every", settings.HashEvery);
         Require(settings.Warmup is null or >= 0, "warmup", settings.Warmup);
-        Require(settings.Frequency is null or (> 0 and <= Limits.MaximumSpringFrequency), "frequency", settings.Frequency);
-        Require(settings.DampingRatio is null or (>= 0 and <= Limits.MaximumDampingRatio), "damping-ratio", settings.DampingRatio);
+        Require(settings.Frequency is null or (> 0 and <= EngineDefaults.MaximumSpringFrequency), "frequency", settings.Frequency);
+        Require(settings.DampingRatio is null or (>= 0 and <= EngineDefaults.MaximumDampingRatio), "damping-ratio", settings.DampingRatio);
         Require(settings.DampingRatio is null || settings.Frequency is not null, "damping-ratio without frequency", settings.DampingRatio);
     }
 

@@ -5,8 +5,10 @@ using System.IO;
 using System.Reflection;
 using BepuPhysics;
 using BepuUtilities.Memory;
+using Demos.Engine;
 using Demos.Running;
 using Demos.Scenes;
+using Demos.Trade;
 
 namespace Demos.Terminal;
 
@@ -34,7 +36,10 @@ public static class DemosCommand
         var root = new RootCommand("Runs physics scenes without a window and reports what they cost and how well they held.");
         root.Subcommands.Add(ListCommand());
         root.Subcommands.Add(RunCommand());
-        root.Subcommands.Add(FuzzCommand.Create((parsed, action) => Guard(parsed, _ => action())));
+        root.Subcommands.Add(TradeCommand.Create((parsed, action) => Guard(parsed, _ => action())));
+        root.Subcommands.Add(TradeCommand.CreateWorker());
+        foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
+            root.Subcommands.Add(command);
         root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));
         // Not the default handler: it would give a defect of ours the exit status of bad input.
         var configuration = new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false };

@@ -3,9 +3,9 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Support;
+using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>
 /// A sphere of 1 kg on an arm of 1 m, held by a ball socket, let go at the horizontal; measures its period, its energy and the joint's gap.

@@ -2,7 +2,7 @@ using BepuPhysics;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>
 /// All that the suite knows about this engine beyond the shared surface. With another file of this name it measures another engine.
@@ -14,6 +14,9 @@ static class EngineTraits
 
     /// <summary>Relaxation sweeps per substep, for those who pay for accuracy.</summary>
     public const int AccurateRelaxationCount = 1;
+
+    /// <summary>Whether there are relaxation sweeps at all.</summary>
+    public const bool HasRelaxation = true;
 
     /// <summary>As in the ready-made callbacks.</summary>
     public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
@@ -27,6 +30,12 @@ static class EngineTraits
 
     /// <summary>As stiff as the substep allows: the engine chooses.</summary>
     public static SpringSettings RigidSpring(float substepDuration) => default;
+
+    /// <summary>Springs that a sweep of the dials tries: the default is rigid and follows the substeps by itself.</summary>
+    public static string[] TradedSprings => ["default"];
+
+    /// <summary>Ways to integrate rotation that a sweep tries in scenes where nothing spins fast: the default, and the cheapest.</summary>
+    public static string[] TradedModes => ["default", "plain"];
 
     public static SolveDescription Solve(AccuracySettings settings) =>
         new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount };

@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Keeps the extremes of what is observed from step to step.</summary>
 static class Tally

@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>
 /// Euler's equations of a rigid body without torque, integrated by the classical Runge-Kutta scheme in double precision.

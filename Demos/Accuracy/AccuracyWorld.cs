@@ -4,9 +4,9 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
-using DemoTests.Support;
+using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>
 /// A simulation with one material and constant gravity, on one thread and without sleeping, and what the cases read from it.

@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>A frictionless pendulum: closed form of its period, and its equation of motion integrated in double precision.</summary>
 public static class PendulumOracle

@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>
 /// Counts reversals of a signal. A reversal counts once the signal is past half of its first magnitude, so noise around zero does not.

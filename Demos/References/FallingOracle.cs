@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>Closed forms of flight and bounce. SI units.</summary>
 public static class FallingOracle

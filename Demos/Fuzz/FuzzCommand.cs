@@ -1,9 +1,10 @@
 using System;
 using System.CommandLine;
 using System.IO;
-using Demos.Fuzz;
+using Demos.Scenes;
+using Demos.Terminal;
 
-namespace Demos.Terminal;
+namespace Demos.Fuzz;
 
 /// <summary>The command that calls the library at random.</summary>
 static class FuzzCommand
@@ -55,7 +56,7 @@ static class FuzzCommand
     static int Run(FuzzSettings settings, TextWriter output)
     {
         if (settings.Calls <= 0 || settings.CallsPerWorld <= 0 || settings.World < 0 || settings.MaximumFailures <= 0)
-            throw new Scenes.SceneException("numbers of calls and failures are above 0, worlds not below");
+            throw new SceneException("numbers of calls and failures are above 0, worlds not below");
         if (settings.TracePath is not null)
             OutputFile.CheckWritable(settings.TracePath);
         using var signal = new StopSignal();

@@ -4,7 +4,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>One material for all pairs, contacts between everything that can move, or none.</summary>
 partial struct WorldContacts(PairMaterialProperties material, ContactScope scope, float restitution = 0) : INarrowPhaseCallbacks

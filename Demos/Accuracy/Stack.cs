@@ -3,9 +3,9 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
+using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Cubes exactly on top of one another, and how far they are from where they were put.</summary>
 sealed class Stack

@@ -1,7 +1,7 @@
 using System;
 using System.Numerics;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>Vector in double precision for references: shares no code with the engine.</summary>
 public readonly record struct Double3(double X, double Y, double Z)

@@ -1,7 +1,7 @@
 using System;
 using System.Numerics;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>Rotation in double precision. As a rotation it takes body axes to world axes: world = q * body * conjugate(q).</summary>
 public readonly record struct DoubleQuaternion(double X, double Y, double Z, double W)

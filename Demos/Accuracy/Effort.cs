@@ -1,4 +1,4 @@
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>What a run pays. Thresholds are asserted for <see cref="Accurate"/>; both are reported.</summary>
 public enum Effort

@@ -3,7 +3,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Who may touch whom in a world of the suite.</summary>
 enum ContactScope
@@ -30,11 +30,15 @@ sealed record AccuracySettings
     /// <summary>Substeps for bodies that touch nothing, too.</summary>
     public bool SubstepsForFreeBodies { get; init; } = EngineTraits.DefaultSubstepsForFreeBodies;
     public bool Stiff { get; init; }
+
+    /// <summary>Frequency of contacts and joints, Hz; null for what <see cref="Stiff"/> says.</summary>
+    public float? SpringFrequency { get; init; }
     public ContactScope Contacts { get; init; } = ContactScope.All;
 
     public float SubstepDuration => Dt / SubstepCount;
 
-    public SpringSettings Spring => Stiff ? EngineTraits.RigidSpring(SubstepDuration) : EngineTraits.DefaultSpring(SubstepDuration);
+    public SpringSettings Spring => SpringFrequency is float hertz ? new(hertz, 1)
+        : Stiff ? EngineTraits.RigidSpring(SubstepDuration) : EngineTraits.DefaultSpring(SubstepDuration);
 
     /// <summary>Settings of an effort; cases change what they are about.</summary>
     public static AccuracySettings For(Effort effort) => effort == Effort.Default

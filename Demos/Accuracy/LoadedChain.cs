@@ -2,9 +2,9 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Support;
+using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>A chain of links of 1 kg that hangs in a point, with a load at its end.</summary>
 sealed class LoadedChain

@@ -1,0 +1,57 @@
+using System;
+using BepuPhysics;
+using BepuPhysics.CollisionDetection;
+using BepuPhysics.Constraints;
+using Demos.Scenes;
+
+namespace Demos.Accuracy;
+
+/// <summary>What the accuracy suite and the trade know about bepuphysics2.</summary>
+static class EngineTraits
+{
+    public const int DefaultSubstepCount = 4;
+    public const int DefaultVelocityIterationCount = 1;
+    public const int AccurateRelaxationCount = 0;
+    public const bool HasRelaxation = false;
+
+    /// <summary>As in the callbacks of its demos.</summary>
+    public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.Nonconserving;
+
+    /// <summary>As in the callbacks of its demos.</summary>
+    public const bool DefaultSubstepsForFreeBodies = false;
+    public const AngularIntegrationMode AccurateAngularMode = AngularIntegrationMode.ConserveMomentum;
+
+    /// <summary>That of its demos, Hz.</summary>
+    const float DefaultFrequency = 30;
+
+    public static SpringSettings DefaultSpring(float substepDuration) => new(DefaultFrequency, 1);
+
+    /// <summary>An eighth of a period per substep: what is stiffer gains energy at unequal masses.</summary>
+    public static SpringSettings RigidSpring(float substepDuration) => new(Math.Max(DefaultFrequency, 0.125f / substepDuration), 1);
+
+    /// <summary>Stiffness is the game's to choose there, so both of what its demos have and what a substep holds are tried.</summary>
+    public static string[] TradedSprings => ["default", "rigid"];
+
+    /// <summary>Its default is its cheapest.</summary>
+    public static string[] TradedModes => ["default"];
+
+    public static SolveDescription Solve(AccuracySettings settings) => settings.RelaxationCount == 0
+        ? new(settings.VelocityIterationCount, settings.SubstepCount)
+        : throw new SceneException("this engine has no relaxation sweeps");
+
+    /// <summary>It has no coefficient of restitution; its way to bounce is a spring without damping.</summary>
+    public static WorldContacts Contacts(AccuracySettings settings)
+    {
+        SpringSettings spring = settings.Spring;
+        if (settings.Restitution > 0)
+            spring.DampingRatio = 1 - settings.Restitution;
+        return new WorldContacts(new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, spring), settings.Contacts, settings.Restitution);
+    }
+}
+
+/// <summary>What the callbacks of the suite are told and this engine cannot use.</summary>
+partial struct WorldContacts
+{
+    /// <summary>Coefficient that the spring stands in for.</summary>
+    public readonly float Restitution => restitution;
+}

@@ -1,0 +1,43 @@
+using System;
+using System.Diagnostics;
+using System.IO;
+using Demos.Scenes;
+
+namespace Demos.Terminal;
+
+/// <summary>The program of <c>Benchmarks/Peer</c>: these sources, compiled against the bepuphysics2 of a folder.</summary>
+public static class PeerProgram
+{
+    /// <summary>Builds it and returns the path of the assembly.</summary>
+    /// <param name="folder">Holds the peer's BepuPhysics.dll and BepuUtilities.dll.</param>
+    /// <exception cref="SceneException">There is no such engine in the folder, or the program does not compile against it.</exception>
+    public static string Build(string folder)
+    {
+        if (!File.Exists(Path.Combine(folder, "BepuPhysics.dll")))
+            throw new SceneException($"there is no BepuPhysics.dll in the folder '{folder}' of --peer");
+        string root = FindRoot();
+        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
+        string[] arguments = ["build", Path.Combine(root, "Benchmarks", "Peer"), "-c", "Release", $"-p:PeerFolder={Path.GetFullPath(folder)}"];
+        foreach (string argument in arguments)
+            start.ArgumentList.Add(argument);
+        using Process process = Process.Start(start) ?? throw new SceneException("dotnet cannot be started to build the peer program");
+        // Read as it comes: a full pipe would stop the build.
+        var errors = process.StandardError.ReadToEndAsync();
+        string output = process.StandardOutput.ReadToEnd();
+        process.WaitForExit();
+        string errorText = errors.GetAwaiter().GetResult();
+        if (process.ExitCode != 0)
+            throw new SceneException($"the peer program does not build:\n{(errorText.Length > 0 ? errorText : output).Trim()}");
+        return Path.Combine(root, "artifacts", "bin", "Peer", "release", "Peer.dll");
+    }
+
+    static string FindRoot()
+    {
+        for (DirectoryInfo? folder = new(AppContext.BaseDirectory); folder is not null; folder = folder.Parent)
+        {
+            if (File.Exists(Path.Combine(folder.FullName, "Physics.sln")))
+                return folder.FullName;
+        }
+        throw new SceneException("this program does not lie below the folder of Physics.sln, so the peer's source cannot be found");
+    }
+}
