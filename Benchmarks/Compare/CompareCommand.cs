@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.CommandLine;
 using System.Globalization;
 using System.IO;
+using Demos.Running;
 
 namespace Benchmarks.Compare;
 
@@ -51,6 +52,7 @@ static class CompareCommand
                     : SceneProgram.BuildPeer(peerPath);
                 List<CompareOutcome> outcomes = Measure(cases, ourProgram, peerProgram, parsed.GetValue(runs),
                     parsed.GetValue(frames), parsed.GetValue(warmup));
+                CompareReport.Write(Console.Out, outcomes);
                 if (parsed.GetValue(csv) is string path)
                     CompareReport.WriteCsv(path, outcomes);
                 return 0;
@@ -67,18 +69,17 @@ static class CompareCommand
     static List<CompareOutcome> Measure(List<CompareCase> cases, SceneProgram ours, SceneProgram peer, int runs, int? frames, int? warmup)
     {
         var outcomes = new List<CompareOutcome>();
-        CompareReport.WriteHead(Console.Out);
         foreach (CompareCase subject in cases)
         {
             List<string> arguments = subject.Arguments(frames, warmup);
-            var pairs = new List<(RunFigures, RunFigures)>();
+            var pairs = new List<(RunJson, RunJson)>();
             while (pairs.Count < runs)
             {
-                RunFigures figures = ours.Run(arguments, subject.Lanes);
+                RunJson figures = ours.Run(arguments, subject.Lanes);
                 // The runtime takes fewer lanes when the machine has no more; such a row would pass for a measurement of what was asked.
                 if (subject.Lanes is int asked && figures.Lanes != asked)
                 {
-                    CompareReport.WriteSkipped(Console.Out, subject, figures);
+                    CompareReport.WriteSkipped(Console.Error, subject, figures);
                     break;
                 }
                 pairs.Add((figures, peer.Run(arguments, subject.Lanes)));
@@ -87,7 +88,8 @@ static class CompareCommand
                 continue;
             var outcome = new CompareOutcome(subject, pairs);
             outcomes.Add(outcome);
-            CompareReport.Write(Console.Out, outcome);
+            Console.Error.WriteLine(FormattableString.Invariant(
+                $"{outcome.SceneName} {subject.Settings}, {subject.Threads} threads: peer/ours {outcome.Ratio:0.00}"));
         }
         return outcomes;
     }

@@ -2,6 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
+using Demos.Running;
+using Demos.Scenes;
+using Demos.Terminal;
 
 namespace Benchmarks.Compare;
 
@@ -14,7 +17,7 @@ sealed class SceneProgram(string assemblyPath)
     /// <summary>Runs one case and reads its figures.</summary>
     /// <param name="arguments">Arguments of the run.</param>
     /// <param name="lanes">Widest vectors that the runtime may use, in floats; null for its own choice.</param>
-    public RunFigures Run(IEnumerable<string> arguments, int? lanes)
+    public RunJson Run(IEnumerable<string> arguments, int? lanes)
     {
         string path = Path.GetTempFileName();
         try
@@ -32,7 +35,7 @@ sealed class SceneProgram(string assemblyPath)
                 Console.Error.WriteLine($"warning: {assemblyPath} lost bodies in {string.Join(' ', arguments)}");
             else if (status != 0)
                 throw new CompareException($"{assemblyPath} ended with status {status}: {messages.Trim()}");
-            return RunFigures.Read(path);
+            return RunResultJson.Read(path);
         }
         finally
         {
@@ -59,18 +62,14 @@ sealed class SceneProgram(string assemblyPath)
     /// <param name="peerFolder">Holds the peer's two assemblies.</param>
     public static SceneProgram BuildPeer(string peerFolder)
     {
-        if (!File.Exists(Path.Combine(peerFolder, "BepuPhysics.dll")))
-            throw new CompareException($"there is no BepuPhysics.dll in the folder '{peerFolder}' of --peer");
-        string root = FindRoot();
-        string output = Path.Combine(root, "artifacts", "bin", "Peer", "release");
-        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
-        string[] arguments =
-            ["build", Path.Combine(root, "Benchmarks", "Peer"), "-c", "Release", $"-p:PeerFolder={Path.GetFullPath(peerFolder)}"];
-        foreach (string argument in arguments)
-            start.ArgumentList.Add(argument);
-        if (Execute(start, out string messages) != 0)
-            throw new CompareException($"the peer program does not build:\n{messages.Trim()}");
-        return new SceneProgram(Path.Combine(output, "Peer.dll"));
+        try
+        {
+            return new SceneProgram(PeerProgram.Build(peerFolder));
+        }
+        catch (SceneException refusal)
+        {
+            throw new CompareException(refusal.Message);
+        }
     }
 
     /// <summary>Runs a process to its end. What it writes is read as it comes: a full pipe would stop it.</summary>
@@ -85,15 +84,5 @@ sealed class SceneProgram(string assemblyPath)
         if (process.ExitCode == 0 && errorText.Length > 0)
             Console.Error.Write(errorText);
         return process.ExitCode;
-    }
-
-    static string FindRoot()
-    {
-        for (DirectoryInfo? folder = new(AppContext.BaseDirectory); folder is not null; folder = folder.Parent)
-        {
-            if (File.Exists(Path.Combine(folder.FullName, "Physics.sln")))
-                return folder.FullName;
-        }
-        throw new CompareException("this program does not lie below the folder of Physics.sln, so the peer's source cannot be found");
     }
 }

@@ -1,8 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
-using System.Text;
+using Demos.Terminal;
 
 namespace Benchmarks.Pairs;
 
@@ -12,18 +13,16 @@ static class PairReport
     /// <summary>Writes the table, and for each fill the geometric mean of its ratios.</summary>
     public static void Write(TextWriter writer, IReadOnlyList<PairOutcome> outcomes)
     {
-        writer.WriteLine(
-            $"{"pair",-18}{"regime",-10}{"fill",5}{"ours ns",10}{"peer ns",10}{"peer/ours",11}  {"spread",-12}{"contacts",13}{"step ns",10}");
+        var table = new TextTable("pair", "regime", ">fill", ">ours ns", ">peer ns", ">peer/ours", "spread", ">contacts", ">step ns");
         foreach (PairOutcome outcome in outcomes)
         {
             PairRow row = outcome.Case;
             (PairFigures ours, PairFigures peer) = outcome.Runs[0];
-            string spread = FormattableString.Invariant($"{outcome.LeastRatio:0.00}..{outcome.GreatestRatio:0.00}");
-            string contacts = FormattableString.Invariant($"{ours.Contacts:0.00} : {peer.Contacts:0.00}");
-            writer.Write($"{row.Pair,-18}{row.Regime,-10}{row.Fill,5}");
-            writer.Write(FormattableString.Invariant($"{outcome.OurTime,10:0.0}{outcome.PeerTime,10:0.0}{outcome.Ratio,11:0.00}  "));
-            writer.WriteLine(FormattableString.Invariant($"{spread,-12}{contacts,13}{outcome.StepTime,10:0.0}").TrimEnd());
+            table.Add(row.Pair, row.Regime, Whole(row.Fill), Text(outcome.OurTime, "0.0"), Text(outcome.PeerTime, "0.0"), Text(outcome.Ratio, "0.00"),
+                $"{Text(outcome.LeastRatio, "0.00")}..{Text(outcome.GreatestRatio, "0.00")}", $"{Text(ours.Contacts, "0.00")} : {Text(peer.Contacts, "0.00")}",
+                Text(outcome.StepTime, "0.0"));
         }
+        table.Write(writer);
         foreach (var group in outcomes.GroupBy(outcome => outcome.Case.Fill))
         {
             double mean = Math.Exp(group.Average(outcome => Math.Log(outcome.Ratio)));
@@ -38,18 +37,20 @@ static class PairReport
     /// <summary>Writes all outcomes as a CSV file.</summary>
     public static void WriteCsv(string path, IReadOnlyList<PairOutcome> outcomes)
     {
-        var text = new StringBuilder("pair,regime,fill,runs,oursNs,peerNs,ratio,ratioMin,ratioMax,oursContacts,peerContacts,oursStepNs\n");
+        var table = new TextTable(
+            "pair", "regime", "fill", "runs", "oursNs", "peerNs", "ratio", "ratioMin", "ratioMax", "oursContacts", "peerContacts", "oursStepNs");
         foreach (PairOutcome outcome in outcomes)
         {
             PairRow row = outcome.Case;
             (PairFigures ours, PairFigures peer) = outcome.Runs[0];
-            text.Append(FormattableString.Invariant($"{row.Pair},{row.Regime},{row.Fill},{outcome.Runs.Count},"));
-            text.Append(FormattableString.Invariant($"{outcome.OurTime:0.00},{outcome.PeerTime:0.00},"));
-            text.Append(FormattableString.Invariant($"{outcome.Ratio:0.000},{outcome.LeastRatio:0.000},{outcome.GreatestRatio:0.000},"));
-            text.Append(FormattableString.Invariant($"{ours.Contacts:0.000},{peer.Contacts:0.000},{outcome.StepTime:0.00}\n"));
+            table.Add(row.Pair, row.Regime, Whole(row.Fill), Whole(outcome.Runs.Count), Text(outcome.OurTime, "0.00"), Text(outcome.PeerTime, "0.00"),
+                Text(outcome.Ratio, "0.000"), Text(outcome.LeastRatio, "0.000"), Text(outcome.GreatestRatio, "0.000"), Text(ours.Contacts, "0.000"),
+                Text(peer.Contacts, "0.000"), Text(outcome.StepTime, "0.00"));
         }
-        if (Path.GetDirectoryName(Path.GetFullPath(path)) is string folder)
-            Directory.CreateDirectory(folder);
-        File.WriteAllText(path, text.ToString());
+        table.WriteCsv(path);
     }
+
+    static string Text(double? value, string format) => value?.ToString(format, CultureInfo.InvariantCulture) ?? "";
+
+    static string Whole(int value) => value.ToString(CultureInfo.InvariantCulture);
 }

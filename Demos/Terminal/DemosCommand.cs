@@ -51,8 +51,10 @@ public static class DemosCommand
         var command = new Command("list", "Lists the built-in scenes.");
         command.SetAction(parsed =>
         {
+            var table = new TextTable("scene", "content") { IsHeadless = true };
             foreach (BuiltInScene scene in SceneLibrary.Scenes)
-                parsed.InvocationConfiguration.Output.WriteLine($"{scene.Name,-16}{scene.Summary}");
+                table.Add(scene.Name, scene.Summary);
+            table.WriteText(parsed.InvocationConfiguration.Output);
             return Finished;
         });
         return command;

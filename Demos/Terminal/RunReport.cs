@@ -11,7 +11,7 @@ namespace Demos.Terminal;
 /// <summary>Shows a run: a progress bar and a table on a terminal, plain lines everywhere else.</summary>
 sealed class RunReport(TextWriter output)
 {
-    readonly bool isTerminal = output == Console.Out && !Console.IsOutputRedirected && AnsiConsole.Profile.Capabilities.Interactive;
+    readonly bool isTerminal = TextTable.IsTerminal(output);
 
     /// <summary>Runs all steps, with a progress bar where somebody can see it.</summary>
     public RunResult RunWithProgress(SceneRun run, string sceneName, int steps, CancellationToken stop)
@@ -36,18 +36,10 @@ sealed class RunReport(TextWriter output)
     /// <summary>Writes the figures.</summary>
     public void Write(RunResult result)
     {
-        if (!isTerminal)
-        {
-            foreach ((string name, string value) in Rows(result))
-                output.WriteLine($"{name,-18}{value}");
-            return;
-        }
-        var table = new Table().Border(TableBorder.Rounded).Title(Markup.Escape(result.Scene));
-        table.AddColumn("figure");
-        table.AddColumn(new TableColumn("value").RightAligned());
+        var table = new TextTable("figure", "value") { IsHeadless = true };
         foreach ((string name, string value) in Rows(result))
-            table.AddRow(Markup.Escape(name), Markup.Escape(value));
-        AnsiConsole.Write(table);
+            table.Add(name, value);
+        table.Write(output);
     }
 
     static string Stopped(RunResult result) => result.IsStopped ? Text($", stopped before {result.StepsAsked}") : "";

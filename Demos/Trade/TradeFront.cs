@@ -6,6 +6,9 @@ namespace Demos.Trade;
 /// <summary>The points that nothing beats, and how two engines' lie to each other.</summary>
 static class TradeFront
 {
+    /// <summary>Errors that differ by less than this factor are the same: both engines leave 9.9 % at some setting, and 9.95 is not better than 9.96.</summary>
+    public const double SameError = 1.05;
+
     /// <summary>
     /// The Pareto front, from the quickest to the most exact: of the others each is no quicker and no more exact than one of these. What broke is on no front.
     /// </summary>
@@ -20,9 +23,9 @@ static class TradeFront
         return front;
     }
 
-    /// <summary>The quickest point whose error is no larger, or null.</summary>
+    /// <summary>The quickest point whose error is no larger, up to <see cref="SameError"/>; or null.</summary>
     public static TradePoint? QuickestWithin(IEnumerable<TradePoint> points, double error) =>
-        points.Where(point => IsMeasured(point) && point.Error <= error).MinBy(point => point.Milliseconds);
+        points.Where(point => IsMeasured(point) && point.Error <= error * SameError).MinBy(point => point.Milliseconds);
 
     /// <summary>
     /// Our time over theirs for each point of their front, with the quickest of our settings that is no less exact; infinite where there is none. All below

@@ -71,6 +71,23 @@ public class RunResultJsonTests
         Assert.Equal("[[4,\"0000000000000001\"],[8,\"ffffffffffffffff\"]]", JsonSerializer.Serialize(root.GetProperty("hashes")));
     }
 
+    [Fact]
+    public void What_is_written_can_be_read()
+    {
+        string path = Path.GetTempFileName();
+        try
+        {
+            RunResultJson.Write(path, sample);
+            RunJson read = RunResultJson.Read(path);
+            Assert.Equal((sample.Engine, sample.Scene, 0.25, (double?)null), (read.Engine, read.Scene, read.MaxPenetration, read.Stages.Predict));
+            Assert.Equal([new RunHashJson(4, "0000000000000001"), new RunHashJson(8, "ffffffffffffffff")], read.Hashes);
+        }
+        finally
+        {
+            File.Delete(path);
+        }
+    }
+
     static JsonElement Write(RunResult result)
     {
         using var stream = new MemoryStream();

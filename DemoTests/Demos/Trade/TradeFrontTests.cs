@@ -18,12 +18,12 @@ public class TradeFrontTests
     [Fact]
     public void Two_fronts_are_compared_at_no_larger_error()
     {
-        List<TradePoint> ours = [Point(1, 4), Point(3, 1), Point(9, .5)], theirs = [Point(2, 4), Point(4, 2), Point(5, 2), Point(8, .1)];
+        List<TradePoint> ours = [Point(1, 4), Point(3, 1), Point(9, .5), Point(2.5, 2.08)], theirs = [Point(2, 4), Point(4, 2), Point(5, 2), Point(8, .1)];
 
         var ratios = TradeFront.Compare(ours, theirs);
 
-        Assert.Equal([.5, .75, double.PositiveInfinity], ratios.Select(entry => entry.Ratio));
-        Assert.Equal([ours[0], ours[1], null], ratios.Select(entry => entry.Ours));
+        Assert.Equal([.5, .625, double.PositiveInfinity], ratios.Select(entry => entry.Ratio));
+        Assert.Equal([ours[0], ours[3], null], ratios.Select(entry => entry.Ours));
     }
 
     [Fact]

@@ -28,7 +28,7 @@ sealed class RagdollCase : TradeCase
         for (int i = 0; i < Columns * Layers; ++i)
         {
             int column = i % Columns, layer = i / Columns;
-            AddRagdoll(new Vector3((column % 3 - 1) * .7f + .05f * layer, 1.2f + layer * .7f, (column / 3 - .5f) * 1.4f + .07f * layer));
+            AddRagdoll(new Vector3((column % 3 - 1) * 1.5f + .3f * layer, .8f + layer * .5f, (column / 3 - .5f) * 2 + .2f * layer));
         }
     }
 
@@ -42,14 +42,14 @@ sealed class RagdollCase : TradeCase
     void AddRagdoll(Vector3 hip)
     {
         var spine = Vector3.UnitZ;
-        BodyHandle pelvis = AddLimb(hip, spine, .18f, .1f), chest = AddLimb(hip + spine * .32f, spine, .18f, .1f);
-        Join(pelvis, chest, hip + spine * .16f, spine);
-        Vector3 neck = hip + spine * .53f;
-        Join(chest, AddLimb(neck + spine * .1f, spine, .04f, Radius), neck, spine);
+        BodyHandle pelvis = AddLimb(hip, spine, .18f, .1f), chest = AddLimb(hip + spine * .4f, spine, .18f, .1f);
+        Join(pelvis, chest, hip + spine * .2f, spine);
+        Vector3 neck = hip + spine * .6f;
+        Join(chest, AddLimb(neck + spine * .09f, spine, .04f, Radius), neck, spine);
         for (int side = -1; side <= 1; side += 2)
         {
             var aside = new Vector3(side, 0, 0);
-            AddPair(chest, hip + spine * .42f + aside * .14f, aside, .14f);
+            AddPair(chest, hip + spine * .45f + aside * .14f, aside, .14f);
             AddPair(pelvis, hip - spine * .24f + aside * .1f, -spine, .26f);
         }
     }
