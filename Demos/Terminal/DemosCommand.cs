@@ -5,6 +5,7 @@ using System.IO;
 using System.Reflection;
 using BepuPhysics;
 using BepuUtilities.Memory;
+using Demos.Accuracy;
 using Demos.Engine;
 using Demos.Running;
 using Demos.Scenes;
@@ -38,6 +39,7 @@ public static class DemosCommand
         root.Subcommands.Add(RunCommand());
         root.Subcommands.Add(TradeCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(TradeCommand.CreateWorker());
+        root.Subcommands.Add(AccuracyCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
             root.Subcommands.Add(command);
         root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));

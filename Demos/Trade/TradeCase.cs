@@ -25,5 +25,8 @@ abstract class TradeCase(AccuracySettings settings) : IDisposable
     {
     }
 
+    /// <summary>The error, or not a number where it is so large that what was to hold has fallen.</summary>
+    protected static double OrBroken(double error, double most) => error <= most ? error : double.NaN;
+
     public void Dispose() => World.Dispose();
 }

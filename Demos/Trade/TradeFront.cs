@@ -10,14 +10,15 @@ static class TradeFront
     public const double SameError = 1.05;
 
     /// <summary>
-    /// The Pareto front, from the quickest to the most exact: of the others each is no quicker and no more exact than one of these. What broke is on no front.
+    /// The Pareto front, from the quickest to the most exact: of the others each is no quicker than one of these, and no more exact by more than
+    /// <see cref="SameError"/>. What broke is on no front.
     /// </summary>
     public static List<TradePoint> Of(IEnumerable<TradePoint> points)
     {
         var front = new List<TradePoint>();
         foreach (TradePoint point in points.Where(IsMeasured).OrderBy(point => point.Milliseconds).ThenBy(point => point.Error))
         {
-            if (front.Count == 0 || point.Error < front[^1].Error)
+            if (front.Count == 0 || point.Error * SameError < front[^1].Error)
                 front.Add(point);
         }
         return front;

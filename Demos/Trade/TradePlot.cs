@@ -20,6 +20,7 @@ sealed class TradePlot
     readonly TradeScene scene;
     readonly List<(string Engine, List<TradePoint> Points, List<TradePoint> Front)> series;
     readonly (double Least, double Greatest) times, errors;
+    readonly List<(double Left, double Right, double Bottom)> labels = [];
     readonly StringBuilder svg = new();
 
     public TradePlot(TradeScene scene, IEnumerable<(string Engine, List<TradePoint> Points, List<TradePoint> Front)> series)
@@ -35,6 +36,7 @@ sealed class TradePlot
     public string ToSvg()
     {
         svg.Clear();
+        labels.Clear();
         svg.Append(CultureInfo.InvariantCulture, $"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {Width} {Height}\" font-family=\"sans-serif\" font-size=\"12\">\n");
         svg.Append(CultureInfo.InvariantCulture, $"<rect width=\"{Width}\" height=\"{Height}\" fill=\"white\"/>\n");
         Text(Left, 24, $"{scene.Name}: {scene.Summary}", "start", size: 15);
@@ -79,10 +81,29 @@ sealed class TradePlot
             string path = string.Join(' ', line.Select(point => FormattableString.Invariant($"{X(point.Milliseconds):0.0},{Y(point.Error):0.0}")));
             svg.Append(CultureInfo.InvariantCulture, $"<polyline points=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>\n");
         }
-        // One engine's labels above its line, the next one's below: fronts lie close to each other.
         foreach (TradePoint point in line)
-            Text(X(point.Milliseconds) + 6, Y(point.Error) + (index % 2 == 0 ? -6 : 14), point.Label, "start", colour, 10);
+            Label(X(point.Milliseconds), Y(point.Error), point.Label, colour, index % 2 == 0);
         Text(Left + index * 220, 44, $"● {engine}", "start", colour);
+    }
+
+    /// <summary>
+    /// Writes a label where there is room for it, or not at all: fronts lie close to each other. The first engine's stand above its line if they can, the
+    /// next one's below.
+    /// </summary>
+    void Label(double x, double y, string text, string colour, bool isAbove)
+    {
+        const int size = 10;
+        const double letter = 5.2;
+        double width = letter * text.Length, near = isAbove ? -6 : 14, far = isAbove ? 14 : -6;
+        foreach ((double left, double bottom) in new[] { (x + 6, y + near), (x - 6 - width, y + near), (x + 6, y + far), (x - 6 - width, y + far) })
+        {
+            if (left < Left || left + width > Width || labels.Exists(other =>
+                left < other.Right && other.Left < left + width && bottom - size < other.Bottom && other.Bottom - size < bottom))
+                continue;
+            labels.Add((left, left + width, bottom));
+            Text(left, bottom, text, "start", colour, size);
+            return;
+        }
     }
 
     void Line(double x1, double y1, double x2, double y2, string colour) =>

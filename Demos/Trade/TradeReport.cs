@@ -47,15 +47,17 @@ sealed class TradeReport
     /// <summary>Where our front lies to the peer's; null when there is only one engine.</summary>
     public string? Verdict()
     {
-        if (ratios.Count == 0)
+        if (engines.Count != 2)
             return null;
         string other = engines[1].Key;
+        double best = LeastError(engines[0]), theirs = LeastError(engines[1]);
+        if (ratios.Count == 0)
+            return $"Against {other}: none of its settings holds. Least error {scene.Show(best)}.";
         double[] known = [.. ratios.Select(entry => entry.Ratio).Where(double.IsFinite)];
         int unreached = ratios.Count - known.Length;
         string reach = unreached == 0 ? "" : FormattableString.Invariant($"; {unreached} of {ratios.Count} points of its front are more exact than any of ours");
         string time = known.Length == 0 ? "no point of its front is reached" : FormattableString.Invariant(
             $"our time at no larger error is {known.Min():0.00} to {known.Max():0.00} of its time, {Math.Exp(known.Average(Math.Log)):0.00} in the geometric mean");
-        double best = LeastError(engines[0]), theirs = LeastError(engines[1]);
         return $"Against {other}: {time}{reach}. Least error {scene.Show(best)} : {scene.Show(theirs)}.";
     }
 

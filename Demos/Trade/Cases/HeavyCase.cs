@@ -15,5 +15,6 @@ sealed class HeavyCase : TradeCase
 
     public override int StepCount => 600;
 
-    public override double Error => stack.Loss;
+    /// <summary>More than half of the light cube is one that was crushed.</summary>
+    public override double Error => OrBroken(stack.Loss, .5);
 }

@@ -19,5 +19,6 @@ class StackCase : TradeCase
 
     public override int StepCount => 600;
 
-    public override double Error => stack.Loss + stack.Drift;
+    /// <summary>More than the size of a cube is a stack that fell.</summary>
+    public override double Error => OrBroken(stack.Loss + stack.Drift, 1);
 }

@@ -35,7 +35,7 @@ sealed class WallCase : TradeCase
 
     public override int StepCount => 600;
 
-    /// <summary>The deepest drop of a brick and the farthest sideways way of one.</summary>
+    /// <summary>The deepest drop of a brick and the farthest sideways way of one; more than the length of a brick is a wall that fell.</summary>
     public override double Error
     {
         get
@@ -47,7 +47,7 @@ sealed class WallCase : TradeCase
                 loss = Tally.Most(loss, -way.Y);
                 drift = Tally.Most(drift, Math.Sqrt(way.X * way.X + way.Z * way.Z));
             }
-            return loss + drift;
+            return OrBroken(loss + drift, Length);
         }
     }
 

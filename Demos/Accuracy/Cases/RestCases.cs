@@ -1,24 +1,21 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Accuracy;
 using Demos.References;
-using Xunit;
-using Xunit.Abstractions;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy.Cases;
 
 /// <summary>A box that lies there (C4): it stays where it was put.</summary>
-public class RestTests(ITestOutputHelper output)
+static class RestCases
 {
-    [Theory]
-    [InlineData(1, Effort.Accurate)]
-    [InlineData(1000, Effort.Accurate)]
-    [InlineData(1, Effort.Default)]
-    [InlineData(1000, Effort.Default)]
-    public void C4_BoxAtRest(float mass, Effort effort)
+    public static IEnumerable<AccuracyCase> All { get; } = new[] { 1f, 1000 }.SelectMany(mass =>
+        AccuracySuite.AtBothEfforts("C4", FormattableString.Invariant($"box of {mass} kg"), true, (settings, result) => Run(settings, mass, result)));
+
+    static void Run(AccuracySettings settings, float mass, CaseResult result)
     {
-        var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         world.AddGround();
         var body = world.AddDynamic(new Box(1, 1, 1), mass, new RigidPose(new Vector3(0, .5f, 0)));
@@ -32,10 +29,6 @@ public class RestTests(ITestOutputHelper output)
             if (world.Time > 1)
                 speed = Tally.Most(speed, world.LinearVelocity(body).Length);
         });
-        new CaseResult("C4", $"box of {mass} kg", settings)
-            .Limit("moved", moved, .005, "m")
-            .Limit("speed", speed, .001, "m/s")
-            .Note("turned", turned, "rad")
-            .Finish(output, enforce: effort == Effort.Accurate);
+        result.Limit("moved", moved, .005, "m").Limit("speed", speed, .001, "m/s").Note("turned", turned, "rad");
     }
 }

@@ -1,0 +1,53 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using Demos.Terminal;
+using Xunit;
+
+namespace DemoTests.Accuracy;
+
+public sealed class AccuracyCommandTests : IDisposable
+{
+    readonly string folder = Directory.CreateTempSubdirectory("accuracy").FullName;
+
+    public void Dispose() => Directory.Delete(folder, true);
+
+    [Theory]
+    [InlineData("no case 'Z9'", "accuracy", "Z9")]
+    [InlineData("--effort cannot be 'none'", "accuracy", "C4", "--effort", "none")]
+    [InlineData("no-such-folder", "accuracy", "C4", "--json", "no-such-folder/accuracy.json")]
+    public void What_cannot_be_is_refused_with_a_message(string message, params string[] arguments)
+    {
+        (int status, _, string error) = Run(arguments);
+
+        Assert.Equal(DemosCommand.BadInput, status);
+        Assert.Contains(message, error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void A_family_is_run_judged_and_written()
+    {
+        string json = Path.Combine(folder, "accuracy.json"), page = Path.Combine(folder, "Accuracy.md");
+
+        (int status, string output, _) = Run("accuracy", "C4", "--effort", "accurate", "--json", json, "--page", page);
+
+        Assert.Equal(DemosCommand.Finished, status);
+        Assert.Contains("2 judged, 0 failed; 0 reported", output, StringComparison.Ordinal);
+        JsonElement root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
+        Assert.Equal(["engine", "complete", "cases"], root.EnumerateObject().Select(member => member.Name));
+        JsonElement first = root.GetProperty("cases")[0];
+        Assert.Equal(["case", "scene", "effort", "settings", "judged", "met", "figures"], first.EnumerateObject().Select(member => member.Name));
+        Assert.Equal(.005, first.GetProperty("figures")[0].GetProperty("limit").GetDouble());
+        Assert.Equal(JsonValueKind.Null, first.GetProperty("figures")[2].GetProperty("limit").ValueKind);
+        Assert.Equal(4, File.ReadAllLines(page).Length);
+    }
+
+    static (int Status, string Output, string Error) Run(params string[] arguments)
+    {
+        using var output = new StringWriter();
+        using var error = new StringWriter();
+        int status = DemosCommand.Run(arguments, output, error);
+        return (status, output.ToString(), error.ToString());
+    }
+}

@@ -1,0 +1,28 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Demos.Accuracy.Cases;
+
+namespace Demos.Accuracy;
+
+/// <summary>The cases of the accuracy suite that a program can run; the tests judge the same ones.</summary>
+static class AccuracySuite
+{
+    /// <summary>All cases at both efforts, family by family.</summary>
+    public static IReadOnlyList<AccuracyCase> All { get; } =
+    [
+        .. RestCases.All,
+        .. StackCases.All,
+        .. PendulumCases.All,
+        .. ChainCases.All,
+        .. StepCases.All,
+    ];
+
+    /// <summary>A case at both efforts.</summary>
+    /// <param name="id">The family.</param>
+    /// <param name="scene">What is simulated.</param>
+    /// <param name="isJudged">Whether its limits must be met at the accurate effort; at the default they are reported.</param>
+    /// <param name="run">Simulates it.</param>
+    public static IEnumerable<AccuracyCase> AtBothEfforts(string id, string scene, bool isJudged, Action<AccuracySettings, CaseResult> run) =>
+        Enum.GetValues<Effort>().Select(effort => new AccuracyCase(id, scene, effort, isJudged && effort == Effort.Accurate, run));
+}
