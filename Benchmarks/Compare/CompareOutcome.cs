@@ -38,6 +38,7 @@ sealed class CompareOutcome(CompareCase subject, List<(RunJson Ours, RunJson Pee
     IEnumerable<double> Ratios => runs.Select(run => run.Peer.Ms.Median!.Value / run.Ours.Ms.Median!.Value);
 
     /// <summary>Milliseconds of a stage in the middle run of ours and of the peer.</summary>
-    public (double? Ours, double? Peer) Stage(int index) =>
-        (RunFigures.MedianOf(runs.Select(run => RunFigures.Stage(run.Ours, index))), RunFigures.MedianOf(runs.Select(run => RunFigures.Stage(run.Peer, index))));
+    public (double? Ours, double? Peer) Stage(int index) => (
+        RunFigures.MedianOf(runs.Select(run => RunFigures.Stage(run.Ours, index))),
+        RunFigures.MedianOf(runs.Select(run => RunFigures.Stage(run.Peer, index))));
 }

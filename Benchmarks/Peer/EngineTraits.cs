@@ -45,7 +45,8 @@ static class EngineTraits
         SpringSettings spring = settings.Spring;
         if (settings.Restitution > 0)
             spring.DampingRatio = 1 - settings.Restitution;
-        return new WorldContacts(new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, spring), settings.Contacts, settings.Restitution);
+        var material = new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, spring);
+        return new WorldContacts(material, settings.Contacts, settings.Restitution);
     }
 }
 

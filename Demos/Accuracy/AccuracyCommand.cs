@@ -17,7 +17,11 @@ static class AccuracyCommand
 
     public static Command Create(Func<ParseResult, Func<int>, int> guard)
     {
-        var families = new Argument<string[]>("case") { Description = $"Families of cases: {string.Join(", ", Families())} [default: all].", Arity = ArgumentArity.ZeroOrMore };
+        var families = new Argument<string[]>("case")
+        {
+            Description = $"Families of cases: {string.Join(", ", Families())} [default: all].",
+            Arity = ArgumentArity.ZeroOrMore,
+        };
         var effort = new Option<string>("--effort")
         {
             Description = "default (what a game gets without thinking), accurate (16 relaxed substeps) or both.",

@@ -24,8 +24,8 @@ sealed record TradeAxis(
 
     const int MostSweeps = 1024;
 
-    static readonly string[] modes = [nameof(AngularIntegrationMode.Nonconserving), nameof(AngularIntegrationMode.ConserveMomentum),
-        nameof(AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque)];
+    static readonly AngularIntegrationMode[] modes = [AngularIntegrationMode.Nonconserving, AngularIntegrationMode.ConserveMomentum,
+        AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque];
 
     static readonly string[] modeWords = ["plain", "momentum", "gyroscopic"];
 
@@ -35,7 +35,7 @@ sealed record TradeAxis(
         new("mode", $"How rotation is integrated: {string.Join(", ", modeWords)} or {Default}.", scene => scene.Turns ? modeWords : EngineTraits.TradedModes,
             value => value == Default ? "" : value,
             (settings, value) => value == Default ? settings
-                : Array.IndexOf(modeWords, value) is >= 0 and int index ? settings with { AngularMode = Enum.Parse<AngularIntegrationMode>(modes[index]) } : null),
+                : Array.IndexOf(modeWords, value) is >= 0 and int index ? settings with { AngularMode = modes[index] } : null),
         new("spring", $"Frequency in Hz of contacts and joints, or rigid (as stiff as a substep holds), or {Default}.", _ => EngineTraits.TradedSprings,
             value => value == Default ? "" : value,
             (settings, value) => value switch

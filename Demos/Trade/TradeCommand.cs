@@ -25,7 +25,7 @@ static class TradeCommand
         var runs = new Option<int>("--runs") { Description = "Runs of each setting.", DefaultValueFactory = _ => DefaultRuns };
         var peer = new Option<string?>("--peer")
         {
-            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll): measured in turn with this engine.",
+            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure in turn with.",
             HelpName = "FOLDER",
         };
         var output = new Option<string?>("--output") { Description = "Folder for SCENE.svg, SCENE.json and SCENE.md of each scene.", HelpName = "FOLDER" };

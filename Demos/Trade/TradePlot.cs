@@ -37,7 +37,8 @@ sealed class TradePlot
     {
         svg.Clear();
         labels.Clear();
-        svg.Append(CultureInfo.InvariantCulture, $"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {Width} {Height}\" font-family=\"sans-serif\" font-size=\"12\">\n");
+        svg.Append(CultureInfo.InvariantCulture, $"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {Width} {Height}\" ");
+        svg.Append("font-family=\"sans-serif\" font-size=\"12\">\n");
         svg.Append(CultureInfo.InvariantCulture, $"<rect width=\"{Width}\" height=\"{Height}\" fill=\"white\"/>\n");
         Text(Left, 24, $"{scene.Name}: {scene.Summary}", "start", size: 15);
         DrawGrid();
@@ -73,7 +74,8 @@ sealed class TradePlot
             bool isBest = front.Contains(point);
             svg.Append(CultureInfo.InvariantCulture, $"<circle cx=\"{X(point.Milliseconds):0.0}\" cy=\"{Y(point.Error):0.0}\" r=\"{(isBest ? 4 : 3)}\" ");
             svg.Append(CultureInfo.InvariantCulture, $"fill=\"{(isBest ? colour : "none")}\" stroke=\"{colour}\" stroke-opacity=\"{(isBest ? 1 : 0.4)}\">");
-            svg.Append(CultureInfo.InvariantCulture, $"<title>{SecurityElement.Escape($"{engine} {point.Label}: {scene.Show(point.Error)}, ")}{point.Milliseconds:0.0000} ms</title></circle>\n");
+            string title = FormattableString.Invariant($"{engine} {point.Label}: {scene.Show(point.Error)}, {point.Milliseconds:0.0000} ms");
+            svg.Append(CultureInfo.InvariantCulture, $"<title>{SecurityElement.Escape(title)}</title></circle>\n");
         }
         List<TradePoint> line = [.. front.Where(IsShown)];
         if (line.Count > 1)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
@@ -55,9 +56,10 @@ sealed class TradeReport
             return $"Against {other}: none of its settings holds. Least error {scene.Show(best)}.";
         double[] known = [.. ratios.Select(entry => entry.Ratio).Where(double.IsFinite)];
         int unreached = ratios.Count - known.Length;
-        string reach = unreached == 0 ? "" : FormattableString.Invariant($"; {unreached} of {ratios.Count} points of its front are more exact than any of ours");
-        string time = known.Length == 0 ? "no point of its front is reached" : FormattableString.Invariant(
-            $"our time at no larger error is {known.Min():0.00} to {known.Max():0.00} of its time, {Math.Exp(known.Average(Math.Log)):0.00} in the geometric mean");
+        string reach = unreached == 0 ? "" : $"; {unreached} of {ratios.Count} points of its front are more exact than any of ours";
+        string time = known.Length == 0 ? "no point of its front is reached" : string.Create(CultureInfo.InvariantCulture,
+            $"our time at no larger error is {known.Min():0.00} to {known.Max():0.00} of its time, "
+            + $"{Math.Exp(known.Average(Math.Log)):0.00} in the geometric mean");
         return $"Against {other}: {time}{reach}. Least error {scene.Show(best)} : {scene.Show(theirs)}.";
     }
 
@@ -91,5 +93,5 @@ sealed class TradeReport
 
     static double? Known(double value) => double.IsFinite(value) ? value : null;
 
-    static string Time(double milliseconds) => milliseconds.ToString(milliseconds < 1 ? "0.0000" : "0.000", System.Globalization.CultureInfo.InvariantCulture);
+    static string Time(double milliseconds) => milliseconds.ToString(milliseconds < 1 ? "0.0000" : "0.000", CultureInfo.InvariantCulture);
 }

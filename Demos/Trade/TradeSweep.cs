@@ -6,7 +6,9 @@ using Demos.Scenes;
 
 namespace Demos.Trade;
 
-/// <summary>Measures a scene at all places of the space of dials with all engines, in turn: A B C, A B C, so that whatever else the machine does falls on all.</summary>
+/// <summary>
+/// Measures a scene at all places of the space of dials with all engines, in turn: A B C, A B C, so that whatever else the machine does falls on all.
+/// </summary>
 sealed class TradeSweep
 {
     readonly TradeScene scene;

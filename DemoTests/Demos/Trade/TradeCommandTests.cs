@@ -49,10 +49,12 @@ public sealed class TradeCommandTests : IDisposable
         Assert.True(root.GetProperty("complete").GetBoolean());
         JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
         Assert.Equal(6, points.Length);
-        Assert.Equal(["engine", "setting", "dials", "error", "ms", "msMin", "msMax", "runs", "front"], points[0].EnumerateObject().Select(member => member.Name));
+        Assert.Equal(["engine", "setting", "dials", "error", "ms", "msMin", "msMax", "runs", "front"],
+            points[0].EnumerateObject().Select(member => member.Name));
         Assert.All(points, point => Assert.True(point.GetProperty("ms").GetDouble() > 0));
         // Rigid contacts sink by the square of the substep's length, and by half as much with a relaxation.
-        double[] errors = [.. points.OrderBy(point => point.GetProperty("setting").GetString(), StringComparer.Ordinal).Select(point => point.GetProperty("error").GetDouble())];
+        double[] errors = [.. points.OrderBy(point => point.GetProperty("setting").GetString(), StringComparer.Ordinal)
+            .Select(point => point.GetProperty("error").GetDouble())];
         Assert.True(errors[0] > 2 * errors[2] && errors[2] > 2 * errors[4], string.Join(", ", errors));
         Assert.True(errors[1] > errors[3] && errors[3] > errors[5], string.Join(", ", errors));
         Assert.Contains("<svg", File.ReadAllText(Path.Combine(folder, "steps.svg")), StringComparison.Ordinal);

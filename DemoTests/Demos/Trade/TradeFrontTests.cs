@@ -10,7 +10,10 @@ public class TradeFrontTests
     [Fact]
     public void The_front_is_what_nothing_beats()
     {
-        TradePoint[] points = [Point(4, .1), Point(1, 5), Point(2, 1), Point(3, 2), Point(2, 3), Point(5, .1), Point(6, double.NaN), Point(6, .098), Point(7, .01)];
+        TradePoint[] points =
+        [
+            Point(4, .1), Point(1, 5), Point(2, 1), Point(3, 2), Point(2, 3), Point(5, .1), Point(6, double.NaN), Point(6, .098), Point(7, .01),
+        ];
 
         Assert.Equal([(1, 5), (2, 1), (4, .1), (7, .01)], TradeFront.Of(points).Select(point => (point.Milliseconds, point.Error)));
     }
