@@ -26,11 +26,20 @@ static class EngineTraits
 
     public static SpringSettings DefaultSpring(float substepDuration) => new(DefaultFrequency, 1);
 
-    /// <summary>An eighth of a period per substep: what is stiffer gains energy at unequal masses.</summary>
-    public static SpringSettings RigidSpring(float substepDuration) => new(Math.Max(DefaultFrequency, 0.125f / substepDuration), 1);
+    /// <summary>
+    /// An eighth of a period per substep, since what is stiffer gains energy at unequal masses; and as much for each further sweep where that is asked for.
+    /// </summary>
+    public static SpringSettings RigidSpring(AccuracySettings settings)
+    {
+        float cycles = settings.SpringFollowsSweeps ? Math.Min(0.125f * settings.VelocityIterationCount, 0.5f) : 0.125f;
+        return new SpringSettings(Math.Max(DefaultFrequency, cycles / settings.SubstepDuration), 1);
+    }
 
-    /// <summary>Stiffness is the game's to choose there, so both of what its demos have and what a substep holds are tried.</summary>
-    public static string[] TradedSprings => ["default", "rigid"];
+    /// <summary>
+    /// Stiffness is the game's to choose there, so all are tried: what its demos have, what a substep of one sweep holds, and what follows the sweeps as
+    /// this library's rigid contacts and joints do.
+    /// </summary>
+    public static string[] TradedSprings => ["default", "rigid", "swept"];
 
     /// <summary>Its default is its cheapest.</summary>
     public static string[] TradedModes => ["default"];

@@ -1,10 +1,10 @@
 using System;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Scenes;
 using Demos.Accuracy;
 using Demos.References;
 using Demos.Scenes;
+using DemoTests.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 

@@ -1,9 +1,9 @@
 using System;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
 using Demos.Accuracy;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 

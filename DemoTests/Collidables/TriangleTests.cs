@@ -4,8 +4,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.CollisionDetection;
 using Demos.References;
+using DemoTests.CollisionDetection;
 using Xunit;
 
 namespace DemoTests.Collidables;

@@ -4,9 +4,9 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using DemoTests.Support;
 using Demos.Accuracy;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 

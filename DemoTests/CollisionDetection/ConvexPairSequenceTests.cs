@@ -2,8 +2,8 @@ using System;
 using System.Linq;
 using System.Threading.Tasks;
 using BepuPhysics.CollisionDetection;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 

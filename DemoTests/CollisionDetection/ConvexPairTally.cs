@@ -3,8 +3,8 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using BepuPhysics.CollisionDetection;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection;
 

@@ -6,8 +6,8 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection;
 

@@ -4,8 +4,8 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 

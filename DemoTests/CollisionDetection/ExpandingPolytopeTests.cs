@@ -2,8 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using BepuPhysics.CollisionDetection;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection;

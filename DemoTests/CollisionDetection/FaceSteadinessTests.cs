@@ -6,8 +6,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
-using DemoTests.Accuracy;
 using Demos.Accuracy;
+using DemoTests.Accuracy;
 using Xunit;
 using Harness = DemoTests.CollisionDetection.FaceHarness<
     DemoTests.CollisionDetection.FaceTestPolygon, DemoTests.CollisionDetection.FaceTestPolygonWide, DemoTests.CollisionDetection.FaceTestFeature,

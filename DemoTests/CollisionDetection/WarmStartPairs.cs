@@ -4,8 +4,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection;
 

@@ -5,8 +5,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities;
-using DemoTests.Scenes;
 using Demos.Accuracy;
+using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Constraints;

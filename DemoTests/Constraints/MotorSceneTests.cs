@@ -3,8 +3,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Scenes;
 using Demos.Accuracy;
+using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Constraints;

@@ -2,10 +2,10 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using DemoTests.Quality;
-using DemoTests.Scenes;
 using Demos.Accuracy;
 using Demos.Scenes;
+using DemoTests.Quality;
+using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Determinism;

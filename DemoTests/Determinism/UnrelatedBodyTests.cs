@@ -2,8 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
-using DemoTests.Scenes;
 using Demos.Accuracy;
+using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Determinism;

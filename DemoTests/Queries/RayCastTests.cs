@@ -7,8 +7,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Memory;
-using DemoTests.Scenes;
 using Demos.Accuracy;
+using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Queries;

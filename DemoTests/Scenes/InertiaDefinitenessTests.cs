@@ -3,8 +3,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using DemoTests.Support;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Scenes;

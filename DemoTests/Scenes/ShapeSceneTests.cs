@@ -1,9 +1,9 @@
 using System;
 using System.Linq;
-using DemoTests.Accuracy;
 using Demos.Accuracy;
 using Demos.References;
 using Demos.Scenes;
+using DemoTests.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

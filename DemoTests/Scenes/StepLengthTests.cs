@@ -4,8 +4,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Accuracy;
 using Demos.Accuracy;
+using DemoTests.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 

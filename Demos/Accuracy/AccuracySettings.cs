@@ -31,6 +31,9 @@ sealed record AccuracySettings
     public bool SubstepsForFreeBodies { get; init; } = EngineTraits.DefaultSubstepsForFreeBodies;
     public bool Stiff { get; init; }
 
+    /// <summary>Whether what is stiff is stiffer where a substep has more sweeps, in an engine that leaves that to the game.</summary>
+    public bool SpringFollowsSweeps { get; init; }
+
     /// <summary>Frequency of contacts and joints, Hz; null for what <see cref="Stiff"/> says.</summary>
     public float? SpringFrequency { get; init; }
     public ContactScope Contacts { get; init; } = ContactScope.All;
@@ -38,7 +41,7 @@ sealed record AccuracySettings
     public float SubstepDuration => Dt / SubstepCount;
 
     public SpringSettings Spring => SpringFrequency is float hertz ? new(hertz, 1)
-        : Stiff ? EngineTraits.RigidSpring(SubstepDuration) : EngineTraits.DefaultSpring(SubstepDuration);
+        : Stiff ? EngineTraits.RigidSpring(this) : EngineTraits.DefaultSpring(SubstepDuration);
 
     /// <summary>Settings of an effort; cases change what they are about.</summary>
     public static AccuracySettings For(Effort effort) => effort == Effort.Default

@@ -28,8 +28,8 @@ static class EngineTraits
     /// <summary>What a game gets that asks for nothing. Here that is a rigid contact or joint.</summary>
     public static SpringSettings DefaultSpring(float substepDuration) => default;
 
-    /// <summary>As stiff as the substep allows: the engine chooses.</summary>
-    public static SpringSettings RigidSpring(float substepDuration) => default;
+    /// <summary>As stiff as the substep and its sweeps allow: the engine chooses.</summary>
+    public static SpringSettings RigidSpring(AccuracySettings settings) => default;
 
     /// <summary>Springs that a sweep of the dials tries: the default is rigid and follows the substeps by itself.</summary>
     public static string[] TradedSprings => ["default"];

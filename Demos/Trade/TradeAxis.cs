@@ -36,12 +36,14 @@ sealed record TradeAxis(
             value => value == Default ? "" : value,
             (settings, value) => value == Default ? settings
                 : Array.IndexOf(modeWords, value) is >= 0 and int index ? settings with { AngularMode = modes[index] } : null),
-        new("spring", $"Frequency in Hz of contacts and joints, or rigid (as stiff as a substep holds), or {Default}.", _ => EngineTraits.TradedSprings,
+        new("spring", $"Frequency in Hz of contacts and joints, rigid (as stiff as a substep holds), swept (as all its sweeps do) or {Default}.",
+            _ => EngineTraits.TradedSprings,
             value => value == Default ? "" : value,
             (settings, value) => value switch
             {
                 Default => settings,
                 "rigid" => settings with { Stiff = true },
+                "swept" => settings with { Stiff = true, SpringFollowsSweeps = true },
                 _ => float.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out float hertz) && hertz is > 0 and <= 1e4f
                     ? settings with { SpringFrequency = hertz } : null,
             }),
