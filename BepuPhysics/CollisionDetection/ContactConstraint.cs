@@ -16,13 +16,6 @@ struct ContactImpulses
     public float Twist;
 }
 
-/// <summary>One vector per contact of a manifold.</summary>
-[InlineArray(4)]
-struct FourVectors
-{
-    Vector3 first;
-}
-
 /// <summary>The column of one convex contact constraint in its type batch, for any number of contacts.</summary>
 unsafe readonly struct ContactConstraint
 {

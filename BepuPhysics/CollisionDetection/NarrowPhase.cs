@@ -34,6 +34,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
+        simulation.Solver.OptionalStages.Add(new LoadPathStage(simulation.Solver, simulation.Bodies, Pool));
     }
 
     /// <summary>Number of pairs that have contacts.</summary>

@@ -25,4 +25,7 @@ interface ISolverStage
 
     /// <summary>Does one block. Called on worker threads.</summary>
     void Execute(SolverPoint point, in Substep substep, int block);
+
+    /// <summary>Ends a step, also one that an exception of the game broke off. Called on the caller's thread.</summary>
+    void EndStep() { }
 }

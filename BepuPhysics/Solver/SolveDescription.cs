@@ -27,6 +27,8 @@ public struct SolveDescription
     /// What has a frequency of its own, and servos, gain nothing.
     /// </remarks>
     public int RelaxationIterationCount;
+    /// <summary>Whether loads of what rests on others are handed down to the ground in one go.</summary>
+    public LoadPathMode LoadPath;
     /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>
     public SubstepVelocityIterationScheduler? VelocityIterationScheduler;
 
@@ -71,5 +73,12 @@ public struct SolveDescription
         ArgumentOutOfRangeException.ThrowIfLessThan(SubstepCount, 1, nameof(SubstepCount));
         ArgumentOutOfRangeException.ThrowIfNegative(RelaxationIterationCount, nameof(RelaxationIterationCount));
         ArgumentOutOfRangeException.ThrowIfLessThan(FallbackBatchThreshold, 1, nameof(FallbackBatchThreshold));
+        Check(LoadPath);
+    }
+
+    internal static void Check(LoadPathMode mode)
+    {
+        if (mode is < LoadPathMode.Off or > LoadPathMode.Always)
+            throw new ArgumentOutOfRangeException(nameof(mode), mode, $"{nameof(LoadPath)}: there is no such mode.");
     }
 }

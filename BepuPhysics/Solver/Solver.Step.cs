@@ -133,6 +133,8 @@ public sealed unsafe partial class Solver
 
     void Release(ref SolveWork work)
     {
+        for (int i = 0; i < OptionalStages.Count; ++i)
+            OptionalStages[i].EndStep();
         if (work.Blocks.Span.Allocated)
             work.Blocks.Dispose(pool);
         if (work.BlocksOfBatch.Span.Allocated)

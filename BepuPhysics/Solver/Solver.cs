@@ -37,6 +37,7 @@ public sealed unsafe partial class Solver
     int velocityIterationCount;
     int substepCount;
     int relaxationIterationCount;
+    LoadPathMode loadPath;
 
     /// <summary>Sets of constraints; set 0 is the active one.</summary>
     public Buffer<ConstraintSet> Sets;
@@ -110,6 +111,19 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Whether loads of what rests on others are handed down to the ground in one go.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
+    public LoadPathMode LoadPath
+    {
+        get => loadPath;
+        set
+        {
+            SolveDescription.Check(value);
+            world.CheckChangeable("Solver.LoadPath");
+            loadPath = value;
+        }
+    }
+
     /// <summary>Chooses the number of velocity iterations of each substep; null for <see cref="VelocityIterationCount"/> in all.</summary>
     /// <remarks>
     /// It is asked for indices below <see cref="SubstepCount"/>. In a step with more or fewer substeps, for the index at the same part of the step.
@@ -140,6 +154,7 @@ public sealed unsafe partial class Solver
         velocityIterationCount = description.VelocityIterationCount;
         substepCount = description.SubstepCount;
         relaxationIterationCount = description.RelaxationIterationCount;
+        loadPath = description.LoadPath;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;

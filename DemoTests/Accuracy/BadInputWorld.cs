@@ -114,6 +114,7 @@ sealed class BadInputWorld : IDisposable
         hash.Add(Solver.SubstepCount);
         hash.Add(Solver.VelocityIterationCount);
         hash.Add(Solver.RelaxationIterationCount);
+        hash.Add((int)Solver.LoadPath);
         foreach (var handle in world.Dynamics)
         {
             var body = Bodies[handle];

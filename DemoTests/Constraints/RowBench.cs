@@ -67,6 +67,8 @@ sealed unsafe class RowBench : IDisposable
     /// <summary>How far a body has moved since collision detection.</summary>
     public ref BodyVelocity Displacement(int body) => ref displacements[body];
 
+    public ref float Prestep(int field) => ref Processor.PrestepFloat(ref batch, index, field);
+
     public ConstraintRow[] Rows(in Substep substep)
     {
         var rows = new ConstraintRow[RowCount];

@@ -19,7 +19,7 @@ sealed unsafe class SceneWorld : IDisposable
     // Made once, so that asking costs nothing.
     readonly Action<int> readWorkerBytes;
 
-    public SceneWorld(SceneDescription scene, int threads, int relaxations = 0)
+    public SceneWorld(SceneDescription scene, int threads, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.Off)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         workerBytes = new long[threads];
@@ -30,7 +30,7 @@ sealed unsafe class SceneWorld : IDisposable
             new SceneNarrowPhaseCallbacks(recorder,
                 new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring)),
             new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping),
-            new SolveDescription(1, 4) { RelaxationIterationCount = relaxations });
+            new SolveDescription(1, 4) { RelaxationIterationCount = relaxations, LoadPath = loadPath });
         SceneBuilder.Build(scene, Simulation, EngineDefaults.JointSpring, recorder);
     }
 

@@ -78,6 +78,7 @@ static class FuzzFingerprint
         hash.Add(solver.VelocityIterationCount);
         hash.Add(solver.SubstepCount);
         hash.Add(solver.RelaxationIterationCount);
+        hash.Add((int)solver.LoadPath);
         hash.Add(solver.MinimumCapacityPerTypeBatch);
     }
 

@@ -25,6 +25,7 @@ sealed partial class FuzzWorld : IDisposable
         var solve = new SolveDescription(1 + Random.Below(2), 1 + Random.Below(4), Random.Percent(30) ? 1 + Random.Below(3) : 64)
         {
             RelaxationIterationCount = Random.Below(2),
+            LoadPath = (LoadPathMode)Random.Below(3),
         };
         SimulationAllocationSizes? sizes = Random.Percent(50) ? new(Random.Below(8), Random.Below(8), 0, Random.Below(3), Random.Below(8), 1, 1) : null;
         OwnsShapes = Random.Percent(80);

@@ -1,3 +1,4 @@
+using BepuPhysics;
 namespace Demos.Running;
 
 /// <summary>How a scene is run; nothing in here changes what the scene is.</summary>
@@ -16,6 +17,8 @@ public sealed record RunSettings
 
     /// <summary>Sweeps per substep that take back what the correction of positions leaves of velocity.</summary>
     public int Relaxations { get; init; }
+    /// <summary>Whether loads are handed down to the ground in one go.</summary>
+    public LoadPathMode LoadPath { get; init; }
 
     public int Threads { get; init; } = 1;
 

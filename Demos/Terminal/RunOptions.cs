@@ -1,4 +1,5 @@
 using System.CommandLine;
+using BepuPhysics;
 using Demos.Running;
 
 namespace Demos.Terminal;
@@ -13,6 +14,7 @@ sealed class RunOptions
     readonly Option<int> substeps = Make("--substeps", "Substeps per step.", defaults.Substeps);
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
+    readonly Option<LoadPathMode> loadPath = Make("--load-path", "Whether loads are handed down to the ground in one go.", defaults.LoadPath);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
@@ -23,7 +25,7 @@ sealed class RunOptions
     /// <summary>Lets a command understand the options.</summary>
     public void AddTo(Command command)
     {
-        Option[] options = [steps, stepDuration, substeps, iterations, relaxations, threads, seed, hashEvery, warmup, frequency, dampingRatio];
+        Option[] options = [steps, stepDuration, substeps, iterations, relaxations, loadPath, threads, seed, hashEvery, warmup, frequency, dampingRatio];
         foreach (Option option in options)
             command.Options.Add(option);
     }
@@ -36,6 +38,7 @@ sealed class RunOptions
         Substeps = parsed.GetValue(substeps),
         Iterations = parsed.GetValue(iterations),
         Relaxations = parsed.GetValue(relaxations),
+        LoadPath = parsed.GetValue(loadPath),
         Threads = parsed.GetValue(threads),
         Seed = parsed.GetValue(seed),
         HashEvery = parsed.GetValue(hashEvery),

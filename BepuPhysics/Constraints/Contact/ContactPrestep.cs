@@ -21,6 +21,15 @@ struct ContactMaterialWide
     public SpringSettingsWide SpringSettings;
     /// <summary>Greatest speed at which penetration is corrected.</summary>
     public Vector<float> MaximumRecoveryVelocity;
+
+    /// <summary>
+    /// Patches that are held for the step, by the load path: their frequency is negative, less half the width of the band, m, in which they know no
+    /// overlap. What a game gives is not negative, and is written anew for each step.
+    /// </summary>
+    internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
+
+    /// <summary>Least depth of a contact that touches, m: zero, or less by the band of a held patch, in which depths mean nothing.</summary>
+    internal readonly Vector<float> LeastDepth => Wide.Min(SpringSettings.AngularFrequency, Vector<float>.Zero);
 }
 
 /// <summary>A bundle of convex manifolds: contacts that share a normal.</summary>

@@ -36,7 +36,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             row.Lever = TContacts.Count > 1 ? (arm - center).Length() : Vector<float>.Zero;
             row.PositionError = Displacement(bodies, row) - patch.Contacts[i].Depth;
             row.MaximumImpulse = new(float.PositiveInfinity);
-            row.HardMask = Vector.Equals(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
+            row.HardMask = Vector.LessThanOrEqual(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
             AimNormal(substep, patch.Material, ref row);
             load += row.Impulse;
             moment += row.Impulse * row.Lever;
@@ -106,7 +106,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     static void AimNormal(in Substep substep, in ContactMaterialWide material, ref ConstraintRowWide row)
     {
         var softness = material.SpringSettings.ForSubstep(substep, substep.Contacts);
+        var band = Harden(material.IsHeld, substep, material.SpringSettings.AngularFrequency, ref softness);
         var depth = -row.PositionError;
+        depth -= Wide.Clamp(depth, -band, band);
         var recovery = depth * softness.ErrorToVelocity;
         var isLimited = Vector.GreaterThan(recovery, material.MaximumRecoveryVelocity);
         row.TargetVelocity = Wide.Min(depth * new Vector<float>(substep.InverseDt), Wide.Min(recovery, material.MaximumRecoveryVelocity));

@@ -20,6 +20,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
 {
     // Least part of its softness that a row keeps whose recovery is limited.
     const float LeastSoftness = 0.25f;
+    // Part of the overlap beyond the band that a held contact takes out in a substep.
+    const float HeldRecovery = 0.04f;
 
     /// <inheritdoc/>
     public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass;
@@ -64,11 +66,16 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
         var softness = prestep.Material.SpringSettings.ForSubstep(substep, substep.Contacts);
+        var band = Vector<float>.Zero;
+        var isHeld = prestep.Material.IsHeld;
+        var anyHeld = isHeld != Vector<int>.Zero;
+        if (anyHeld)
+            band = Harden(isHeld, substep, prestep.Material.SpringSettings.AngularFrequency, ref softness);
         var inverseDt = new Vector<float>(substep.InverseDt);
         var load = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)
         {
-            SolveNormal(ref bodies, substep, ref prestep, prestep.Contacts[i], softness, inverseDt, ref impulses.Normals[i]);
+            SolveNormal(ref bodies, substep, ref prestep, prestep.Contacts[i], softness, anyHeld, band, inverseDt, ref impulses.Normals[i]);
             load += impulses.Normals[i];
         }
         var center = PatchCenter(ref prestep);
@@ -85,7 +92,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveNormal(
         ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, in ContactPrestepWide contact,
-        in SoftnessWide softness, Vector<float> inverseDt, ref Vector<float> impulse)
+        in SoftnessWide softness, bool anyHeld, Vector<float> band, Vector<float> inverseDt, ref Vector<float> impulse)
     {
         ref var a = ref BodySlots.At(ref bodies, 0);
         var n = prestep.Normal;
@@ -104,6 +111,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             velocity += Vector3Wide.Dot(b.Angular, angularB) - Vector3Wide.Dot(b.Linear, n);
             depth += Vector3Wide.Dot(b.Translation, n) - Vector3Wide.Dot(b.Rotation, angularB);
         }
+        if (anyHeld)
+            depth -= Wide.Clamp(depth, -band, band);
         // Surfaces that are apart may close their gap within the substep but no more; penetration is pushed out as the spring says.
         var recovery = depth * softness.ErrorToVelocity;
         var isLimited = Vector.GreaterThan(recovery, prestep.Material.MaximumRecoveryVelocity);
@@ -126,6 +135,18 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             b.Linear -= n * (change * b.InverseMass);
             b.Angular += responseB * change;
         }
+    }
+
+    // A held patch brings its surfaces to rest without softness, and takes out slowly what overlap is beyond the band: what is left of the load is moved by
+    // the load path, and softness would leak it.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Harden(Vector<int> isHeld, in Substep substep, Vector<float> angularFrequency, ref SoftnessWide softness)
+    {
+        softness.MassScale = Wide.Select(isHeld, Vector<float>.One, softness.MassScale);
+        softness.ImpulseScale = Vector.AndNot(softness.ImpulseScale, Vector.AsVectorSingle(isHeld));
+        softness.ErrorToVelocity = Wide.Select(
+            isHeld, new Vector<float>(substep.IsRelaxation ? 0 : HeldRecovery * substep.InverseDt), softness.ErrorToVelocity);
+        return Wide.Mask(isHeld, -angularFrequency);
     }
 
     // At rest a soft row carries wanted / (softness x inverse mass): were only its velocity limited, so would be its force, and a light
@@ -229,11 +250,12 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         if (TContacts.Count == 1)
             return prestep.Contacts[0].OffsetA;
         var all = prestep.Contacts[0].OffsetA;
-        var weight = Touching(prestep.Contacts[0].Depth);
+        var least = prestep.Material.LeastDepth;
+        var weight = Touching(prestep.Contacts[0].Depth, least);
         var touching = all * weight;
         for (int i = 1; i < TContacts.Count; ++i)
         {
-            var one = Touching(prestep.Contacts[i].Depth);
+            var one = Touching(prestep.Contacts[i].Depth, least);
             all += prestep.Contacts[i].OffsetA;
             touching += prestep.Contacts[i].OffsetA * one;
             weight += one;
@@ -244,8 +266,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Touching(Vector<float> depth) =>
-        Vector.ConditionalSelect(Vector.LessThan(depth, Vector<float>.Zero), Vector<float>.Zero, Vector<float>.One);
+    static Vector<float> Touching(Vector<float> depth, Vector<float> least) =>
+        Vector.ConditionalSelect(Vector.LessThan(depth, least), Vector<float>.Zero, Vector<float>.One);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Scale(ref ConvexContactImpulsesWide<TNormals> impulses, Vector<float> scale)

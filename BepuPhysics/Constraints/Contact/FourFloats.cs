@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 
 namespace BepuPhysics.Constraints.Contact;
@@ -7,4 +8,11 @@ namespace BepuPhysics.Constraints.Contact;
 struct FourFloats
 {
     float first;
+}
+
+/// <summary>One vector per contact of a manifold.</summary>
+[InlineArray(4)]
+struct FourVectors
+{
+    Vector3 first;
 }

@@ -11,6 +11,7 @@ static class SolverOperations
         new("Solver.VelocityIterationCount", 2, w => w.Simulation.Solver.VelocityIterationCount = Few(w)),
         new("Solver.SubstepCount", 2, w => w.Simulation.Solver.SubstepCount = Few(w)),
         new("Solver.RelaxationIterationCount", 2, w => w.Simulation.Solver.RelaxationIterationCount = Few(w)),
+        new("Solver.LoadPath", 2, w => w.Simulation.Solver.LoadPath = Mode(w)),
         new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
         new("Solver.VelocityIterationScheduler", 2, Schedule),
         new("Simulation.Deterministic", 1, w => w.Simulation.Deterministic = w.Random.Percent(50)),
@@ -24,6 +25,13 @@ static class SolverOperations
         int count = w.Random.Percent(80) ? w.Random.Below(5) : w.Random.Of((ReadOnlySpan<int>)[-1, int.MinValue, 7]);
         w.Tell($"{count}");
         return count;
+    }
+
+    static LoadPathMode Mode(FuzzWorld w)
+    {
+        var mode = w.Random.Percent(90) ? (LoadPathMode)w.Random.Below(3) : (LoadPathMode)w.Random.Of((ReadOnlySpan<int>)[-1, 3, int.MaxValue]);
+        w.Tell($"{mode}");
+        return mode;
     }
 
     static void Schedule(FuzzWorld w)

@@ -1,0 +1,24 @@
+using System.Numerics;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>A body that rests, by whatever is between, on what does not move.</summary>
+struct LoadNode
+{
+    /// <summary>Index in the active set.</summary>
+    public int Body;
+    /// <summary>Its supports, one after the other.</summary>
+    public int FirstSupport, SupportCount;
+    /// <summary>Greatest distance of a contact from the centre, m.</summary>
+    public float Radius;
+    /// <summary>Velocity of its contacts after the warm start up to which it is at rest, m/s.</summary>
+    public float Tolerance;
+    /// <summary>Whether it hands something down in this substep.</summary>
+    public bool HasLoad;
+    /// <summary>Of the first body of an island: whether the island was worked on in the last substep.</summary>
+    public bool IsActive;
+    /// <summary>What the transfer has changed of its momentum, N s.</summary>
+    public Vector3 Linear;
+    /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>
+    public Vector3 Angular;
+}

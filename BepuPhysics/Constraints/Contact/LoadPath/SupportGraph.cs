@@ -1,0 +1,294 @@
+using System;
+using System.Collections.Generic;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>Which bodies rest on which, from what does not move upwards, island by island.</summary>
+/// <remarks>
+/// Built once per step, on one thread, from constraints in the order in which they are swept: nothing depends on threads or the width of vectors
+/// but the order of constraints, which does not either.
+/// </remarks>
+unsafe struct SupportGraph
+{
+    const int LeastContacts = 3;
+
+    QuickList<LoadSupport> found;
+    // Per body of the active set, all of one length.
+    Buffer<int> positions;
+    Buffer<int> waiting;
+    Buffer<int> starts;
+    Buffer<int> above;
+    Buffer<int> islandOf;
+    Buffer<byte> grounded;
+    // Support with the same lower body that follows, by index in the order of upper bodies.
+    Buffer<int> nextAbove;
+    QuickList<int> order;
+
+    /// <summary>Bodies, island after island, in each from the ground upwards.</summary>
+    internal QuickList<LoadNode> Nodes;
+    /// <summary>Supports, body after body, in the order of the nodes.</summary>
+    internal QuickList<LoadSupport> Supports;
+    /// <summary>Number of supports, from the first, whose contacts are held.</summary>
+    internal int HeldCount;
+    /// <summary>Where the nodes of each island begin, and where those of the last one end.</summary>
+    internal QuickList<int> Islands;
+    /// <summary>Node of each body of the active set; negative where it is none.</summary>
+    internal Buffer<int> NodeOf;
+
+    /// <summary>Adds what was found to carry a body.</summary>
+    internal void Add(in LoadSupport support, BufferPool pool)
+    {
+        if (!found.Span.Allocated)
+            found = new QuickList<LoadSupport>(64, pool);
+        found.Add(support, pool);
+    }
+
+    /// <summary>Arranges what was added.</summary>
+    /// <param name="bodyCount">Bodies of the active set.</param>
+    /// <param name="heights">Height of each body, in any unit, by which a circle of supports is cut.</param>
+    /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
+    internal void Build(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool)
+    {
+        Take(bodyCount, pool);
+        SortByUpper(bodyCount, pool);
+        LinkAbove(pool);
+        OrderUpwards(bodyCount, heights, pool);
+        MakeNodes(bodyCount, pool);
+    }
+
+    void Take(int bodyCount, BufferPool pool)
+    {
+        if (!found.Span.Allocated)
+            found = new QuickList<LoadSupport>(1, pool);
+        pool.TakeAtLeast(bodyCount, out positions);
+        pool.TakeAtLeast(bodyCount, out waiting);
+        pool.TakeAtLeast(bodyCount + 1, out starts);
+        pool.TakeAtLeast(bodyCount, out above);
+        pool.TakeAtLeast(bodyCount, out islandOf);
+        pool.TakeAtLeast(bodyCount, out NodeOf);
+        pool.TakeAtLeast(bodyCount, out grounded);
+        pool.TakeAtLeast(Math.Max(1, found.Count), out nextAbove);
+        order = new QuickList<int>(Math.Max(1, bodyCount), pool);
+        for (int i = 0; i < bodyCount; ++i)
+            positions[i] = above[i] = NodeOf[i] = -1;
+        waiting.Clear(0, bodyCount);
+        starts.Clear(0, bodyCount + 1);
+        grounded.Clear(0, bodyCount);
+    }
+
+    // By counting, so that supports of one body stay in the order in which they were found.
+    void SortByUpper(int bodyCount, BufferPool pool)
+    {
+        for (int i = 0; i < found.Count; ++i)
+            ++starts[found[i].Upper + 1];
+        for (int i = 0; i < bodyCount; ++i)
+            starts[i + 1] += starts[i];
+        Supports = new QuickList<LoadSupport>(Math.Max(1, found.Count), pool) { Count = found.Count };
+        pool.TakeAtLeast<int>(Math.Max(1, bodyCount), out var next);
+        starts.CopyTo(0, next, 0, bodyCount);
+        for (int i = 0; i < found.Count; ++i)
+            Supports[next[found[i].Upper]++] = found[i];
+        pool.Return(ref next);
+    }
+
+    void LinkAbove(BufferPool pool)
+    {
+        for (int i = Supports.Count - 1; i >= 0; --i)
+        {
+            var lower = Supports[i].Lower;
+            if (lower < 0)
+                continue;
+            ++waiting[Supports[i].Upper];
+            nextAbove[i] = above[lower];
+            above[lower] = i;
+        }
+    }
+
+    // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
+    void OrderUpwards(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool)
+    {
+        int participants = 0;
+        for (int i = 0; i < bodyCount; ++i)
+        {
+            if (above[i] < 0 && starts[i + 1] == starts[i])
+                continue;
+            ++participants;
+            if (waiting[i] == 0)
+                order.Add(i, pool);
+        }
+        Buffer<int> byHeight = default;
+        int lowest = 0;
+        for (int taken = 0; taken < participants; ++taken)
+        {
+            if (taken == order.Count)
+            {
+                if (!byHeight.Allocated)
+                    SortByHeight(bodyCount, heights, pool, out byHeight);
+                while (positions[byHeight[lowest]] >= 0 || waiting[byHeight[lowest]] == 0)
+                    ++lowest;
+                waiting[byHeight[lowest]] = 0;
+                order.Add(byHeight[lowest], pool);
+            }
+            var body = order[taken];
+            positions[body] = taken;
+            grounded[body] = IsGrounded(body) ? (byte)1 : (byte)0;
+            for (int i = above[body]; i >= 0; i = nextAbove[i])
+            {
+                var upper = Supports[i].Upper;
+                if (positions[upper] < 0 && waiting[upper] > 0 && --waiting[upper] == 0)
+                    order.Add(upper, pool);
+            }
+        }
+        if (byHeight.Allocated)
+            pool.Return(ref byHeight);
+    }
+
+    static void SortByHeight(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool, out Buffer<int> byHeight)
+    {
+        pool.Take(bodyCount, out byHeight);
+        pool.Take<HeightOfBody>(bodyCount, out var keys);
+        for (int i = 0; i < bodyCount; ++i)
+            keys[i] = new() { Height = heights[i], Body = i };
+        new Span<HeightOfBody>(keys.Memory, bodyCount).Sort(default(LowestFirst));
+        for (int i = 0; i < bodyCount; ++i)
+            byHeight[i] = keys[i].Body;
+        pool.Return(ref keys);
+    }
+
+    struct HeightOfBody
+    {
+        public float Height;
+        public int Body;
+    }
+
+    struct LowestFirst : IComparer<HeightOfBody>
+    {
+        public readonly int Compare(HeightOfBody x, HeightOfBody y) => x.Height != y.Height ? x.Height.CompareTo(y.Height) : x.Body.CompareTo(y.Body);
+    }
+
+    // On fewer than three contacts a body may roll or rock, and what it has of momentum is no load.
+    readonly bool IsGrounded(int body)
+    {
+        int contacts = 0;
+        for (int i = starts[body]; i < starts[body + 1]; ++i)
+        {
+            if (Carries(i))
+                contacts += Supports[i].CarryingCount;
+        }
+        return contacts >= LeastContacts;
+    }
+
+    // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
+    readonly bool Carries(int support)
+    {
+        var lower = Supports[support].Lower;
+        return lower < 0 || (grounded[lower] != 0 && positions[lower] < PositionOrLast(Supports[support].Upper));
+    }
+
+    readonly int PositionOrLast(int body) => positions[body] < 0 ? int.MaxValue : positions[body];
+
+    void MakeNodes(int bodyCount, BufferPool pool)
+    {
+        // Islands by the first of their bodies in the order.
+        for (int i = 0; i < order.Count; ++i)
+            islandOf[order[i]] = order[i];
+        for (int i = 0; i < Supports.Count; ++i)
+        {
+            ref var support = ref Supports[i];
+            if (support.Lower < 0 || !Carries(i))
+                continue;
+            var a = Root(support.Upper);
+            var b = Root(support.Lower);
+            if (positions[a] < positions[b])
+                islandOf[b] = a;
+            else
+                islandOf[a] = b;
+        }
+        // Place of each island, plus one, at its root; then a counting sort of the bodies.
+        Nodes = new QuickList<LoadNode>(Math.Max(1, order.Count), pool);
+        Islands = new QuickList<int>(16, pool);
+        pool.TakeAtLeast<int>(Math.Max(1, bodyCount), out var place);
+        int islandCount = 0;
+        for (int i = 0; i < order.Count; ++i)
+        {
+            if (grounded[order[i]] != 0 && Root(order[i]) == order[i])
+                place[order[i]] = islandCount++;
+        }
+        for (int i = 0; i <= islandCount; ++i)
+            Islands.Add(0, pool);
+        int nodeCount = 0;
+        for (int i = 0; i < order.Count; ++i)
+        {
+            if (grounded[order[i]] == 0)
+                continue;
+            ++Islands[place[Root(order[i])] + 1];
+            ++nodeCount;
+        }
+        for (int i = 0; i < islandCount; ++i)
+            Islands[i + 1] += Islands[i];
+        Nodes.Count = nodeCount;
+        pool.TakeAtLeast<int>(Math.Max(1, islandCount), out var next);
+        Islands.Span.CopyTo(0, next, 0, islandCount);
+        for (int i = 0; i < order.Count; ++i)
+        {
+            if (grounded[order[i]] == 0)
+                continue;
+            var node = next[place[Root(order[i])]]++;
+            NodeOf[order[i]] = node;
+            Nodes[node] = new() { Body = order[i] };
+        }
+        pool.Return(ref next);
+        pool.Return(ref place);
+        // Supports that carry, in the order of the nodes.
+        (found, Supports) = (Supports, found);
+        Supports.Count = 0;
+        for (int i = 0; i < nodeCount; ++i)
+        {
+            ref var node = ref Nodes[i];
+            node.FirstSupport = Supports.Count;
+            for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
+            {
+                ref var support = ref found[j];
+                if (support.Lower >= 0 && (grounded[support.Lower] == 0 || positions[support.Lower] >= positions[node.Body]))
+                    continue;
+                Supports.AddUnsafely(support);
+                for (int k = 0; k < support.Count; ++k)
+                    node.Radius = MathHelper.Max(node.Radius, Exact.Length(support.Arms[k]));
+            }
+            node.SupportCount = Supports.Count - node.FirstSupport;
+        }
+    }
+
+    readonly int Root(int body)
+    {
+        while (islandOf[body] != body)
+            body = islandOf[body] = islandOf[islandOf[body]];
+        return body;
+    }
+
+    /// <summary>Gives all memory back; nothing is in the graph.</summary>
+    internal void Dispose(BufferPool pool)
+    {
+        if (found.Span.Allocated)
+            found.Dispose(pool);
+        if (order.Span.Allocated)
+        {
+            pool.Return(ref positions);
+            pool.Return(ref waiting);
+            pool.Return(ref starts);
+            pool.Return(ref above);
+            pool.Return(ref islandOf);
+            pool.Return(ref NodeOf);
+            pool.Return(ref grounded);
+            pool.Return(ref nextAbove);
+            order.Dispose(pool);
+            Nodes.Dispose(pool);
+            Supports.Dispose(pool);
+            Islands.Dispose(pool);
+        }
+        this = default;
+    }
+}

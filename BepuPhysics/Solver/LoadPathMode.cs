@@ -1,0 +1,12 @@
+namespace BepuPhysics;
+
+/// <summary>Whether loads are handed down to the ground in one go, besides by sweeps over the contacts.</summary>
+public enum LoadPathMode
+{
+    /// <summary>By sweeps alone.</summary>
+    Off,
+    /// <summary>Where a substep has left bodies that rest on others with a velocity.</summary>
+    WhereNeeded,
+    /// <summary>In each substep, wherever bodies rest on others.</summary>
+    Always,
+}

@@ -1,0 +1,107 @@
+using System;
+using System.Linq;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities.Memory;
+using Xunit;
+
+
+namespace DemoTests.LoadPath;
+
+/// <summary>The order in which loads are handed down.</summary>
+public class SupportGraphTests
+{
+    const int Ground = -1;
+
+    // Each support has three contacts unless said otherwise.
+    static (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3)
+    {
+        using var pool = new BufferPool();
+        SupportGraph graph = default;
+        foreach (var (upper, lower) in supports)
+            graph.Add(new LoadSupport { Upper = upper, Lower = lower, Count = contacts }, pool);
+        graph.Build(bodyCount, heights ?? new float[bodyCount], pool);
+        var islands = new int[graph.Islands.Count - 1][];
+        for (int i = 0; i < islands.Length; ++i)
+        {
+            islands[i] = new int[graph.Islands[i + 1] - graph.Islands[i]];
+            for (int j = 0; j < islands[i].Length; ++j)
+            {
+                ref var node = ref graph.Nodes[graph.Islands[i] + j];
+                islands[i][j] = node.Body;
+                Assert.Equal(graph.Islands[i] + j, graph.NodeOf[node.Body]);
+                for (int k = node.FirstSupport; k < node.FirstSupport + node.SupportCount; ++k)
+                    Assert.Equal(node.Body, graph.Supports[k].Upper);
+            }
+        }
+        var count = graph.Supports.Count;
+        graph.Dispose(pool);
+        pool.AssertEmpty();
+        return (islands, count);
+    }
+
+    static void AssertIslands(string expected, int[][] islands) =>
+        Assert.Equal(expected, string.Join(", ", islands.Select(island => string.Join(' ', island))));
+
+    [Fact]
+    public void Nothing_is_in_an_empty_graph() => Assert.Empty(Build(5, []).Islands);
+
+    [Fact]
+    public void Bodies_come_after_what_they_rest_on()
+    {
+        var (islands, count) = Build(4, [(0, 3), (3, 1), (1, Ground), (2, Ground)]);
+        AssertIslands("1 3 0, 2", islands);
+        Assert.Equal(4, count);
+    }
+
+    [Fact]
+    public void What_does_not_rest_on_the_ground_is_not_in_the_graph()
+    {
+        var (islands, count) = Build(4, [(0, 1), (2, Ground), (3, 2), (3, 1)]);
+        AssertIslands("2 3", islands);
+        Assert.Equal(2, count);
+    }
+
+    [Fact]
+    public void A_body_on_fewer_than_three_contacts_is_not_in_the_graph()
+    {
+        Assert.Empty(Build(1, [(0, Ground)], contacts: 2).Islands);
+        // Nor is what rests on it, but two twos are four.
+        Assert.Single(Build(2, [(0, Ground), (1, 0), (1, Ground), (0, Ground)], contacts: 2).Islands);
+        Assert.Equal([1], Build(2, [(0, Ground), (1, Ground), (1, Ground)], contacts: 2).Islands.Single());
+    }
+
+    // Three planks of which each lies on the next: the lowest is taken first, and what it lies on itself is left out.
+    [Fact]
+    public void A_circle_is_cut_at_its_lowest_body()
+    {
+        var (islands, count) = Build(3, [(0, 1), (1, 2), (2, 0), (0, Ground), (1, Ground), (2, Ground)], [3, 1, 2]);
+        AssertIslands("1 0 2", islands);
+        Assert.Equal(5, count);
+    }
+
+    [Fact]
+    public void Random_graphs_are_ordered()
+    {
+        var random = new Random(7);
+        for (int sample = 0; sample < 200; ++sample)
+        {
+            var bodyCount = 1 + random.Next(30);
+            var supports = Enumerable.Range(0, random.Next(60)).Select(_ => (Upper: random.Next(bodyCount), Lower: random.Next(-1, bodyCount)))
+                .Where(support => support.Upper != support.Lower).ToArray();
+            var heights = Enumerable.Range(0, bodyCount).Select(_ => random.NextSingle()).ToArray();
+            var (islands, _) = Build(bodyCount, supports, heights);
+            var all = islands.SelectMany(island => island).ToArray();
+            Assert.Equal(all.Length, all.Distinct().Count());
+            // What rests on the ground itself is always in; what is in rests on the ground, or on something earlier in its island.
+            Assert.All(supports.Where(support => support.Lower == Ground), support => Assert.Contains(support.Upper, all));
+            foreach (var island in islands)
+            {
+                for (int i = 0; i < island.Length; ++i)
+                {
+                    var earlier = island[..i];
+                    Assert.Contains(supports, support => support.Upper == island[i] && (support.Lower == Ground || earlier.Contains(support.Lower)));
+                }
+            }
+        }
+    }
+}
