@@ -28,9 +28,9 @@ static class EngineDefaults
     public const AngularIntegrationMode RotationMode = AngularIntegrationMode.Nonconserving;
 
     /// <summary>How hard the solver works.</summary>
-    public static SolveDescription Solve(RunSettings settings) => settings.Relaxations == 0
+    public static SolveDescription Solve(RunSettings settings) => settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off }
         ? new(settings.Iterations, settings.Substeps)
-        : throw new SceneException("this engine has no relaxation sweeps");
+        : throw new SceneException("this engine has neither relaxation sweeps nor a load path");
 
     /// <summary>
     /// Seconds of the last step, as far as the engine was built with its profiler. It counts the prediction of bounds and the last

@@ -13,6 +13,7 @@ static class EngineTraits
     public const int DefaultVelocityIterationCount = 1;
     public const int AccurateRelaxationCount = 0;
     public const bool HasRelaxation = false;
+    public const bool HasLoadPath = false;
 
     /// <summary>As in the callbacks of its demos.</summary>
     public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.Nonconserving;
@@ -44,9 +45,9 @@ static class EngineTraits
     /// <summary>Its default is its cheapest.</summary>
     public static string[] TradedModes => ["default"];
 
-    public static SolveDescription Solve(AccuracySettings settings) => settings.RelaxationCount == 0
+    public static SolveDescription Solve(AccuracySettings settings) => settings is { RelaxationCount: 0, LoadPath: Running.LoadPathChoice.Off }
         ? new(settings.VelocityIterationCount, settings.SubstepCount)
-        : throw new SceneException("this engine has no relaxation sweeps");
+        : throw new SceneException("this engine has neither relaxation sweeps nor a load path");
 
     /// <summary>It has no coefficient of restitution; its way to bounce is a spring without damping.</summary>
     public static WorldContacts Contacts(AccuracySettings settings)

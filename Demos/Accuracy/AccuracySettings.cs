@@ -2,6 +2,7 @@ using System.Globalization;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using Demos.Running;
 
 namespace Demos.Accuracy;
 
@@ -19,6 +20,9 @@ sealed record AccuracySettings
     public int SubstepCount { get; init; } = EngineTraits.DefaultSubstepCount;
     public int VelocityIterationCount { get; init; } = EngineTraits.DefaultVelocityIterationCount;
     public int RelaxationCount { get; init; }
+
+    /// <summary>Whether loads are handed down to the ground in one go.</summary>
+    public LoadPathChoice LoadPath { get; init; }
     public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
     public float Friction { get; init; } = .5f;
     public float Restitution { get; init; }
@@ -57,5 +61,5 @@ sealed record AccuracySettings
 
     public override string ToString() =>
         string.Create(CultureInfo.InvariantCulture,
-            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(Stiff ? " stiff" : "")}");
+            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(LoadPath != LoadPathChoice.Off ? $" load path {LoadPath}" : "")}{(Stiff ? " stiff" : "")}");
 }

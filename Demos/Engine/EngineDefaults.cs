@@ -31,7 +31,7 @@ static class EngineDefaults
 
     /// <summary>How hard the solver works.</summary>
     public static SolveDescription Solve(RunSettings settings) =>
-        new(settings.Iterations, settings.Substeps) { RelaxationIterationCount = settings.Relaxations, LoadPath = settings.LoadPath };
+        new(settings.Iterations, settings.Substeps) { RelaxationIterationCount = settings.Relaxations, LoadPath = (LoadPathMode)settings.LoadPath };
 
     /// <summary>Seconds of the stages of the last step.</summary>
     public static StageTimes ReadStages(Simulation simulation)

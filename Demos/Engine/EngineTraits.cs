@@ -18,6 +18,9 @@ static class EngineTraits
     /// <summary>Whether there are relaxation sweeps at all.</summary>
     public const bool HasRelaxation = true;
 
+    /// <summary>Whether loads can be handed down to the ground in one go.</summary>
+    public const bool HasLoadPath = true;
+
     /// <summary>As in the ready-made callbacks.</summary>
     public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
@@ -38,7 +41,7 @@ static class EngineTraits
     public static string[] TradedModes => ["default", "plain"];
 
     public static SolveDescription Solve(AccuracySettings settings) =>
-        new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount };
+        new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount, LoadPath = (LoadPathMode)settings.LoadPath };
 
     /// <summary>What pairs collide, and how: here bounces are no part of the spring.</summary>
     public static WorldContacts Contacts(AccuracySettings settings) => new(

@@ -1,4 +1,3 @@
-using BepuPhysics;
 namespace Demos.Running;
 
 /// <summary>How a scene is run; nothing in here changes what the scene is.</summary>
@@ -18,7 +17,7 @@ public sealed record RunSettings
     /// <summary>Sweeps per substep that take back what the correction of positions leaves of velocity.</summary>
     public int Relaxations { get; init; }
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
-    public LoadPathMode LoadPath { get; init; }
+    public LoadPathChoice LoadPath { get; init; }
 
     public int Threads { get; init; } = 1;
 

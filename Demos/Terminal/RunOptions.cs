@@ -1,5 +1,4 @@
 using System.CommandLine;
-using BepuPhysics;
 using Demos.Running;
 
 namespace Demos.Terminal;
@@ -14,7 +13,7 @@ sealed class RunOptions
     readonly Option<int> substeps = Make("--substeps", "Substeps per step.", defaults.Substeps);
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
-    readonly Option<LoadPathMode> loadPath = Make("--load-path", "Whether loads are handed down to the ground in one go.", defaults.LoadPath);
+    readonly Option<LoadPathChoice> loadPath = Make("--load-path", "Whether loads are handed down to the ground in one go.", defaults.LoadPath);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);

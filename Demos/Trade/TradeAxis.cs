@@ -4,6 +4,7 @@ using System.Globalization;
 using BepuPhysics;
 using Demos.Accuracy;
 using Demos.Scenes;
+using Demos.Running;
 
 namespace Demos.Trade;
 
@@ -29,6 +30,9 @@ sealed record TradeAxis(
 
     static readonly string[] modeWords = ["plain", "momentum", "gyroscopic"];
 
+    // In the order of LoadPathChoice.
+    static readonly string[] loadPathWords = ["off", "needed", "always"];
+
     /// <summary>All dials, the first changing slowest.</summary>
     public static IReadOnlyList<TradeAxis> All { get; } =
     [
@@ -47,6 +51,11 @@ sealed record TradeAxis(
                 _ => float.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out float hertz) && hertz is > 0 and <= 1e4f
                     ? settings with { SpringFrequency = hertz } : null,
             }),
+        new("load-path", $"Whether loads are handed down to the ground in one go: {string.Join(", ", loadPathWords)}.",
+            scene => scene.Stands && EngineTraits.HasLoadPath ? loadPathWords : [loadPathWords[0]],
+            value => value == loadPathWords[0] ? "" : $"load {value}",
+            (settings, value) => Array.IndexOf(loadPathWords, value) is >= 0 and int index && (index == 0 || EngineTraits.HasLoadPath)
+                ? settings with { LoadPath = (LoadPathChoice)index } : null),
         new("relaxations", "Relaxation sweeps per substep.", _ => EngineTraits.HasRelaxation ? ["0", "1"] : ["0"],
             value => value == "0" ? "" : $"r{value}",
             (settings, value) => Count(value, 0) is int count && (count == 0 || EngineTraits.HasRelaxation)
