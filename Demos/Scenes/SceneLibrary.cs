@@ -22,7 +22,7 @@ public static class SceneLibrary
         CylinderTower.Scene,
         Rolling.Scene,
         Coins.Scene,
-        Towers.Scene,
+        BuiltIn.Towers.Scene,
         Slope.Scene,
         Newton.Scene,
     ];
