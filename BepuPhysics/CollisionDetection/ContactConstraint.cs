@@ -1,20 +1,11 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
-
-/// <summary>Impulses of a manifold with the features and places that they belong to.</summary>
-struct ContactImpulses
-{
-    public int Count;
-    public FeatureIds Features;
-    public FourFloats Normals;
-    public FourVectors Offsets;
-    public Vector3 Friction;
-    public float Twist;
-}
 
 /// <summary>The column of one convex contact constraint in its type batch, for any number of contacts.</summary>
 unsafe readonly struct ContactConstraint
@@ -22,6 +13,7 @@ unsafe readonly struct ContactConstraint
     readonly float* prestep;
     readonly float* impulses;
     readonly int contactCount;
+    readonly bool hasTwoBodies;
 
     internal ContactConstraint(Solver solver, ConstraintHandle handle, int contactCount)
     {
@@ -31,6 +23,7 @@ unsafe readonly struct ContactConstraint
         prestep = (float*)Unsafe.AsPointer(ref processor.PrestepFloat(ref batch, location.IndexInTypeBatch, 0));
         impulses = (float*)Unsafe.AsPointer(ref processor.Impulse(ref batch, location.IndexInTypeBatch, 0));
         this.contactCount = contactCount;
+        hasTwoBodies = location.TypeId >= ConstraintTypeIds.ContactTwoBody;
     }
 
     /// <summary>Asks the processor to load the column. Changes no result.</summary>
@@ -47,35 +40,169 @@ unsafe readonly struct ContactConstraint
             BepuUtilities.Memory.Prefetch.Read(column + i);
     }
 
-    /// <summary>Writes the geometry and the material of a manifold.</summary>
-    internal void Write(in ConvexContactManifold manifold, in PairMaterialProperties material)
+    /// <summary>Writes the contacts of a step over those of the last one, of which there were as many, and hands on their impulses.</summary>
+    /// <param name="manifold">The contacts.</param>
+    /// <param name="material">How the surfaces behave.</param>
+    /// <param name="features">What the contacts are remembered by.</param>
+    internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, ref FeatureIds features)
     {
-        ref var contact = ref Unsafe.AsRef(in manifold.Contact0);
+        WriteMaterial(material);
+        if (KeptArms.MayKeep(contactCount, manifold))
+        {
+            ReadArms(features, out var arms);
+            Unsafe.SkipInit(out KeptArms kept);
+            if (kept.TryFind(arms, manifold))
+            {
+                Keep(arms, ref kept, manifold, ref features);
+                return;
+            }
+        }
+        ReadPatch(features, out var old);
+        WriteGeometry(manifold);
+        WriteImpulses(old, manifold, ref features);
+    }
+
+    /// <summary>Writes the contacts of a step to a constraint that is new.</summary>
+    /// <param name="old">What an earlier constraint of the same manifold held; it may have had another number of contacts, or none.</param>
+    /// <param name="manifold">The contacts.</param>
+    /// <param name="material">How the surfaces behave.</param>
+    /// <param name="features">What the contacts are remembered by.</param>
+    internal void WriteNew(ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, ref FeatureIds features)
+    {
+        WriteMaterial(material);
+        WriteGeometry(manifold);
+        if (KeptArms.MayKeep(old.Count, manifold))
+        {
+            old.GetArms(out var arms);
+            Unsafe.SkipInit(out KeptArms kept);
+            if (kept.TryFind(arms, manifold))
+            {
+                var drift = kept.Drift(arms, manifold);
+                for (int i = 0; i < contactCount; ++i)
+                    WriteArm(i, kept.Places[i] < 0 ? Contact(manifold, i).Offset - drift : arms[kept.Places[i]]);
+                Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
+                float load = 0;
+                for (int i = 0; i < old.Count; ++i)
+                    load += old.Normals[i];
+                old.Friction += TurnedForce(old.Normal, manifold.Normal, load);
+            }
+        }
+        WriteImpulses(old, manifold, ref features);
+    }
+
+    // Contacts stay in the order in which they are: the order in which they are solved makes a difference that can be seen.
+    void Keep(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold, ref FeatureIds features)
+    {
+        if (kept.Count < contactCount)
+            WriteMissingArms(arms, ref kept, manifold);
+        float load = 0;
         for (int i = 0; i < contactCount; ++i)
         {
-            ref var source = ref Unsafe.Add(ref contact, i);
-            Write(i * ContactPrestepLayout.FloatsPerContact, source.Offset);
-            Write(i * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth, source.Depth);
+            ref var contact = ref Contact(manifold, i);
+            WriteDepth(kept.Places[i], contact.Depth);
+            features[kept.Places[i]] = contact.FeatureId;
+            load += impulses[i * Vector<float>.Count];
+        }
+        Write(ContactPrestepLayout.Normal(contactCount), manifold.Normal);
+        var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
+        WriteFriction(Read(impulses, friction) + TurnedForce(arms.Normal, manifold.Normal, load), manifold.Normal);
+    }
+
+    // A contact that is elsewhere takes the nearest place that is left, with the impulse there.
+    void WriteMissingArms(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold)
+    {
+        var drift = kept.Drift(arms, manifold);
+        for (int i = 0; i < contactCount; ++i)
+        {
+            if (kept.Places[i] >= 0)
+                continue;
+            var arm = Contact(manifold, i).Offset - drift;
+            var place = FindFree(arms, kept.Taken, arm);
+            kept.Places[i] = place;
+            kept.Taken |= 1 << place;
+            WriteArm(place, arm);
+        }
+    }
+
+    int FindFree(in OldArms arms, int taken, Vector3 arm)
+    {
+        int nearest = -1;
+        float least = 0;
+        for (int i = 0; i < contactCount; ++i)
+        {
+            if ((taken & 1 << i) != 0)
+                continue;
+            var distance = Exact.DistanceSquared(arms[i], arm);
+            if (nearest >= 0 && !(distance < least))
+                continue;
+            least = distance;
+            nearest = i;
+        }
+        return nearest;
+    }
+
+    // The force of a kept patch points where it did, while its normal turns with the bodies: what that leaves of the normal force is friction. A load that
+    // turned with its box would push a column to the side to which it leans, for as long as friction takes to notice.
+    static Vector3 TurnedForce(Vector3 oldNormal, Vector3 normal, float load) => (oldNormal - normal) * load;
+
+    static ref ConvexContact Contact(in ConvexContactManifold manifold, int index) => ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), index);
+
+    void WriteGeometry(in ConvexContactManifold manifold)
+    {
+        ref var contacts = ref Unsafe.AsRef(in manifold.Contact0);
+        for (int i = 0; i < contactCount; ++i)
+        {
+            ref var contact = ref Unsafe.Add(ref contacts, i);
+            WriteArm(i, contact.Offset);
+            WriteDepth(i, contact.Depth);
         }
         Write(ContactPrestepLayout.OffsetB(contactCount), manifold.OffsetB);
         Write(ContactPrestepLayout.Normal(contactCount), manifold.Normal);
+    }
+
+    void WriteMaterial(in PairMaterialProperties material)
+    {
         Write(ContactPrestepLayout.Friction(contactCount), material.FrictionCoefficient);
         Write(ContactPrestepLayout.Spring(contactCount), material.SpringSettings.AngularFrequency);
         Write(ContactPrestepLayout.Spring(contactCount) + 1, material.SpringSettings.TwiceDampingRatio);
         Write(ContactPrestepLayout.MaximumRecovery(contactCount), material.MaximumRecoveryVelocity);
     }
 
-    /// <summary>Reads the impulses and the places of the last step's contacts. To be called before new contacts are written.</summary>
-    internal void ReadImpulses(in FeatureIds features, out ContactImpulses result)
+    // Of three contacts the last lane is what follows them.
+    void ReadArms(in FeatureIds features, out OldArms arms)
+    {
+        arms.X = ReadLanes(0);
+        arms.Y = ReadLanes(1);
+        arms.Z = ReadLanes(2);
+        arms.Features = Vector128.LoadUnsafe(in features[0]);
+        arms.OffsetB = Read(prestep, ContactPrestepLayout.OffsetB(contactCount));
+        arms.Normal = Read(prestep, ContactPrestepLayout.Normal(contactCount));
+        arms.Count = contactCount;
+        arms.HasTwoBodies = hasTwoBodies;
+    }
+
+    Vector128<float> ReadLanes(int field)
+    {
+        const int next = ContactPrestepLayout.FloatsPerContact;
+        var first = prestep + field * Vector<float>.Count;
+        return Vector128.Create(
+            first[0], first[next * Vector<float>.Count], first[2 * next * Vector<float>.Count], first[3 * next * Vector<float>.Count]);
+    }
+
+    /// <summary>Reads what the constraint holds of the last step.</summary>
+    internal void ReadPatch(in FeatureIds features, out ContactPatch result)
     {
         Unsafe.SkipInit(out result);
         result.Count = contactCount;
+        result.HasTwoBodies = hasTwoBodies;
         result.Features = features;
         for (int i = 0; i < contactCount; ++i)
         {
             result.Normals[i] = impulses[i * Vector<float>.Count];
-            result.Offsets[i] = Read(prestep, i * ContactPrestepLayout.FloatsPerContact);
+            result.Arms[i] = Read(prestep, i * ContactPrestepLayout.FloatsPerContact);
         }
+        result.OffsetB = Read(prestep, ContactPrestepLayout.OffsetB(contactCount));
+        result.Normal = Read(prestep, ContactPrestepLayout.Normal(contactCount));
         var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
         result.Friction = Read(impulses, friction);
         result.Twist = impulses[(friction + 3) * Vector<float>.Count];
@@ -86,7 +213,7 @@ unsafe readonly struct ContactConstraint
     // of one size, a corner is now one box's, now the other's, without anything having moved. So contacts whose feature is new take over
     // from the nearest contact whose feature is gone, and what is left then is shared by all: the load of the patch is the same as a step
     // ago, whatever its contacts are called.
-    internal void WriteImpulses(in ContactImpulses old, in ConvexContactManifold manifold, ref FeatureIds features)
+    void WriteImpulses(in ContactPatch old, in ConvexContactManifold manifold, ref FeatureIds features)
     {
         ref var contact = ref Unsafe.AsRef(in manifold.Contact0);
         FourFloats normals = default;
@@ -109,7 +236,7 @@ unsafe readonly struct ContactConstraint
         {
             if ((received & 1 << i) != 0)
                 continue;
-            var nearest = FindNearest(old, given, Unsafe.Add(ref contact, i).Offset);
+            var nearest = old.FindNearest(given, Unsafe.Add(ref contact, i).Offset);
             if (nearest < 0)
                 continue;
             normals[i] = old.Normals[nearest];
@@ -124,37 +251,26 @@ unsafe readonly struct ContactConstraint
         var share = left / contactCount;
         for (int i = 0; i < contactCount; ++i)
             impulses[i * Vector<float>.Count] = normals[i] + share;
-        WriteFriction(old, manifold.Normal);
-    }
-
-    static int FindNearest(in ContactImpulses old, int given, Vector3 offset)
-    {
-        int nearest = -1;
-        float least = float.MaxValue;
-        for (int j = 0; j < old.Count; ++j)
-        {
-            var distance = Exact.DistanceSquared(old.Offsets[j], offset);
-            if ((given & 1 << j) != 0 || !(distance < least))
-                continue;
-            least = distance;
-            nearest = j;
-        }
-        return nearest;
+        WriteFriction(old.Friction, manifold.Normal);
+        impulses[(ContactPrestepLayout.FrictionImpulse(contactCount) + 3) * Vector<float>.Count] = old.Twist;
     }
 
     // Friction stays in the plane of the contacts; the normal may have turned.
-    void WriteFriction(in ContactImpulses old, Vector3 normal)
+    void WriteFriction(Vector3 impulse, Vector3 normal)
     {
-        var tangential = old.Friction - normal * Exact.Dot(old.Friction, normal);
+        var tangential = impulse - normal * Exact.Dot(impulse, normal);
         var friction = ContactPrestepLayout.FrictionImpulse(contactCount);
         impulses[friction * Vector<float>.Count] = tangential.X;
         impulses[(friction + 1) * Vector<float>.Count] = tangential.Y;
         impulses[(friction + 2) * Vector<float>.Count] = tangential.Z;
-        impulses[(friction + 3) * Vector<float>.Count] = old.Twist;
     }
 
     static Vector3 Read(float* column, int field) => new(
         column[field * Vector<float>.Count], column[(field + 1) * Vector<float>.Count], column[(field + 2) * Vector<float>.Count]);
+
+    void WriteArm(int contact, Vector3 arm) => Write(contact * ContactPrestepLayout.FloatsPerContact, arm);
+
+    void WriteDepth(int contact, float depth) => Write(contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth, depth);
 
     void Write(int field, float value) => prestep[field * Vector<float>.Count] = value;
 

@@ -74,8 +74,6 @@ unsafe struct ContactQueue
     void Write()
     {
         ref var update = ref updates[written++ % Length];
-        update.Constraint.ReadImpulses(*update.Features, out var impulses);
-        update.Constraint.Write(update.Manifold, update.Material);
-        update.Constraint.WriteImpulses(impulses, update.Manifold, ref *update.Features);
+        update.Constraint.Update(update.Manifold, update.Material, ref *update.Features);
     }
 }

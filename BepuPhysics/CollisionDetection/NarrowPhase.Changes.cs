@@ -124,7 +124,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void Apply(in PendingManifold pending)
     {
-        ContactImpulses impulses = default;
+        ContactPatch old = default;
         var solver = Simulation.Solver;
         var ofChildren = pending.Children != ChildIds.None;
         var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
@@ -141,16 +141,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (manifold.HasConstraint)
         {
             new ContactConstraint(solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
-                .ReadImpulses(manifold.Features, out impulses);
+                .ReadPatch(manifold.Features, out old);
             RemoveConstraint(ref cached, ref manifold);
         }
         var contactCount = pending.Manifold.Count;
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        var target = new ContactConstraint(solver, manifold.Constraint, contactCount);
-        target.Write(pending.Manifold, pending.Material);
-        target.WriteImpulses(impulses, pending.Manifold, ref manifold.Features);
+        new ContactConstraint(solver, manifold.Constraint, contactCount).WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
     }
 
     void WatchBouncingPairs()

@@ -1,5 +1,7 @@
+using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -61,6 +63,27 @@ public abstract partial class NarrowPhase
             "number of bodies of the constraint of pair", index);
         Invariant.Require(IsBody(location, 0, pair.A), "first body of the constraint of pair", index);
         Invariant.Require(processor.BodiesPerConstraint == 1 || IsBody(location, 1, pair.B), "second body of the constraint of pair", index);
+        ValidatePatch(index, manifold);
+    }
+
+    // What a patch keeps from step to step. Where its bodies are now says nothing of that: they have moved, and a game may have moved them.
+    void ValidatePatch(int index, in CachedManifold manifold)
+    {
+        // Rounding of a sum of impulses, over these.
+        const float rounding = 1e-4f;
+        new ContactConstraint(Simulation.Solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
+            .ReadPatch(manifold.Features, out var patch);
+        float load = 0;
+        for (int i = 0; i < patch.Count; ++i)
+        {
+            Invariant.Require(float.IsFinite(Exact.LengthSquared(patch.Arms[i])), "arm of the constraint of pair", index, i);
+            Invariant.Require(patch.Normals[i] >= 0, "normal impulse of the constraint of pair", index, i);
+            load += patch.Normals[i];
+        }
+        Invariant.Require(float.IsFinite(Exact.LengthSquared(patch.OffsetB)), "offset between the bodies of the constraint of pair", index);
+        Invariant.Require(MathF.Abs(Exact.LengthSquared(patch.Normal) - 1) < rounding, "normal of the constraint of pair", index);
+        var friction = Exact.Length(patch.Friction);
+        Invariant.Require(MathF.Abs(Exact.Dot(patch.Friction, patch.Normal)) <= rounding * (friction + load), "plane of the friction of pair", index);
     }
 
     bool IsBody(in ConstraintLocation location, int slot, CollidableReference collidable)

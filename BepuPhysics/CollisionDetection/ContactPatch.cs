@@ -1,0 +1,61 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>What a contact constraint holds of its last step.</summary>
+struct ContactPatch
+{
+    /// <summary>Number of contacts; 0 where there was no constraint.</summary>
+    public int Count;
+    /// <summary>Whether B is a body too, and no static.</summary>
+    public bool HasTwoBodies;
+    /// <summary>Features of the contacts.</summary>
+    public FeatureIds Features;
+    /// <summary>Normal impulses, N s.</summary>
+    public FourFloats Normals;
+    /// <summary>Positions of the contacts relative to the centre of A, world axes, as they were when the arms were found.</summary>
+    public FourVectors Arms;
+    /// <summary>Position of B relative to A at that time.</summary>
+    public Vector3 OffsetB;
+    /// <summary>Normal of the last step.</summary>
+    public Vector3 Normal;
+    /// <summary>Friction impulse in world axes, N s.</summary>
+    public Vector3 Friction;
+    /// <summary>Impulse against turning about the normal, N m s.</summary>
+    public float Twist;
+
+    /// <summary>The nearest contact among those that are left; -1 where none is.</summary>
+    /// <param name="taken">A bit for each contact that is not left.</param>
+    /// <param name="offset">Place relative to the centre of A.</param>
+    public readonly int FindNearest(int taken, Vector3 offset)
+    {
+        int nearest = -1;
+        float least = float.MaxValue;
+        for (int i = 0; i < Count; ++i)
+        {
+            var distance = Exact.DistanceSquared(Arms[i], offset);
+            if ((taken & 1 << i) != 0 || (nearest >= 0 && !(distance < least)))
+                continue;
+            least = distance;
+            nearest = i;
+        }
+        return nearest;
+    }
+
+    /// <summary>The arms, where there are three or four.</summary>
+    public readonly void GetArms(out OldArms arms)
+    {
+        arms.X = Vector128.Create(Arms[0].X, Arms[1].X, Arms[2].X, Arms[3].X);
+        arms.Y = Vector128.Create(Arms[0].Y, Arms[1].Y, Arms[2].Y, Arms[3].Y);
+        arms.Z = Vector128.Create(Arms[0].Z, Arms[1].Z, Arms[2].Z, Arms[3].Z);
+        arms.Features = Vector128.Create(Features[0], Features[1], Features[2], Features[3]);
+        arms.OffsetB = OffsetB;
+        arms.Normal = Normal;
+        arms.Count = Count;
+        arms.HasTwoBodies = HasTwoBodies;
+    }
+}

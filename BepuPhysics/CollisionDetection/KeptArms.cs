@@ -1,0 +1,157 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>An index for each contact of a manifold.</summary>
+[InlineArray(4)]
+struct FourIndices
+{
+    int first;
+}
+
+/// <summary>Which contacts of a step are where those of the step before were, and so keep their lever arms.</summary>
+// A contact gives way a little under its load, so a column of boxes is a column of springs. It sways, and what the box on top has moved to the side is a
+// moment at each contact below: load times sway. Where the springs are softer than that moment grows the column buckles, and an exact stack of twenty
+// boxes falls by itself. Nothing of this is in the rigid bodies that are meant, which do not sway. So the moment is left out: a patch has the arms that
+// it had when it formed, and what its bodies move on their springs is seen in the depths alone. What leaves its place is seen in the arms again: a patch
+// has new ones as soon as two of its contacts are elsewhere, or one does not touch any more.
+//
+// Where only some contacts are elsewhere, as they slide over an edge or another corner of an overlap was chosen, these alone get new arms, less what the
+// others have drifted since they got theirs: the arms of a patch are always of one moment, and a new contact does not bring in the sway.
+struct KeptArms
+{
+    // Two contacts are a line, about which bodies roll, and one is a point.
+    const int LeastCount = 3;
+
+    // Contacts that have to be where they were: one alone does not say how the others have moved.
+    const int LeastKept = 2;
+
+    // How far a contact may be from where its arm says, over the shorter of its two arms. It bounds what kept arms do to a moment. Tipping over does
+    // not come that late: there contacts open first.
+    const float Tolerance = 0.05f;
+
+    // Cosine of 10 degrees: how far the normal may turn in a step.
+    const float LeastCosine = 0.98480775f;
+
+    /// <summary>For each new contact the old one whose arm it keeps; -1 where there is none.</summary>
+    public FourIndices Places;
+    /// <summary>Number of contacts that keep their arms.</summary>
+    public int Count;
+    /// <summary>A bit for each old contact that is the place of a new one.</summary>
+    public int Taken;
+
+    /// <summary>Whether a patch may keep arms: if it has contacts enough, and all of them touch.</summary>
+    // A body that rocks turns about the contacts that are left to it, and these have to be where they are.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static bool MayKeep(int oldCount, in ConvexContactManifold manifold)
+    {
+        if (oldCount < LeastCount || manifold.Count < LeastCount)
+            return false;
+        return manifold.Contact0.Depth > 0 && manifold.Contact1.Depth > 0 && manifold.Contact2.Depth > 0 &&
+            (manifold.Count == LeastCount || manifold.Contact3.Depth > 0);
+    }
+
+    /// <summary>Finds the contacts that are where they were.</summary>
+    /// <param name="old">The patch of the last step.</param>
+    /// <param name="manifold">The contacts of this step, of which <see cref="MayKeep"/> is true.</param>
+    /// <returns>Whether the patch keeps its arms.</returns>
+    // About both bodies: either may have moved. What nothing moves has no moment either, wherever its centre may be.
+    public bool TryFind(in OldArms old, in ConvexContactManifold manifold)
+    {
+        Count = 0;
+        Taken = 0;
+        if (!(Exact.Dot(old.Normal, manifold.Normal) > LeastCosine))
+            return false;
+        var shorter = LengthSquared(old.X, old.Y, old.Z);
+        var movedB = manifold.OffsetB - old.OffsetB;
+        if (old.HasTwoBodies)
+        {
+            var aboutB = DistanceSquared(old.X, old.Y, old.Z, old.OffsetB);
+            shorter = Vector128.ConditionalSelect(Vector128.LessThan(aboutB, shorter), aboutB, shorter);
+        }
+        var allowed = shorter * (Tolerance * Tolerance);
+        var left = (1u << old.Count) - 1;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            ref var contact = ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i);
+            var x = Vector128.Create(contact.Offset.X) - old.X;
+            var y = Vector128.Create(contact.Offset.Y) - old.Y;
+            var z = Vector128.Create(contact.Offset.Z) - old.Z;
+            var distance = LengthSquared(x, y, z);
+            if (old.HasTwoBodies)
+            {
+                var aboutB = DistanceSquared(x, y, z, movedB);
+                distance = Vector128.ConditionalSelect(Vector128.GreaterThan(aboutB, distance), aboutB, distance);
+            }
+            var near = Vector128.LessThan(distance, allowed).ExtractMostSignificantBits() & left;
+            var same = Vector128.Equals(old.Features, Vector128.Create(contact.FeatureId)).ExtractMostSignificantBits() & near;
+            Places[i] = -1;
+            if (near == 0)
+                continue;
+            var place = BitOperations.TrailingZeroCount(same != 0 ? same : near);
+            // Rarely more than one is near.
+            if (same == 0 && !BitOperations.IsPow2(near))
+                place = Nearest(distance, near);
+            Places[i] = place;
+            left &= ~(1u << place);
+            ++Count;
+        }
+        Taken = (1 << old.Count) - 1 & ~(int)left;
+        return Count >= LeastKept;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> LengthSquared(Vector128<float> x, Vector128<float> y, Vector128<float> z) => x * x + y * y + z * z;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> DistanceSquared(Vector128<float> x, Vector128<float> y, Vector128<float> z, in Vector3 place) =>
+        LengthSquared(x - Vector128.Create(place.X), y - Vector128.Create(place.Y), z - Vector128.Create(place.Z));
+
+    static int Nearest(Vector128<float> distances, uint candidates)
+    {
+        var nearest = BitOperations.TrailingZeroCount(candidates);
+        for (var rest = candidates & candidates - 1; rest != 0; rest &= rest - 1)
+        {
+            var candidate = BitOperations.TrailingZeroCount(rest);
+            if (distances.GetElement(candidate) < distances.GetElement(nearest))
+                nearest = candidate;
+        }
+        return nearest;
+    }
+
+    /// <summary>How far the contacts that keep their arms are from where these say, on average, m.</summary>
+    public readonly Vector3 Drift(in OldArms old, in ConvexContactManifold manifold)
+    {
+        Vector3 drift = default;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            if (Places[i] >= 0)
+                drift += Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i).Offset - old[Places[i]];
+        }
+        return drift * (1f / Count);
+    }
+}
+
+/// <summary>The arms of three or four contacts of the last step, a lane for each contact.</summary>
+struct OldArms
+{
+    /// <summary>Positions relative to the centre of A, world axes.</summary>
+    public Vector128<float> X, Y, Z;
+    /// <summary>Features.</summary>
+    public Vector128<int> Features;
+    /// <summary>Position of B relative to A when the arms were found.</summary>
+    public Vector3 OffsetB;
+    /// <summary>Normal of the last step.</summary>
+    public Vector3 Normal;
+    /// <summary>Number of contacts; lanes beyond hold something else.</summary>
+    public int Count;
+    /// <summary>Whether B is a body too, and no static.</summary>
+    public bool HasTwoBodies;
+
+    /// <summary>Arm of a contact.</summary>
+    public readonly Vector3 this[int contact] => new(X.GetElement(contact), Y.GetElement(contact), Z.GetElement(contact));
+}

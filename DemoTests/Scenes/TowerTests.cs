@@ -1,0 +1,82 @@
+using System;
+using System.Linq;
+using Demos.Towers;
+using Xunit;
+
+namespace DemoTests.Scenes;
+
+/// <summary>Structures of loose parts at the default setting: what stands in truth stands, and what falls falls.</summary>
+public class TowerTests
+{
+    /// <summary>Each of these fell by itself while contacts took over the lean of a stack from step to step.</summary>
+    [Theory]
+    [InlineData("cubes-20", .14, .03)]
+    [InlineData("cubes-30", .3, .06)]
+    [InlineData("slim-30", .25, .06)]
+    [InlineData("flat-20", .2, .02)]
+    [InlineData("wall-16", .05, .03)]
+    [InlineData("wall-door", .05, .03)]
+    [InlineData("house", .02, .01)]
+    public void A_structure_stands(string name, double heightLost, double lean)
+    {
+        TowerResult result = Watch(name, new TowerSettings());
+        Assert.True(result.Stands, $"fell at {result.FellAt} s");
+        Assert.InRange(result.HeightLost, 0, heightLost);
+        Assert.InRange(result.Lean, 0, lean);
+    }
+
+    /// <summary>For a minute, out of place by up to a millimetre.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void A_stack_of_fifty_stands_for_a_minute(int seed)
+    {
+        TowerResult result = Watch("slim-50", new TowerSettings { Seconds = 60, Offset = .001f, Seed = seed });
+        Assert.True(result.Stands, $"fell at {result.FellAt} s");
+        Assert.InRange(result.Lean, 0, .2);
+    }
+
+    /// <summary>At the time at which they fall with 64 relaxed substeps, to a fifth: softer contacts let them begin to fall at once.</summary>
+    [Theory]
+    [InlineData("offset-.09")]
+    [InlineData("offset-.12")]
+    [InlineData("arch-08")]
+    public void What_must_fall_falls_when_it_must(string name)
+    {
+        TowerResult result = Watch(name, new TowerSettings());
+        TowerResult reference = Watch(name, new TowerSettings { Substeps = 64, Relaxations = 1 });
+        Assert.False(result.Stands);
+        Assert.InRange((double)result.FellAt!, .8 * (double)reference.FellAt!, 1.2 * (double)reference.FellAt);
+    }
+
+    [Theory]
+    [InlineData("slips", .1)]
+    [InlineData("tips", .2)]
+    [InlineData("edge-100", 2)]
+    public void What_must_slip_or_tip_does_so_where_it_must(string name, double tolerance)
+    {
+        var trial = StructureLibrary.Trials.Single(trial => trial.Name == name);
+        Assert.InRange(trial.Measure(new TowerSettings()), trial.Truth - tolerance, trial.Truth + tolerance);
+    }
+
+    [Theory]
+    [InlineData("cubes-30")]
+    [InlineData("wall-16")]
+    [InlineData("hulls-10")]
+    public void Threads_make_no_difference(string name)
+    {
+        var expected = Watch(name, new TowerSettings { Seconds = 5 });
+        foreach (int threads in new[] { 2, 3 })
+        {
+            var result = Watch(name, new TowerSettings { Seconds = 5, Threads = threads });
+            Assert.Equal((expected.HeightLost, expected.Lean), (result.HeightLost, result.Lean));
+        }
+    }
+
+    static TowerResult Watch(string name, TowerSettings settings)
+    {
+        using var run = new TowerRun(StructureLibrary.All.Single(structure => structure.Name == name), settings);
+        return run.Run();
+    }
+}
