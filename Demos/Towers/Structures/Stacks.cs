@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using Demos.Scenes;
-using Demos.Scenes.BuiltIn;
 
 namespace Demos.Towers.Structures;
 
