@@ -74,6 +74,21 @@ public sealed class KeptArmsTests : IDisposable
         Assert.Equal(manifold[0].Offset, Read().Arms[0]);
     }
 
+    /// <summary>A contact that is close to the centre of B has a short arm there, and has moved by more than a twentieth of it.</summary>
+    [Fact]
+    public void The_shorter_of_the_two_arms_counts()
+    {
+        var manifold = Moved(Read(), default);
+        manifold.OffsetB = .9f * manifold.Contact0.Offset;
+        Update(Read(), manifold);
+        var before = Read();
+        Assert.Equal(manifold.OffsetB, before.OffsetB);
+        manifold.Contact0.Offset.X += Little;
+        Update(before, manifold);
+        Assert.Equal(manifold.Contact0.Offset, Read().Arms[0]);
+        Assert.Equal(before.Arms[1], Read().Arms[1]);
+    }
+
     /// <summary>Where its centre is says nothing of a static: the same floor may be one box or a hundred.</summary>
     [Fact]
     public void The_centre_of_a_static_does_not_count()
@@ -162,6 +177,20 @@ public sealed class KeptArmsTests : IDisposable
         Assert.Equal(before.OffsetB, after.OffsetB);
     }
 
+    /// <summary>The place that is nearest to both has room for one.</summary>
+    [Fact]
+    public void Two_contacts_that_are_elsewhere_take_two_places()
+    {
+        var before = Read();
+        var manifold = Moved(before, default);
+        manifold.Contact0.Offset = before.Arms[0] * new Vector3(.7f, 1, 1);
+        manifold.Contact1.Offset = before.Arms[0] * new Vector3(.8f, 1, 1);
+        Update(before, manifold);
+        var after = Read();
+        Assert.Equal(manifold.Contact0.Offset, after.Arms[0]);
+        Assert.Equal(manifold.Contact1.Offset, after.Arms[1]);
+    }
+
     [Fact]
     public void One_contact_alone_keeps_no_patch()
     {
@@ -205,6 +234,7 @@ public sealed class KeptArmsTests : IDisposable
         var before = Read();
         var manifold = Moved(before, new Vector3(Little, 0, 0));
         manifold.Count = 3;
+        manifold.OffsetB += new Vector3(Little, 0, 0);
         Replace(ref before, manifold);
         var after = Read();
         Assert.Equal(3, after.Count);

@@ -16,7 +16,8 @@ sealed class TestWorld : IDisposable
     public const float Dt = 1 / 60f;
 
     public TestWorld(AccuracySettings? settings = null, int threads = 1, SimulationAllocationSizes? sizes = null,
-        Shapes? shapes = null, ITimestepper? timestepper = null, PairMaterialProperties? material = null, float restitution = 0)
+        Shapes? shapes = null, ITimestepper? timestepper = null, PairMaterialProperties? material = null, float restitution = 0,
+        int fallbackBatchThreshold = SolveDescription.DefaultFallbackBatchThreshold)
     {
         settings ??= new AccuracySettings();
         Dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
@@ -24,7 +25,7 @@ sealed class TestWorld : IDisposable
             Pool,
             new WorldContacts(
                 material ?? new PairMaterialProperties(settings.Friction, settings.MaximumRecoveryVelocity, default), settings.Contacts, restitution),
-            new WorldGravity(settings), EngineTraits.Solve(settings), timestepper, sizes, shapes);
+            new WorldGravity(settings), EngineTraits.Solve(settings) with { FallbackBatchThreshold = fallbackBatchThreshold }, timestepper, sizes, shapes);
     }
 
     public BufferPool Pool { get; } = new();

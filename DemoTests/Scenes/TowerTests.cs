@@ -7,7 +7,7 @@ namespace DemoTests.Scenes;
 /// <summary>Structures of loose parts at the default setting: what stands in truth stands, and what falls falls.</summary>
 public class TowerTests
 {
-    /// <summary>Each of these fell by itself while contacts took over the lean of a stack from step to step.</summary>
+    /// <summary>All but the house fell by themselves while contacts took over the lean of a stack from step to step.</summary>
     [Theory]
     [InlineData("cubes-20", .14, .03)]
     [InlineData("cubes-30", .3, .06)]
