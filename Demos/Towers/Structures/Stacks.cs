@@ -33,7 +33,10 @@ static class Stacks
             int count = (int)Math.Ceiling(1 / step) + 1;
             string name = FormattableString.Invariant($"offset-{step:.00}");
             yield return new(name, FormattableString.Invariant($"{count} cubes, each {step} m off the one below: they fall"),
-                () => Boxes(name, Vector3.One, count, step)) { Stands = false };
+                () => Boxes(name, Vector3.One, count, step))
+            {
+                Stands = false,
+            };
         }
     }
 
