@@ -6,6 +6,7 @@ public static class ConstraintTypeIds
     /// <summary>Ids below this one are contacts.</summary>
     public const int ContactTypeCount = 22;
 
+    internal const int ContactTwoBody = 4;
     internal const int BallSocket = 22;
     internal const int SwingLimit = 25;
     internal const int TwistLimit = 27;

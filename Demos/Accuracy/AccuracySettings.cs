@@ -61,5 +61,7 @@ sealed record AccuracySettings
 
     public override string ToString() =>
         string.Create(CultureInfo.InvariantCulture,
-            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{(LoadPath != LoadPathChoice.Off ? $" load path {LoadPath}" : "")}{(Stiff ? " stiff" : "")}");
+            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{LoadPathWords}{(Stiff ? " stiff" : "")}");
+
+    string LoadPathWords => LoadPath == LoadPathChoice.Off ? "" : $" load path {LoadPath}";
 }

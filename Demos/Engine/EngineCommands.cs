@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using Demos.Fuzz;
-using Demos.Terminal;
+using Demos.Towers;
 
 namespace Demos.Engine;
 

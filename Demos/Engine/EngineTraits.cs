@@ -41,7 +41,11 @@ static class EngineTraits
     public static string[] TradedModes => ["default", "plain"];
 
     public static SolveDescription Solve(AccuracySettings settings) =>
-        new(settings.VelocityIterationCount, settings.SubstepCount) { RelaxationIterationCount = settings.RelaxationCount, LoadPath = (LoadPathMode)settings.LoadPath };
+        new(settings.VelocityIterationCount, settings.SubstepCount)
+        {
+            RelaxationIterationCount = settings.RelaxationCount,
+            LoadPath = (LoadPathMode)settings.LoadPath,
+        };
 
     /// <summary>What pairs collide, and how: here bounces are no part of the spring.</summary>
     public static WorldContacts Contacts(AccuracySettings settings) => new(

@@ -38,7 +38,8 @@ public sealed class TradeCommandTests : IDisposable
     [Fact]
     public void A_small_sweep_ends_with_its_rows_and_errors_that_fall_with_substeps()
     {
-        (int status, string output, string error) = Run("trade", "steps", "--substeps", "2,4,8", "--iterations", "1", "--mode", "default", "--runs", "1",
+        (int status, string output, string error) = Run("trade", "steps", "--substeps", "2,4,8", "--iterations", "1", "--mode", "default",
+            "--load-path", "off", "--runs", "1",
             "--output", folder, "--all");
 
         Assert.Equal(DemosCommand.Finished, status);

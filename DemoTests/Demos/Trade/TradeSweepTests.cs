@@ -53,6 +53,7 @@ public sealed class TradeSweepTests
         {
             ["mode"] = ["default"],
             ["spring"] = ["default"],
+            ["load-path"] = ["off"],
             ["relaxations"] = ["0"],
             ["iterations"] = ["1"],
             ["substeps"] = ["1", "2", "4"],

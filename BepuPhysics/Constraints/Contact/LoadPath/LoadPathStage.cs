@@ -30,6 +30,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     const float LeastBand = 1e-30f;
     // Velocity left after the warm start, per that from outside, from which on an island is worked on.
     const float LeastResidual = 0.02f;
+    // The same, per that of a fall by the distance from a body's centre to its contacts, as strong gravity and small bodies make the first great for it.
+    const float LeastFall = 3e-4f;
     // Part of that from which on a body takes part, and from which on an island is worked on again that was worked on in the last substep.
     const float ActiveShare = 0.05f;
 
@@ -59,7 +61,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 RememberVelocities();
                 break;
             case SolverPoint.BeforeWarmStart when substep.Index == 0:
-                Build();
+                Build(substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += Blocks)
@@ -76,7 +78,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             gains[i] = set.MotionStates[i].Velocity.Linear;
     }
 
-    void Build()
+    void Build(float dt)
     {
         ref var set = ref bodies.Awake;
         for (int i = 0; i < set.Count; ++i)
@@ -101,7 +103,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         graph.Build(set.Count, new ReadOnlySpan<float>(heights.Memory, set.Count), pool);
         pool.Return(ref heights);
         for (int i = 0; i < graph.Nodes.Count; ++i)
-            SetTolerance(ref graph.Nodes[i]);
+            SetTolerance(ref graph.Nodes[i], dt);
         for (; graph.HeldCount < graph.Supports.Count; ++graph.HeldCount)
             Hold(ref graph.Supports[graph.HeldCount]);
     }
@@ -189,7 +191,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         processor.PrestepFloat(ref batch, index, field + 2));
 
     // What a heavy body has left of its velocity is much to a light one below.
-    void SetTolerance(ref LoadNode node)
+    void SetTolerance(ref LoadNode node, float dt)
     {
         ref var set = ref bodies.Awake;
         var inverseMass = set.LocalInertias[node.Body].InverseMass;
@@ -200,7 +202,9 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             if (lower >= 0)
                 ratio = MathHelper.Min(ratio, inverseMass / set.LocalInertias[lower].InverseMass);
         }
-        node.Tolerance = LeastResidual * ratio * Exact.Length(gains[node.Body]);
+        var gain = Exact.Length(gains[node.Body]);
+        // The second is the velocity that a fall of some ten-millionth of the body's size would give.
+        node.Tolerance = ratio * MathHelper.Min(LeastResidual * gain, LeastFall * MathF.Sqrt(gain / dt * node.Radius));
     }
 
     // A band of no width at all would be a spring that is not held.

@@ -4,10 +4,10 @@ using System.CommandLine;
 using System.IO;
 using System.Threading;
 using Demos.Scenes;
-using Demos.Towers;
+using Demos.Terminal;
 using Demos.Towers.Trials;
 
-namespace Demos.Terminal;
+namespace Demos.Towers;
 
 /// <summary>The command that watches whether structures stand.</summary>
 static class TowersCommand
