@@ -3,8 +3,8 @@ using System.Collections.Generic;
 using System.Globalization;
 using BepuPhysics;
 using Demos.Accuracy;
-using Demos.Scenes;
 using Demos.Running;
+using Demos.Scenes;
 
 namespace Demos.Trade;
 
