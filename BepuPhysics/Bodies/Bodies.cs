@@ -54,6 +54,9 @@ public sealed unsafe partial class Bodies
     /// <summary>The same without the question whether the simulation lives, for the inside of a step.</summary>
     internal ref BodySet Awake => ref Sets[0];
 
+    /// <summary>The set in which a body is.</summary>
+    internal ref BodySet SetOf(in BodyMemoryLocation location) => ref Sets[location.SetIndex];
+
     internal Bodies(BufferPool pool, int initialCapacity, WorldLock world)
     {
         this.world = world;

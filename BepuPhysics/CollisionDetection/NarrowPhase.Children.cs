@@ -20,20 +20,22 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void TestParent(int workerIndex, CollisionTask task, int taskIndex, bool flipped, in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB,
         in RigidPose poseA, in RigidPose poseB, float margin)
     {
-        ref var bodies = ref Simulation.Bodies.Awake;
-        var indexA = Simulation.Bodies.Locations[tested.Pair.A.Slot].Index;
-        var expansion = MaximumExpansion(bodies.Collidables[indexA]);
+        var bodies = Simulation.Bodies;
+        ref var locationA = ref bodies.Locations[tested.Pair.A.Slot];
+        ref var setA = ref bodies.SetOf(locationA);
+        var expansion = MaximumExpansion(setA.Collidables[locationA.Index]);
         var velocityB = default(BodyVelocity);
         if (tested.Pair.B.Mobility != CollidableMobility.Static)
         {
-            var indexB = Simulation.Bodies.Locations[tested.Pair.B.Slot].Index;
-            velocityB = bodies.MotionStates[indexB].Velocity;
-            expansion = Math.Max(expansion, MaximumExpansion(bodies.Collidables[indexB]));
+            ref var locationB = ref bodies.Locations[tested.Pair.B.Slot];
+            ref var setB = ref bodies.SetOf(locationB);
+            velocityB = setB.MotionStates[locationB.Index].Velocity;
+            expansion = Math.Max(expansion, MaximumExpansion(setB.Collidables[locationB.Index]));
         }
         ref var worker = ref workers[workerIndex];
         worker.Batcher.AddParent(task, taskIndex, flipped, shapeA.Index, shapeB.Index, poseB.Position - poseA.Position, poseA.Orientation,
             poseB.Orientation, margin, worker.TestedPairs.Add(tested, worker.Pool),
-            new PairMotion(bodies.MotionStates[indexA].Velocity, velocityB, expansion));
+            new PairMotion(setA.MotionStates[locationA.Index].Velocity, velocityB, expansion));
     }
 
     static float MaximumExpansion(in Collidable collidable) =>

@@ -79,11 +79,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     {
         var a = pair.A;
         var b = pair.B;
-        ref var set = ref Simulation.Bodies.Awake;
-        var locations = Simulation.Bodies.Locations;
-        var indexA = locations[a.Slot].Index;
-        ref var collidableA = ref set.Collidables[indexA];
-        ref var poseA = ref set.MotionStates[indexA].Pose;
+        var bodies = Simulation.Bodies;
+        ref var locationA = ref bodies.Locations[a.Slot];
+        ref var setA = ref bodies.SetOf(locationA);
+        ref var collidableA = ref setA.Collidables[locationA.Index];
+        ref var poseA = ref setA.MotionStates[locationA.Index].Pose;
         var margin = collidableA.SpeculativeMargin;
         TypedIndex shapeB;
         ref var poseB = ref Unsafe.NullRef<RigidPose>();
@@ -95,10 +95,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         }
         else
         {
-            var indexB = locations[b.Slot].Index;
-            shapeB = set.Collidables[indexB].Shape;
-            margin += set.Collidables[indexB].SpeculativeMargin;
-            poseB = ref set.MotionStates[indexB].Pose;
+            ref var locationB = ref bodies.Locations[b.Slot];
+            ref var setB = ref bodies.SetOf(locationB);
+            shapeB = setB.Collidables[locationB.Index].Shape;
+            margin += setB.Collidables[locationB.Index].SpeculativeMargin;
+            poseB = ref setB.MotionStates[locationB.Index].Pose;
         }
         var ownMargin = margin;
         if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))

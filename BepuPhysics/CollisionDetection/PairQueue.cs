@@ -65,10 +65,10 @@ unsafe struct PairQueue
     {
         if (collidable.Mobility == CollidableMobility.Static)
             return;
-        var index = bodies.Locations[collidable.Slot].Index;
-        ref var set = ref bodies.Awake;
-        Prefetch.Read(set.MotionStates.Memory + index);
-        Prefetch.Read(set.Collidables.Memory + index);
+        ref var location = ref bodies.Locations[collidable.Slot];
+        ref var set = ref bodies.SetOf(location);
+        Prefetch.Read(set.MotionStates.Memory + location.Index);
+        Prefetch.Read(set.Collidables.Memory + location.Index);
     }
 
     /// <summary>Takes the oldest pair when its turn has come.</summary>
