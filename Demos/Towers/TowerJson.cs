@@ -21,6 +21,7 @@ static class TowerJson
             json.WriteNumber("substeps", settings.Substeps);
             json.WriteNumber("iterations", settings.Iterations);
             json.WriteNumber("relaxations", settings.Relaxations);
+            json.WriteString("loadPath", settings.LoadPath.ToString());
             json.WriteNumber("offset", settings.Offset);
             json.WriteNumber("seed", settings.Seed);
             json.WriteNumber("push", settings.Push);

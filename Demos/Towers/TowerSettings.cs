@@ -1,3 +1,5 @@
+using BepuPhysics;
+
 namespace Demos.Towers;
 
 /// <summary>How long steps are.</summary>
@@ -27,6 +29,9 @@ sealed record TowerSettings
 
     /// <summary>Relaxations per substep.</summary>
     public int Relaxations { get; init; }
+
+    /// <summary>Whether loads are handed down to the ground in one go.</summary>
+    public LoadPathMode LoadPath { get; init; }
 
     /// <summary>How far parts are out of place at most, m.</summary>
     public float Offset { get; init; }

@@ -27,7 +27,11 @@ sealed class TowerWorld : IDisposable
         var material = new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring);
         dispatcher = settings.Threads > 1 ? new ThreadDispatcher(settings.Threads) : null;
         Simulation = Simulation.Create(pool, new SceneNarrowPhaseCallbacks(recorder, material), new ScenePoseIntegratorCallbacks(Gravity, 0),
-            new SolveDescription(settings.Iterations, settings.Substeps) { RelaxationIterationCount = settings.Relaxations });
+            new SolveDescription(settings.Iterations, settings.Substeps) 
+            {
+                RelaxationIterationCount = settings.Relaxations,
+                LoadPath = settings.LoadPath,
+            });
         BuiltScene built = SceneBuilder.Build(scene, Simulation, EngineDefaults.JointSpring, recorder);
         parts = new BodyHandle[built.BodyCount];
         var starts = new Vector3[parts.Length];

@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints.Contact;
 // with arms in units of the body. A contact that would pull is left at zero and the others share what it does not take. Across the normal friction
 // does, shared by load.
 //
-// The sum of the normals is no more than the load: a least change of squares may press one side against the other, and what is pressed so has
+// What the normals carry is no more than the load: a least change of squares may press one side against the other, and what is pressed so has
 // friction that no weight pays for.
 static class LoadTransfer
 {
@@ -30,10 +30,11 @@ static class LoadTransfer
         var normal = MeanNormal(supports, out var load);
         var force = -Exact.Dot(linear, normal);
         var wanted = MathHelper.Max(0, load + force);
+        var carried = MathHelper.Max(0, Along(supports, normal, before: true) + force);
         var moment = -angular;
         ShareFriction(supports, -(linear + normal * force), wanted, load, ref moment);
         SolveNormals(supports, normal, force, moment, radius);
-        Cap(supports, wanted);
+        Cap(supports, normal, carried);
         Clamp(supports);
     }
 
@@ -138,14 +139,22 @@ static class LoadTransfer
         y = Exact.Cross(normal, x);
     }
 
-    static void Cap(Span<LoadSupport> supports, float wanted)
+    // Sum of what the normals carry along their mean.
+    static float Along(Span<LoadSupport> supports, Vector3 normal, bool before)
     {
         float sum = 0;
         foreach (ref var support in supports)
         {
+            var slope = Exact.Dot(support.Normal, normal);
             for (int i = 0; i < support.Count; ++i)
-                sum += support.After[i];
+                sum += (before ? support.Before[i] : support.After[i]) * slope;
         }
+        return sum;
+    }
+
+    static void Cap(Span<LoadSupport> supports, Vector3 normal, float wanted)
+    {
+        var sum = Along(supports, normal, before: false);
         if (!(sum > wanted))
             return;
         var scale = wanted / sum;
