@@ -115,7 +115,8 @@ static class TowersCommand
     // Where both fall, the times may differ by a tenth.
     static bool IsAsReference(Structure structure, TowerSettings settings, TowerResult result, TextWriter output, CancellationToken stop)
     {
-        TowerResult reference = Watch(structure, settings with { Substeps = ReferenceSubsteps, Iterations = 1, Relaxations = 1, LoadPath = LoadPathMode.Off }, stop);
+        var bySweeps = settings with { Substeps = ReferenceSubsteps, Iterations = 1, Relaxations = 1, LoadPath = LoadPathMode.Off };
+        TowerResult reference = Watch(structure, bySweeps, stop);
         bool isAlike = result.Stands == reference.Stands && !(float.Abs((result.FellAt - reference.FellAt) ?? 0) > .1f * reference.FellAt);
         output.Write($"   reference: {Fate(reference)}{(isAlike ? "" : ", OTHERWISE")}");
         return isAlike;

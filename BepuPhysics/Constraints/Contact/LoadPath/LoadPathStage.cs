@@ -23,9 +23,9 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     const int Blocks = 16;
     // Steps of acceleration up to which a contact is quiet.
     const float QuietSteps = 2;
-    // Least part of the acceleration from outside along the normal of a contact that carries against it: 26 degrees. What leans on steeper faces, as the
+    // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
-    const float LeastSlope = 0.9f;
+    const float LeastSlope = 0.8f;
     // Half the width of the band in which a contact knows no overlap, per size of the smaller body.
     const float BandPerSize = 5e-4f;
     const float LeastBand = 1e-30f;
