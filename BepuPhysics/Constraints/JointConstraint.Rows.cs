@@ -11,6 +11,30 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 {
     const int CoordinatesPerBody = 6;
 
+    static bool IConstraint<TBodies, TPrestep, TRows>.HasError => MakesHubs;
+
+    static BodyAccess IConstraint<TBodies, TPrestep, TRows>.ErrorAccess => BodyAccess.Pose;
+
+    // The distance between points that are held together; of limits the greatest violation. All types that hand weight on are of these two kinds.
+    static Vector<float> IConstraint<TBodies, TPrestep, TRows>.Error(in TBodies bodies, in TPrestep prestep)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.PositionError(bodies, prestep, geometry, out var error);
+        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
+        if (TJoint.HoldsPoints)
+        {
+            TJoint.PointLoad(geometry, error, out var apart, out _, out _);
+            return Wide.Mask(isRigid, apart.Length());
+        }
+        var greatest = Vector<float>.Zero;
+        if (TJoint.Kind == RowKind.Inequality)
+        {
+            for (int i = 0; i < Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>(); ++i)
+                greatest = Wide.Max(greatest, -Row(ref error, i));
+        }
+        return Wide.Mask(isRigid, greatest);
+    }
+
     static int IConstraint<TBodies, TPrestep, TRows>.RowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
 
     static RowLimit IConstraint<TBodies, TPrestep, TRows>.LimitOf(int row) =>

@@ -43,6 +43,13 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Moves the velocities of the bodies towards satisfying the constraint.</summary>
     static abstract void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
 
+    // What a governor of substeps reads: how far the constraint is from being met, m; zero where it is met, and where it is not meant to be rigid.
+    internal static virtual bool HasError => false;
+
+    internal static virtual BodyAccess ErrorAccess => BodyAccess.None;
+
+    internal static virtual Vector<float> Error(in TBodies bodies, in TPrestep prestep) => Vector<float>.Zero;
+
     // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
     internal static virtual int RowCount => 0;
 

@@ -20,6 +20,9 @@ enum SolverPoint
 /// <summary>An optional stage of the solver. A stage without blocks at a point costs nothing there.</summary>
 interface ISolverStage
 {
+    /// <summary>Whether it changes velocities.</summary>
+    bool ChangesVelocities => true;
+
     /// <summary>Number of independent blocks of work at a point, known before the step.</summary>
     int GetBlockCount(SolverPoint point);
 

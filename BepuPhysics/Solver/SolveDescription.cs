@@ -18,6 +18,8 @@ public struct SolveDescription
     public int SubstepCount;
     /// <summary>Whether every step has <see cref="SubstepCount"/> parts, whatever its length.</summary>
     public bool HasFixedSubstepCount;
+    /// <summary>Chooses the number of substeps by the error of the constraints; null for <see cref="SubstepCount"/>.</summary>
+    public SubstepGovernor? Governor;
     /// <summary>Number of batches before constraints of a body go to the fallback batch; at least 1.</summary>
     public int FallbackBatchThreshold;
     /// <summary>Sweeps per substep that take back the velocity which the correction of positions has left behind; 0 for none.</summary>
@@ -74,6 +76,7 @@ public struct SolveDescription
         ArgumentOutOfRangeException.ThrowIfNegative(RelaxationIterationCount, nameof(RelaxationIterationCount));
         ArgumentOutOfRangeException.ThrowIfLessThan(FallbackBatchThreshold, 1, nameof(FallbackBatchThreshold));
         Check(LoadPath);
+        Governor?.Validate();
     }
 
     internal static void Check(LoadPathMode mode)

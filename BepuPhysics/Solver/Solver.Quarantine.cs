@@ -14,7 +14,7 @@ public sealed unsafe partial class Solver
                 return true;
             for (int i = 0; i < OptionalStages.Count; ++i)
             {
-                if (OptionalStages[i].GetBlockCount(SolverPoint.AfterSubsteps) > 0)
+                if (OptionalStages[i].ChangesVelocities && OptionalStages[i].GetBlockCount(SolverPoint.AfterSubsteps) > 0)
                     return true;
             }
             return false;

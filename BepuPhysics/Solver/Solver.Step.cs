@@ -110,6 +110,7 @@ public sealed unsafe partial class Solver
             BuildSplitBodies(ref work.Split);
             integrator.Prepare(substepDt);
             StagedWork.Run(ref work, dispatcher);
+            ReadError();
         }
         finally
         {

@@ -51,6 +51,11 @@ public sealed partial class Solver
     /// <returns>Length of its substeps, s.</returns>
     float BeginStep(float dt)
     {
+        if (governor is SubstepGovernor settings)
+        {
+            LastSubstepCount = GovernedSubstepCount(settings, dt);
+            return dt / LastSubstepCount;
+        }
         // The first step of a game is often an odd one, and nothing has sunk into anything yet: the second one says what is usual.
         if (stepsSeen < OddSteps)
         {
@@ -73,5 +78,8 @@ public sealed partial class Solver
         usualSubstepDt = 0;
         stepsSeen = 0;
         LastSubstepCount = 0;
+        LastConstraintError = 0;
+        governedCount = 0;
+        recentError = 0;
     }
 }

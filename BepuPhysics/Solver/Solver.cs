@@ -156,6 +156,9 @@ public sealed unsafe partial class Solver
         relaxationIterationCount = description.RelaxationIterationCount;
         loadPath = description.LoadPath;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
+        governor = description.Governor;
+        errorStage = new ConstraintErrorStage(this, bodies);
+        OptionalStages.Add(errorStage);
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(1, out Sets);

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
@@ -18,6 +19,28 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
         rows.Clear();
         TConstraint.ReadRows(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], rows);
+    }
+
+    /// <inheritdoc/>
+    internal override bool HasError => TConstraint.HasError;
+
+    /// <inheritdoc/>
+    internal override float GreatestError(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;
+        var greatest = Vector<float>.Zero;
+        for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
+        {
+            Gather(references, PlaceMask, bodies, TConstraint.ErrorAccess, substep, out _, out var slots);
+            var error = TConstraint.Error(slots, ((TPrestep*)batch.Prestep.Memory)[i]);
+            // All bits of the reference of an unused lane are set.
+            var exists = ~Vector.Equals(references[0], new Vector<int>(EncodedBody.Empty));
+            greatest = Wide.Select(exists & Vector.GreaterThan(error, greatest), error, greatest);
+        }
+        var most = 0f;
+        for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            most = MathHelper.Max(most, greatest[lane]);
+        return most;
     }
 
     /// <inheritdoc/>

@@ -21,6 +21,12 @@ public abstract partial class TypeProcessor
     /// <param name="rows"><see cref="RowCount"/> rows; lanes without a constraint mean nothing.</param>
     internal abstract void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Span<ConstraintRowWide> rows);
 
+    /// <summary>Whether constraints of the type have an error that is a distance.</summary>
+    internal abstract bool HasError { get; }
+
+    /// <summary>Greatest distance by which a rigid constraint of some bundles is not met, m; what is no number does not count.</summary>
+    internal abstract float GreatestError(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
+
     /// <summary>Replaces the accumulated impulses of some constraints of a bundle; the velocities of the bodies are the caller's to change.</summary>
     /// <param name="batch">Where the constraints are.</param>
     /// <param name="bundle">Index of the bundle in the type batch.</param>

@@ -115,6 +115,10 @@ sealed class BadInputWorld : IDisposable
         hash.Add(Solver.VelocityIterationCount);
         hash.Add(Solver.RelaxationIterationCount);
         hash.Add((int)Solver.LoadPath);
+        hash.Add(Solver.Governor.HasValue ? 1 : 0);
+        hash.Add(Solver.Governor.GetValueOrDefault().TargetError);
+        hash.Add(Solver.Governor.GetValueOrDefault().LeastSubstepCount);
+        hash.Add(Solver.Governor.GetValueOrDefault().GreatestSubstepCount);
         foreach (var handle in world.Dynamics)
         {
             var body = Bodies[handle];

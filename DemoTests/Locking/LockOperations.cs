@@ -92,6 +92,7 @@ static class LockOperations
         Change("Solver.VelocityIterationCount", w => w.Simulation.Solver.VelocityIterationCount = 2);
         Change("Solver.RelaxationIterationCount", w => w.Simulation.Solver.RelaxationIterationCount = 1);
         Change("Solver.LoadPath", w => w.Simulation.Solver.LoadPath = LoadPathMode.Always);
+        Change("Solver.Governor", w => w.Simulation.Solver.Governor = new(0.001f, 2, 8));
         Change("Solver.MinimumCapacityPerTypeBatch", w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = 128);
         list.Add("Solver.ApplyDescription", (OperationKind.Write, w => w.Simulation.Solver.ApplyDescription(
             w.Joint, new BallSocket { LocalOffsetA = new Vector3(1, 0, 0), LocalOffsetB = new Vector3(-2, 0, 0) })));

@@ -79,6 +79,10 @@ static class FuzzFingerprint
         hash.Add(solver.SubstepCount);
         hash.Add(solver.RelaxationIterationCount);
         hash.Add((int)solver.LoadPath);
+        hash.Add(solver.Governor.HasValue ? 1 : 0);
+        hash.Add(solver.Governor.GetValueOrDefault().TargetError);
+        hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);
+        hash.Add(solver.Governor.GetValueOrDefault().GreatestSubstepCount);
         hash.Add(solver.MinimumCapacityPerTypeBatch);
     }
 

@@ -10,6 +10,29 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 {
     static int FirstFriction => TContacts.Count;
 
+    static bool IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.HasError => true;
+
+    static BodyAccess IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.ErrorAccess =>
+        BodyAccess.Displacement;
+
+    // The depth of the deepest contact.
+    static Vector<float> IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.Error(
+        in TBodies bodies, in ConvexContactPrestepWide<TContacts> prestep)
+    {
+        // A copy: what is read through "in" by an index is copied each time.
+        var patch = prestep;
+        ConstraintRowWide row = default;
+        var deepest = Vector<float>.Zero;
+        for (int i = 0; i < TContacts.Count; ++i)
+        {
+            WriteJacobian(ref row, patch.Normal, patch.Contacts[i].OffsetA, patch.OffsetB);
+            deepest = Wide.Max(deepest, patch.Contacts[i].Depth - Displacement(bodies, row));
+        }
+        // What a game gave a frequency is no error. That of held contacts is minus the band in which they know no overlap.
+        var frequency = patch.Material.SpringSettings.AngularFrequency;
+        return Wide.Mask(Vector.LessThanOrEqual(frequency, Vector<float>.Zero), deepest + frequency);
+    }
+
     static int IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.RowCount =>
         TContacts.Count > 1 ? TContacts.Count + 3 : 3;
 

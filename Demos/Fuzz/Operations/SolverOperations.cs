@@ -12,6 +12,7 @@ static class SolverOperations
         new("Solver.SubstepCount", 2, w => w.Simulation.Solver.SubstepCount = Few(w)),
         new("Solver.RelaxationIterationCount", 2, w => w.Simulation.Solver.RelaxationIterationCount = Few(w)),
         new("Solver.LoadPath", 2, w => w.Simulation.Solver.LoadPath = Mode(w)),
+        new("Solver.Governor", 2, Govern),
         new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
         new("Solver.VelocityIterationScheduler", 2, Schedule),
         new("Simulation.Deterministic", 1, w => w.Simulation.Deterministic = w.Random.Percent(50)),
@@ -32,6 +33,19 @@ static class SolverOperations
         var mode = w.Random.Percent(90) ? (LoadPathMode)w.Random.Below(3) : (LoadPathMode)w.Random.Of((ReadOnlySpan<int>)[-1, 3, int.MaxValue]);
         w.Tell($"{mode}");
         return mode;
+    }
+
+    static void Govern(FuzzWorld w)
+    {
+        if (w.Random.Percent(30))
+        {
+            w.Tell($"{null}");
+            w.Simulation.Solver.Governor = null;
+            return;
+        }
+        var target = w.Random.Percent(80) ? 0.001f : w.Random.Of((ReadOnlySpan<float>)[0, -1, float.NaN, float.PositiveInfinity, 1e-30f, 1e30f]);
+        w.Tell($"{target}");
+        w.Simulation.Solver.Governor = new() { TargetError = target, LeastSubstepCount = Few(w), GreatestSubstepCount = Few(w) };
     }
 
     static void Schedule(FuzzWorld w)
