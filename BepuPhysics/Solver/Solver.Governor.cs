@@ -19,6 +19,8 @@ public sealed partial class Solver
     const float LoweredPerStep = 0.02f;
     /// <summary>Part of the greatest error that is remembered for another step.</summary>
     const float RememberedPerStep = 0.95f;
+    /// <summary>The greatest error that is remembered, in multiples of the target: a second later nothing is left of an accident.</summary>
+    const float GreatestRemembered = 16;
     // Between these parts of the target nothing changes; outside, the count goes for the middle one.
     const float QuietFrom = 0.65f;
     const float Aim = 0.8f;
@@ -85,7 +87,8 @@ public sealed partial class Solver
             return;
         LastConstraintError = errorStage.Error;
         // A load that swings is near its place twice in each period: what is quiet has been so for some time.
-        recentError = MathHelper.Max(LastConstraintError, recentError * RememberedPerStep);
+        recentError = MathHelper.Max(
+            MathHelper.Min(LastConstraintError, GreatestRemembered * settings.TargetError), recentError * RememberedPerStep);
         var next = governedCount;
         if (LastConstraintError > QuietTo * settings.TargetError)
             next = CountFor(LastConstraintError, settings.TargetError);

@@ -7,7 +7,6 @@ using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
-using DemoTests.Support;
 
 namespace DemoTests.Governor;
 
