@@ -87,9 +87,12 @@ public class GovernorTests(ITestOutputHelper output)
         using var world = new GovernorWorld(new SubstepGovernor(Target, 4, 4));
         world.AddStack(1);
         for (int i = 0; i < 100; ++i)
+        {
+            // From the first step on, in which it sinks in, at one corner a little before the others. Rounding of a position of half a metre.
             world.Step();
-        // A box of a metre on the ground, which is at zero: rounding of a position of half a metre.
-        Assert.InRange(world.Solver.LastConstraintError, 0.5f - world.Height - 1e-6f, 0.5f - world.Height + 1e-6f);
+            var depth = 0.5f - world.Height;
+            Assert.InRange(world.Solver.LastConstraintError, depth - 1e-6f, depth + (i < 50 ? 1e-4f : 1e-6f));
+        }
         Assert.InRange(world.Solver.LastConstraintError, 1e-5f, 1e-3f);
     }
 

@@ -1,72 +1,41 @@
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using System.Text.Json;
+using System.Text.Json.Serialization;
 using Demos.Towers.Trials;
 
 namespace Demos.Towers;
 
-/// <summary>Writes what structures did as a JSON array.</summary>
-static class TowerJson
+/// <summary>What structures did, as a file has it.</summary>
+sealed record TowerJson(
+    float Seconds, float Dt, string Steps, int Substeps, int Iterations, int Relaxations, string LoadPath, float Offset, int Seed, float Push,
+    TowerResultJson[] Structures, TowerTrialJson[] Trials)
 {
     /// <summary>Writes the file in one go, so that no half of it is left behind.</summary>
     public static void Write(string path, TowerSettings settings, IEnumerable<TowerResult> results, IEnumerable<(Trial Trial, double Figure)> trials)
     {
-        using var memory = new MemoryStream();
-        using (var json = new Utf8JsonWriter(memory, new JsonWriterOptions { Indented = true }))
-        {
-            json.WriteStartObject();
-            json.WriteNumber("seconds", settings.Seconds);
-            json.WriteNumber("dt", settings.StepDuration);
-            json.WriteString("steps", settings.Steps.ToString());
-            json.WriteNumber("substeps", settings.Substeps);
-            json.WriteNumber("iterations", settings.Iterations);
-            json.WriteNumber("relaxations", settings.Relaxations);
-            json.WriteString("loadPath", settings.LoadPath.ToString());
-            json.WriteNumber("offset", settings.Offset);
-            json.WriteNumber("seed", settings.Seed);
-            json.WriteNumber("push", settings.Push);
-            json.WriteStartArray("structures");
-            foreach (TowerResult result in results)
-                WriteResult(json, result);
-            json.WriteEndArray();
-            json.WriteStartArray("trials");
-            foreach ((Trial trial, double figure) in trials)
-            {
-                json.WriteStartObject();
-                json.WriteString("name", trial.Name);
-                json.WriteString("unit", trial.Unit);
-                WriteFinite(json, "figure", figure);
-                json.WriteNumber("truth", trial.Truth);
-                json.WriteEndObject();
-            }
-            json.WriteEndArray();
-            json.WriteEndObject();
-        }
-        File.WriteAllBytes(path, memory.ToArray());
-    }
-
-    static void WriteResult(Utf8JsonWriter json, TowerResult result)
-    {
-        json.WriteStartObject();
-        json.WriteString("name", result.Structure);
-        json.WriteNumber("parts", result.Parts);
-        json.WriteBoolean("stands", result.Stands);
-        if (result.FellAt is float time)
-            json.WriteNumber("fellAt", time);
-        else
-            json.WriteNull("fellAt");
-        WriteFinite(json, "heightLost", result.HeightLost);
-        WriteFinite(json, "lean", result.Lean);
-        WriteFinite(json, "msPerStep", result.MillisecondsPerStep);
-        json.WriteEndObject();
+        var json = new TowerJson(
+            settings.Seconds, settings.StepDuration, settings.Steps.ToString(), settings.Substeps, settings.Iterations, settings.Relaxations,
+            settings.LoadPath.ToString(), settings.Offset, settings.Seed, settings.Push,
+            [.. results.Select(result => new TowerResultJson(
+                result.Structure, result.Parts, result.Stands, result.FellAt, Finite(result.HeightLost), Finite(result.Lean),
+                Finite(result.MillisecondsPerStep)))],
+            [.. trials.Select(trial => new TowerTrialJson(trial.Trial.Name, trial.Trial.Unit, Finite(trial.Figure), trial.Trial.Truth))]);
+        File.WriteAllBytes(path, JsonSerializer.SerializeToUtf8Bytes(json, TowerJsonContext.Default.TowerJson));
     }
 
     // JSON has no word for what is not finite.
-    static void WriteFinite(Utf8JsonWriter json, string name, double value)
-    {
-        if (double.IsFinite(value))
-            json.WriteNumber(name, value);
-        else
-            json.WriteNull(name);
-    }
+    static double? Finite(double value) => double.IsFinite(value) ? value : null;
 }
+
+/// <summary>What one structure did: lengths in metres, times in seconds.</summary>
+sealed record TowerResultJson(string Name, int Parts, bool Stands, float? FellAt, double? HeightLost, double? Lean, double? MsPerStep);
+
+/// <summary>What a trial measured.</summary>
+sealed record TowerTrialJson(string Name, string Unit, double? Figure, double Truth);
+
+/// <summary>Writes towers without looking at types while it runs.</summary>
+[JsonSourceGenerationOptions(PropertyNamingPolicy = JsonKnownNamingPolicy.CamelCase, WriteIndented = true)]
+[JsonSerializable(typeof(TowerJson))]
+sealed partial class TowerJsonContext : JsonSerializerContext;
