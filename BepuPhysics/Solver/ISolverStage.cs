@@ -17,6 +17,12 @@ enum SolverPoint
     AfterSubsteps,
 }
 
+/// <summary>How many points there are.</summary>
+static class SolverPoints
+{
+    internal const int Count = (int)SolverPoint.AfterSubsteps + 1;
+}
+
 /// <summary>An optional stage of the solver. A stage without blocks at a point costs nothing there.</summary>
 interface ISolverStage
 {

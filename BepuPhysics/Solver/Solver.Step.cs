@@ -184,7 +184,10 @@ public sealed unsafe partial class Solver
         BuildOrder(ref work);
         work.Stages = new QuickList<Stage>(64, pool);
         work.Iterations = IterationsOf(0);
-        AddOptional(ref work, SolverPoint.BeforeSubsteps, 0);
+        Span<int> optional = stackalloc int[OptionalStages.Count * SolverPoints.Count];
+        if (!CountOptional(optional))
+            optional = default;
+        AddOptional(ref work, optional, SolverPoint.BeforeSubsteps, 0);
         var relaxes = relaxationIterationCount > 0;
         for (int substep = 0; substep < LastSubstepCount; ++substep)
         {
@@ -192,14 +195,14 @@ public sealed unsafe partial class Solver
             if (SubstepStarted is not null)
                 work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
             AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
-            AddOptional(ref work, SolverPoint.AfterIntegration, substep);
-            AddOptional(ref work, SolverPoint.BeforeWarmStart, substep);
+            AddOptional(ref work, optional, SolverPoint.AfterIntegration, substep);
+            AddOptional(ref work, optional, SolverPoint.BeforeWarmStart, substep);
             ShuffleOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, substep);
-            AddOptional(ref work, SolverPoint.AfterWarmStart, substep);
+            AddOptional(ref work, optional, SolverPoint.AfterWarmStart, substep);
             for (int i = work.Iterations; i > 0; --i)
                 AddSweep(ref work, StageKind.Solve, substep);
-            AddOptional(ref work, SolverPoint.AfterSolve, substep);
+            AddOptional(ref work, optional, SolverPoint.AfterSolve, substep);
             if (relaxes)
                 AddIntegration(ref work, IntegrationStage.Poses, substep);
             for (int i = relaxationIterationCount; i > 0; --i)
@@ -209,7 +212,7 @@ public sealed unsafe partial class Solver
         }
         if (!relaxes)
             AddIntegration(ref work, IntegrationStage.Last, LastSubstepCount - 1);
-        AddOptional(ref work, SolverPoint.AfterSubsteps, LastSubstepCount - 1);
+        AddOptional(ref work, optional, SolverPoint.AfterSubsteps, LastSubstepCount - 1);
     }
 
     void AddIntegration(ref SolveWork work, IntegrationStage stage, int substep)
@@ -224,12 +227,24 @@ public sealed unsafe partial class Solver
         return scheduled < 1 ? velocityIterationCount : scheduled;
     }
 
-    void AddOptional(ref SolveWork work, SolverPoint point, int substep)
+    // Blocks of all optional stages at all points: asked for once, as most steps have none and there are many points.
+    bool CountOptional(Span<int> blocks)
     {
-        for (int i = 0; i < OptionalStages.Count; ++i)
+        var any = false;
+        for (int i = 0; i < blocks.Length; ++i)
         {
-            var blocks = OptionalStages[i].GetBlockCount(point);
-            if (blocks > 0)
+            blocks[i] = OptionalStages[i / SolverPoints.Count].GetBlockCount((SolverPoint)(i % SolverPoints.Count));
+            any |= blocks[i] > 0;
+        }
+        return any;
+    }
+
+    void AddOptional(ref SolveWork work, ReadOnlySpan<int> blocks, SolverPoint point, int substep)
+    {
+        for (int i = 0; i * SolverPoints.Count < blocks.Length; ++i)
+        {
+            var count = blocks[i * SolverPoints.Count + (int)point];
+            if (count > 0)
                 work.Stages.Add(new()
                 {
                     Kind = StageKind.Optional,
@@ -237,7 +252,7 @@ public sealed unsafe partial class Solver
                     Iterations = work.Iterations,
                     Point = point,
                     Optional = i,
-                    BlockCount = blocks,
+                    BlockCount = count,
                 }, pool);
         }
     }
