@@ -27,7 +27,7 @@ sealed class TowerWorld : IDisposable
         var material = new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring);
         dispatcher = settings.Threads > 1 ? new ThreadDispatcher(settings.Threads) : null;
         Simulation = Simulation.Create(pool, new SceneNarrowPhaseCallbacks(recorder, material), new ScenePoseIntegratorCallbacks(Gravity, 0),
-            new SolveDescription(settings.Iterations, settings.Substeps) 
+            new SolveDescription(settings.Iterations, settings.Substeps)
             {
                 RelaxationIterationCount = settings.Relaxations,
                 LoadPath = settings.LoadPath,
