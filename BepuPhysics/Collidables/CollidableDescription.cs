@@ -25,12 +25,12 @@ public struct CollidableDescription(TypedIndex shape, float minimumSpeculativeMa
     public CollidableDescription(TypedIndex shape, float maximumSpeculativeMargin, ContinuousDetection continuity)
         : this(shape, 0, maximumSpeculativeMargin, continuity) { }
     /// <summary>Does not limit the margin.</summary>
-    public CollidableDescription(TypedIndex shape, ContinuousDetection continuity) : this(shape, 0, float.MaxValue, continuity) { }
+    public CollidableDescription(TypedIndex shape, ContinuousDetection continuity) : this(shape, float.MaxValue, continuity) { }
     /// <summary>Does not limit the margin, with passive detection.</summary>
-    public CollidableDescription(TypedIndex shape) : this(shape, 0, float.MaxValue, ContinuousDetection.Passive) { }
+    public CollidableDescription(TypedIndex shape) : this(shape, ContinuousDetection.Passive) { }
     /// <summary>Limits the margin from above, with discrete detection.</summary>
     public CollidableDescription(TypedIndex shape, float maximumSpeculativeMargin)
-        : this(shape, 0, maximumSpeculativeMargin, ContinuousDetection.Discrete) { }
+        : this(shape, maximumSpeculativeMargin, ContinuousDetection.Discrete) { }
 
     /// <summary>Does not limit the margin, with passive detection.</summary>
     public static implicit operator CollidableDescription(TypedIndex shape) => new(shape);

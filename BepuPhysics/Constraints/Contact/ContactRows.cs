@@ -11,7 +11,6 @@ unsafe readonly ref struct ContactRows
     readonly int index;
     readonly int contactCount;
     readonly ref BodySet set;
-    readonly Vector3 offsetB;
 
     /// <summary>Index of A in the active set.</summary>
     internal readonly int A;
@@ -21,13 +20,18 @@ unsafe readonly ref struct ContactRows
     internal readonly bool IsFixedB;
     /// <summary>Unit normal from B to A.</summary>
     internal readonly Vector3 Normal;
+    /// <summary>Position of B relative to A.</summary>
+    internal readonly Vector3 OffsetB;
 
     internal ContactRows(Solver solver, Bodies bodies, ConstraintHandle constraint, int contactCount)
+        : this(solver, bodies, ref solver.TypeBatchAt(solver.Locations[constraint.Slot]), solver.Locations[constraint.Slot].IndexInTypeBatch, contactCount)
+    { }
+
+    internal ContactRows(Solver solver, Bodies bodies, ref TypeBatch typeBatch, int indexInTypeBatch, int contactCount)
     {
-        ref var location = ref solver.Locations[constraint.Slot];
-        batch = ref solver.TypeBatchAt(location);
-        processor = solver.Processor(location.TypeId);
-        index = location.IndexInTypeBatch;
+        batch = ref typeBatch;
+        processor = solver.Processor(typeBatch.TypeId);
+        index = indexInTypeBatch;
         this.contactCount = contactCount;
         set = ref bodies.ActiveSet;
         A = processor.BodyReference(ref batch, index, 0) & EncodedBody.IndexMask;
@@ -40,7 +44,7 @@ unsafe readonly ref struct ContactRows
             IsFixedB = (reference & EncodedBody.KinematicFlag) != 0;
         }
         Normal = Read(ContactPrestepLayout.Normal(contactCount));
-        offsetB = Read(ContactPrestepLayout.OffsetB(contactCount));
+        OffsetB = Read(ContactPrestepLayout.OffsetB(contactCount));
     }
 
     /// <summary>Velocity of A.</summary>
@@ -68,7 +72,7 @@ unsafe readonly ref struct ContactRows
         {
             float load = 0;
             for (int i = 0; i < contactCount; ++i)
-                load += processor.Impulse(ref batch, index, i);
+                load += Impulse(i);
             return load;
         }
     }
@@ -77,7 +81,7 @@ unsafe readonly ref struct ContactRows
     internal Vector3 Arm(int contact) => Read(contact * ContactPrestepLayout.FloatsPerContact);
 
     /// <summary>The row at an arm about A in a direction.</summary>
-    internal ContactRow Row(Vector3 arm, Vector3 direction) => new(direction, Exact.Cross(arm, direction), Exact.Cross(direction, arm - offsetB));
+    internal ContactRow Row(Vector3 arm, Vector3 direction) => new(direction, Exact.Cross(arm, direction), Exact.Cross(direction, arm - OffsetB));
 
     /// <summary>The row that keeps the surfaces apart at a contact.</summary>
     internal ContactRow NormalRow(int contact) => Row(Arm(contact), Normal);
@@ -129,7 +133,14 @@ unsafe readonly ref struct ContactRows
         hidden = default;
     }
 
-    ref float Depth(int contact) =>
+    /// <summary>An accumulated impulse: those along the normal, contact by contact, then friction and twist.</summary>
+    internal ref float Impulse(int row) => ref processor.Impulse(ref batch, index, row);
+
+    /// <summary>Angular frequency of the contacts' spring; see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
+    internal ref float Spring => ref processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Spring(contactCount));
+
+    /// <summary>Depth of a contact at detection; negative where the surfaces were apart.</summary>
+    internal ref float Depth(int contact) =>
         ref processor.PrestepFloat(ref batch, index, contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);
 
     Vector3 Read(int field) => new(

@@ -113,48 +113,41 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     void Consider(ref TypeBatch batch, int index)
     {
         var count = ConstraintTypeIds.ContactCount(batch.TypeId);
-        var processor = solver.Processor(batch.TypeId);
-        ref var spring = ref processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Spring(count));
+        var contacts = new ContactRows(solver, bodies, ref batch, index, count);
         // Springs that a game asked for stay springs.
-        if (spring != 0)
+        if (contacts.Spring != 0)
             return;
         ref var set = ref bodies.Awake;
-        var a = processor.BodyReference(ref batch, index, 0) & EncodedBody.IndexMask;
-        var b = -1;
-        var isFixed = true;
-        if (processor.BodiesPerConstraint > 1)
-        {
-            var reference = processor.BodyReference(ref batch, index, 1);
-            b = reference & EncodedBody.IndexMask;
-            isFixed = (reference & EncodedBody.KinematicFlag) != 0;
-        }
-        Unsafe.SkipInit(out LoadSupport support);
-        var normal = Read(processor, ref batch, index, ContactPrestepLayout.Normal(count));
+        var a = contacts.A;
+        var b = contacts.B;
+        var isFixed = contacts.IsFixedB;
+        var normal = contacts.Normal;
         var gain = isFixed ? gains[a] : gains[a] + gains[b];
         var along = -Exact.Dot(gain, normal);
         var isUpperA = along > 0;
         if (!(along * along > LeastSlope * LeastSlope * Exact.LengthSquared(gain)) || (isFixed && !isUpperA))
             return;
-        ref var velocityA = ref set.MotionStates[a].Velocity;
-        var velocityB = b >= 0 ? set.MotionStates[b].Velocity : default;
-        if (isFixed && b >= 0 && Exact.LengthSquared(velocityB.Linear) + Exact.LengthSquared(velocityB.Angular) > 0)
+        var velocityA = contacts.VelocityA;
+        var velocityB = contacts.VelocityB;
+        if (isFixed && Exact.LengthSquared(velocityB.Linear) + Exact.LengthSquared(velocityB.Angular) > 0)
             return;
         if (!(set.LocalInertias[a].InverseMass > 0) || !(isFixed || set.LocalInertias[b].InverseMass > 0))
             return;
-        var offsetB = Read(processor, ref batch, index, ContactPrestepLayout.OffsetB(count));
+        Unsafe.SkipInit(out LoadSupport support);
         var quiet = QuietSteps * solver.LastSubstepCount * MathHelper.Max(Exact.Length(gains[a]), isFixed ? 0 : Exact.Length(gains[b]));
         float extent = float.MaxValue;
         for (int i = 0; i < count; ++i)
         {
-            var arm = Read(processor, ref batch, index, i * ContactPrestepLayout.FloatsPerContact);
-            var velocity = velocityA.Linear + Exact.Cross(velocityA.Angular, arm) - velocityB.Linear - Exact.Cross(velocityB.Angular, arm - offsetB);
+            var arm = contacts.Arm(i);
+            var armB = arm - contacts.OffsetB;
+            var velocity = velocityA.Linear + Exact.Cross(velocityA.Angular, arm) - velocityB.Linear - Exact.Cross(velocityB.Angular, armB);
             var apart = Exact.Dot(velocity, normal);
             if (!(apart < quiet) || !(Exact.LengthSquared(velocity - normal * apart) < quiet * quiet))
                 return;
             extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm, normal)));
             if (!isFixed)
-                extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm - offsetB, normal)));
-            support.Arms[i] = isUpperA ? arm : arm - offsetB;
+                extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(armB, normal)));
+            support.Arms[i] = isUpperA ? arm : armB;
         }
         support.Band = BandPerSize * 2 * extent;
         // Friction acts where the sweeps let it act: at the mean of the contacts that touch, or of all if none does.
@@ -163,8 +156,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         support.Open = 0;
         for (int i = 0; i < count; ++i)
         {
-            var depth = processor.PrestepFloat(ref batch, index, i * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);
-            if (!(depth >= -2 * support.Band) && !(processor.Impulse(ref batch, index, i) > 0))
+            var depth = contacts.Depth(i);
+            if (!(depth >= -2 * support.Band) && !(contacts.Impulse(i) > 0))
                 support.Open |= 1 << i;
             all += support.Arms[i];
             if (depth < -support.Band)
@@ -179,17 +172,13 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         support.Lower = isFixed ? -1 : isUpperA ? b : a;
         support.Count = count;
         support.Sign = isUpperA ? 1 : -1;
-        support.Impulses = (float*)Unsafe.AsPointer(ref processor.Impulse(ref batch, index, 0));
-        support.Spring = (float*)Unsafe.AsPointer(ref spring);
-        support.Friction = processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Friction(count));
+        support.Impulses = (float*)Unsafe.AsPointer(ref contacts.Impulse(0));
+        support.Spring = (float*)Unsafe.AsPointer(ref contacts.Spring);
+        support.Friction = contacts.Friction;
         support.Normal = normal * support.Sign;
-        support.ToLower = offsetB * support.Sign;
+        support.ToLower = contacts.OffsetB * support.Sign;
         graph.Add(support, pool);
     }
-
-    static Vector3 Read(TypeProcessor processor, ref TypeBatch batch, int index, int field) => new(
-        processor.PrestepFloat(ref batch, index, field), processor.PrestepFloat(ref batch, index, field + 1),
-        processor.PrestepFloat(ref batch, index, field + 2));
 
     // What a heavy body has left of its velocity is much to a light one below.
     void SetTolerance(ref LoadNode node, float dt)
@@ -204,7 +193,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 ratio = MathHelper.Min(ratio, inverseMass / set.LocalInertias[lower].InverseMass);
         }
         var gain = Exact.Length(gains[node.Body]);
-        // The second is the velocity that a fall of some ten-millionth of the body's size would give.
+        // The second is the velocity that a fall of some twenty-millionth of the body's size would give.
         node.Tolerance = ratio * MathHelper.Min(LeastResidual * gain, LeastFall * MathF.Sqrt(gain / dt * node.Radius));
     }
 

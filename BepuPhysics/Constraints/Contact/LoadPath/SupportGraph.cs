@@ -175,20 +175,15 @@ unsafe struct SupportGraph
         int contacts = 0;
         for (int i = starts[body]; i < starts[body + 1]; ++i)
         {
-            if (Carries(i))
+            if (Carries(Supports[i]))
                 contacts += Supports[i].CarryingCount;
         }
         return contacts >= LeastContacts;
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
-    readonly bool Carries(int support)
-    {
-        var lower = Supports[support].Lower;
-        return lower < 0 || (grounded[lower] != 0 && positions[lower] < PositionOrLast(Supports[support].Upper));
-    }
-
-    readonly int PositionOrLast(int body) => positions[body] < 0 ? int.MaxValue : positions[body];
+    readonly bool Carries(in LoadSupport support) => support.Lower < 0 ||
+        (grounded[support.Lower] != 0 && positions[support.Lower] < positions[support.Upper]);
 
     void MakeNodes(int bodyCount, BufferPool pool)
     {
@@ -198,7 +193,7 @@ unsafe struct SupportGraph
         for (int i = 0; i < Supports.Count; ++i)
         {
             ref var support = ref Supports[i];
-            if (support.Lower < 0 || !Carries(i))
+            if (support.Lower < 0 || !Carries(support))
                 continue;
             var a = Root(support.Upper);
             var b = Root(support.Lower);
@@ -252,7 +247,7 @@ unsafe struct SupportGraph
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
                 ref var support = ref found[j];
-                if (support.Lower >= 0 && (grounded[support.Lower] == 0 || positions[support.Lower] >= positions[node.Body]))
+                if (!Carries(support))
                     continue;
                 Supports.AddUnsafely(support);
                 for (int k = 0; k < support.Count; ++k)
