@@ -9,6 +9,10 @@ enum SolverPoint
     AfterIntegration,
     /// <summary>As the one before, when all stages are done there: the place for what needs all of their results.</summary>
     BeforeWarmStart,
+    /// <summary>Before the warm start of the first substep only, when all is done that comes before it: the place to look at all velocities.</summary>
+    BeforeFirstWarmStart,
+    /// <summary>As the one before, when all stages are done there.</summary>
+    LastBeforeFirstWarmStart,
     /// <summary>The impulses of the last substep have been applied: the place for stages that move a load across a whole structure.</summary>
     AfterWarmStart,
     /// <summary>The constraints of a substep have been solved; the bodies have not moved yet.</summary>

@@ -197,6 +197,11 @@ public sealed unsafe partial class Solver
             AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
             AddOptional(ref work, optional, SolverPoint.AfterIntegration, substep);
             AddOptional(ref work, optional, SolverPoint.BeforeWarmStart, substep);
+            if (substep == 0)
+            {
+                AddOptional(ref work, optional, SolverPoint.BeforeFirstWarmStart, substep);
+                AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart, substep);
+            }
             ShuffleOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, substep);
             AddOptional(ref work, optional, SolverPoint.AfterWarmStart, substep);

@@ -141,7 +141,7 @@ public static partial class Wide
 
     /// <summary>A bit for each lane that is negative, as those of a mask are that are set; lane 0 the lowest.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static uint Bits(Vector<int> mask)
+    public static uint Bits(Vector<int> mask)
     {
         if (Vector<int>.Count == 16)
             return (uint)mask.AsVector512().ExtractMostSignificantBits();

@@ -4,7 +4,6 @@ using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Memory;
 using Xunit;
 
-
 namespace DemoTests.LoadPath;
 
 /// <summary>The order in which loads are handed down.</summary>
@@ -12,14 +11,18 @@ public class SupportGraphTests
 {
     const int Ground = -1;
 
+    readonly struct Heights(float[] heights) : IHeights
+    {
+        public float Of(int body) => heights[body];
+    }
+
     // Each support has three contacts unless said otherwise.
     static (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
-        foreach (var (upper, lower) in supports)
-            graph.Add(new LoadSupport { Upper = upper, Lower = lower, Count = contacts }, pool);
-        graph.Build(bodyCount, heights ?? new float[bodyCount], pool);
+        var links = supports.Select(support => new SupportLink { Upper = support.Upper, Lower = support.Lower, Count = (byte)contacts }).ToArray();
+        graph.Build(links, bodyCount, new Heights(heights ?? new float[bodyCount]), pool);
         var islands = new int[graph.Islands.Count - 1][];
         for (int i = 0; i < islands.Length; ++i)
         {
@@ -30,10 +33,10 @@ public class SupportGraphTests
                 islands[i][j] = node.Body;
                 Assert.Equal(graph.Islands[i] + j, graph.NodeOf[node.Body]);
                 for (int k = node.FirstSupport; k < node.FirstSupport + node.SupportCount; ++k)
-                    Assert.Equal(node.Body, graph.Supports[k].Upper);
+                    Assert.Equal(node.Body, graph.Links[k].Upper);
             }
         }
-        var count = graph.Supports.Count;
+        var count = graph.Links.Count;
         graph.Dispose(pool);
         pool.AssertEmpty();
         return (islands, count);

@@ -14,20 +14,12 @@ namespace BepuPhysics.Constraints.Contact;
 //
 // The contacts through which a load is handed are held: they keep the speed of their surfaces at zero with no softness, and know no overlap within a band
 // about zero. A soft row would give back in the sweep what it was handed.
-//
-// Only contacts that are quiet carry: their surfaces move no faster along or apart than the acceleration from outside gives in two steps. What
-// slides, rolls fast, tumbles or is hit is left to the sweeps, and so is what rests on something that moves.
 sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     // Islands share this many blocks; any number gives the same bits.
     const int Blocks = 16;
     // Steps of acceleration up to which a contact is quiet.
     const float QuietSteps = 2;
-    // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
-    // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
-    const float LeastSlope = 0.8f;
-    // Half the width of the band in which a contact knows no overlap, per size of the smaller body.
-    const float BandPerSize = 5e-4f;
     const float LeastBand = 1e-30f;
     // Velocity left after the warm start, per that from outside, from which on an island is worked on.
     const float LeastResidual = 0.02f;
@@ -37,8 +29,15 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     const float ActiveShare = 0.05f;
 
     SupportGraph graph;
-    // Velocities before the first integration, then what it has changed.
-    Buffer<Vector3> gains;
+    // Velocities before the first integration.
+    Buffer<BodyVelocity> before;
+    // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
+    Buffer<SupportLink> found;
+    int bundleCount;
+    readonly int[] foundCounts = new int[Blocks];
+    // What carries the nodes, read when a node's island is worked on for the first time in a step.
+    Buffer<LoadSupport> supports;
+    int heldCount;
 
     LoadPathMode Mode => solver.LoadPath;
 
@@ -48,8 +47,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             return 0;
         return point switch
         {
-            SolverPoint.BeforeSubsteps or SolverPoint.BeforeWarmStart => 1,
-            SolverPoint.AfterWarmStart => Blocks,
+            SolverPoint.BeforeSubsteps or SolverPoint.LastBeforeFirstWarmStart => 1,
+            SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart => Blocks,
             _ => 0,
         };
     }
@@ -59,9 +58,12 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         switch (point)
         {
             case SolverPoint.BeforeSubsteps:
-                RememberVelocities();
+                Begin();
                 break;
-            case SolverPoint.BeforeWarmStart when substep.Index == 0:
+            case SolverPoint.BeforeFirstWarmStart:
+                Find(block);
+                break;
+            case SolverPoint.LastBeforeFirstWarmStart:
                 Build(substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
@@ -71,113 +73,74 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         }
     }
 
-    void RememberVelocities()
+    void Begin()
     {
         ref var set = ref bodies.Awake;
-        pool.TakeAtLeast(Math.Max(1, set.Count), out gains);
+        pool.TakeAtLeast(Math.Max(1, set.Count), out before);
         for (int i = 0; i < set.Count; ++i)
-            gains[i] = set.MotionStates[i].Velocity.Linear;
+            before[i] = set.MotionStates[i].Velocity;
+        bundleCount = 0;
+        ref var batches = ref solver.ActiveSet.Batches;
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
+                bundleCount += Bundles(batches[i], j);
+        }
+        pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
+    }
+
+    static int Bundles(in ConstraintBatch batch, int typeBatch) =>
+        batch.Kind == BatchKind.Coloured && batch.TypeBatches[typeBatch].TypeId < ConstraintTypeIds.ContactTypeCount
+            ? batch.TypeBatches[typeBatch].BundleCount : 0;
+
+    int FirstBundle(int block) => (int)((long)bundleCount * block / Blocks);
+
+    void Find(int block)
+    {
+        ref var set = ref bodies.Awake;
+        var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+        var finder = new SupportFinder(awake, before.Memory, QuietSteps * solver.LastSubstepCount);
+        var start = FirstBundle(block);
+        var end = FirstBundle(block + 1);
+        var links = found.Memory + start * Vector<float>.Count;
+        int count = 0;
+        int first = 0;
+        ref var batches = ref solver.ActiveSet.Batches;
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            for (int j = 0; j < batches[i].TypeBatches.Count && first < end; ++j)
+            {
+                ref var batch = ref batches[i].TypeBatches[j];
+                var bundles = Bundles(batches[i], j);
+                var last = Math.Min(end - first, bundles);
+                for (int k = Math.Max(start - first, 0); k < last; ++k)
+                    count += finder.Find(ref batch, k, links + count);
+                first += bundles;
+            }
+        }
+        foundCounts[block] = count;
     }
 
     void Build(float dt)
     {
-        ref var set = ref bodies.Awake;
-        for (int i = 0; i < set.Count; ++i)
-            gains[i] = set.MotionStates[i].Velocity.Linear - gains[i];
-        ref var batches = ref solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
+        int count = 0;
+        for (int i = 0; i < Blocks; ++i)
         {
-            if (batches[i].Kind != BatchKind.Coloured)
-                continue;
-            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
-            {
-                ref var typeBatch = ref batches[i].TypeBatches[j];
-                if (typeBatch.TypeId >= ConstraintTypeIds.ContactTypeCount)
-                    continue;
-                for (int k = 0; k < typeBatch.ConstraintCount; ++k)
-                    Consider(ref typeBatch, k);
-            }
+            new Span<SupportLink>(found.Memory + FirstBundle(i) * Vector<float>.Count, foundCounts[i]).CopyTo(new(found.Memory + count, foundCounts[i]));
+            count += foundCounts[i];
         }
-        pool.TakeAtLeast<float>(Math.Max(1, set.Count), out var heights);
-        for (int i = 0; i < set.Count; ++i)
-            heights[i] = -Exact.Dot(set.MotionStates[i].Pose.Position, gains[i]);
-        graph.Build(set.Count, new ReadOnlySpan<float>(heights.Memory, set.Count), pool);
-        pool.Return(ref heights);
+        ref var set = ref bodies.Awake;
+        graph.Build(new ReadOnlySpan<SupportLink>(found.Memory, count), set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
+        pool.TakeAtLeast(Math.Max(1, graph.Links.Count), out supports);
         for (int i = 0; i < graph.Nodes.Count; ++i)
             SetTolerance(ref graph.Nodes[i], dt);
-        for (; graph.HeldCount < graph.Supports.Count; ++graph.HeldCount)
-            Hold(ref graph.Supports[graph.HeldCount]);
+        for (; heldCount < graph.Links.Count; ++heldCount)
+            Hold(graph.Links[heldCount]);
     }
 
-    // Adds a contact constraint to the graph if it carries one of its bodies.
-    void Consider(ref TypeBatch batch, int index)
+    readonly struct HeightAgainstGain(Buffer<MotionState> motions, Buffer<BodyVelocity> before) : IHeights
     {
-        var count = ConstraintTypeIds.ContactCount(batch.TypeId);
-        var contacts = new ContactRows(solver, bodies, ref batch, index, count);
-        // Springs that a game asked for stay springs.
-        if (contacts.Spring != 0)
-            return;
-        ref var set = ref bodies.Awake;
-        var a = contacts.A;
-        var b = contacts.B;
-        var isFixed = contacts.IsFixedB;
-        var normal = contacts.Normal;
-        var gain = isFixed ? gains[a] : gains[a] + gains[b];
-        var along = -Exact.Dot(gain, normal);
-        var isUpperA = along > 0;
-        if (!(along * along > LeastSlope * LeastSlope * Exact.LengthSquared(gain)) || (isFixed && !isUpperA))
-            return;
-        var velocityA = contacts.VelocityA;
-        var velocityB = contacts.VelocityB;
-        if (isFixed && Exact.LengthSquared(velocityB.Linear) + Exact.LengthSquared(velocityB.Angular) > 0)
-            return;
-        if (!(set.LocalInertias[a].InverseMass > 0) || !(isFixed || set.LocalInertias[b].InverseMass > 0))
-            return;
-        Unsafe.SkipInit(out LoadSupport support);
-        var quiet = QuietSteps * solver.LastSubstepCount * MathHelper.Max(Exact.Length(gains[a]), isFixed ? 0 : Exact.Length(gains[b]));
-        float extent = float.MaxValue;
-        for (int i = 0; i < count; ++i)
-        {
-            var arm = contacts.Arm(i);
-            var armB = arm - contacts.OffsetB;
-            var velocity = velocityA.Linear + Exact.Cross(velocityA.Angular, arm) - velocityB.Linear - Exact.Cross(velocityB.Angular, armB);
-            var apart = Exact.Dot(velocity, normal);
-            if (!(apart < quiet) || !(Exact.LengthSquared(velocity - normal * apart) < quiet * quiet))
-                return;
-            extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm, normal)));
-            if (!isFixed)
-                extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(armB, normal)));
-            support.Arms[i] = isUpperA ? arm : armB;
-        }
-        support.Band = BandPerSize * 2 * extent;
-        // Friction acts where the sweeps let it act: at the mean of the contacts that touch, or of all if none does.
-        Vector3 touching = default, all = default;
-        int touches = 0;
-        support.Open = 0;
-        for (int i = 0; i < count; ++i)
-        {
-            var depth = contacts.Depth(i);
-            if (!(depth >= -2 * support.Band) && !(contacts.Impulse(i) > 0))
-                support.Open |= 1 << i;
-            all += support.Arms[i];
-            if (depth < -support.Band)
-                continue;
-            touching += support.Arms[i];
-            ++touches;
-        }
-        if (support.Open == (1 << count) - 1)
-            return;
-        support.Center = touches > 0 ? touching * (1f / touches) : all * (1f / count);
-        support.Upper = isUpperA ? a : b;
-        support.Lower = isFixed ? -1 : isUpperA ? b : a;
-        support.Count = count;
-        support.Sign = isUpperA ? 1 : -1;
-        support.Impulses = (float*)Unsafe.AsPointer(ref contacts.Impulse(0));
-        support.Spring = (float*)Unsafe.AsPointer(ref contacts.Spring);
-        support.Friction = contacts.Friction;
-        support.Normal = normal * support.Sign;
-        support.ToLower = contacts.OffsetB * support.Sign;
-        graph.Add(support, pool);
+        public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, motions[body].Velocity.Linear - before[body].Linear);
     }
 
     // What a heavy body has left of its velocity is much to a light one below.
@@ -188,25 +151,26 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         var ratio = 1f;
         for (int i = node.FirstSupport; i < node.FirstSupport + node.SupportCount; ++i)
         {
-            var lower = graph.Supports[i].Lower;
+            var lower = graph.Links[i].Lower;
             if (lower >= 0)
                 ratio = MathHelper.Min(ratio, inverseMass / set.LocalInertias[lower].InverseMass);
         }
-        var gain = Exact.Length(gains[node.Body]);
+        var gain = Exact.Length(set.MotionStates[node.Body].Velocity.Linear - before[node.Body].Linear);
         // The second is the velocity that a fall of some twenty-millionth of the body's size would give.
         node.Tolerance = ratio * MathHelper.Min(LeastResidual * gain, LeastFall * MathF.Sqrt(gain / dt * node.Radius));
     }
 
     // A band of no width at all would be a spring that is not held.
-    static void Hold(ref LoadSupport support) => *support.Spring = -MathHelper.Max(support.Band, LeastBand);
+    static void Hold(in SupportLink link) => link.Spring = -MathHelper.Max(link.Band, LeastBand);
 
     void Transfer(int island)
     {
         ref var set = ref bodies.Awake;
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
-        if (!Begin(start, end))
+        if (!HasLoads(start, end))
             return;
+        ReadSupports(start, end);
         for (int i = end - 1; i >= start; --i)
         {
             ref var node = ref graph.Nodes[i];
@@ -217,7 +181,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     }
 
     // Finds which bodies have something to hand down, and whether it is worth while for any of them.
-    bool Begin(int start, int end)
+    bool HasLoads(int start, int end)
     {
         ref var set = ref bodies.Awake;
         // What was taken out in the last substep came from more than one, so its impulses overshoot now: until that has died down, less counts.
@@ -237,12 +201,25 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         return first.IsActive;
     }
 
+    void ReadSupports(int start, int end)
+    {
+        ref var first = ref graph.Nodes[start];
+        if (first.HasSupports)
+            return;
+        first.HasSupports = true;
+        ref var last = ref graph.Nodes[end - 1];
+        for (int i = first.FirstSupport; i < last.FirstSupport + last.SupportCount; ++i)
+            supports[i] = new LoadSupport(graph.Links[i]);
+    }
+
+    Span<LoadSupport> SupportsOf(in LoadNode node) => new(supports.Memory + node.FirstSupport, node.SupportCount);
+
     void HandDown(ref LoadNode node)
     {
         ref var set = ref bodies.Awake;
         ref var velocity = ref set.MotionStates[node.Body].Velocity;
         ref var inertia = ref set.WorldInertias[node.Body];
-        var supports = new Span<LoadSupport>(graph.Supports.Span.Memory + node.FirstSupport, node.SupportCount);
+        var supports = SupportsOf(node);
         foreach (ref var support in supports)
             support.Read();
         LoadTransfer.Find(supports, velocity.Linear * (1 / inertia.InverseMass) + node.Linear,
@@ -291,18 +268,23 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             ref var inertia = ref set.WorldInertias[node.Body];
             velocity.Linear += node.Linear * (inertia.InverseMass * part);
             velocity.Angular += inertia.InverseInertiaTensor * (node.Angular * part);
-            for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Supports[j].Write(part);
+            foreach (ref var support in SupportsOf(node))
+                support.Write(part);
         }
     }
 
     // Lets go of the contacts, and gives back what the step took.
     void ISolverStage.EndStep()
     {
-        for (int i = 0; i < graph.HeldCount; ++i)
-            *graph.Supports[i].Spring = 0;
+        for (int i = 0; i < heldCount; ++i)
+            graph.Links[i].Spring = 0;
+        heldCount = 0;
         graph.Dispose(pool);
-        if (gains.Allocated)
-            pool.Return(ref gains);
+        if (before.Allocated)
+            pool.Return(ref before);
+        if (found.Allocated)
+            pool.Return(ref found);
+        if (supports.Allocated)
+            pool.Return(ref supports);
     }
 }

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
@@ -6,14 +7,10 @@ namespace BepuPhysics.Constraints.Contact;
 /// <summary>A contact patch by which one body rests on another or on what does not move, seen from the upper of the two.</summary>
 unsafe struct LoadSupport
 {
-    /// <summary>Index of the upper body in the active set.</summary>
-    public int Upper;
     /// <summary>Index of the lower body in the active set; negative for what does not move.</summary>
     public int Lower;
     /// <summary>Accumulated impulses of the constraint: its column in its type batch.</summary>
     public float* Impulses;
-    /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
-    public float* Spring;
     /// <summary>Number of contacts.</summary>
     public int Count;
     /// <summary>One bit per contact, set where the surfaces are apart: it carries nothing and is left as it is.</summary>
@@ -28,8 +25,6 @@ unsafe struct LoadSupport
     public Vector3 Center;
     /// <summary>Centre of the lower body relative to that of the upper one, m.</summary>
     public Vector3 ToLower;
-    /// <summary>Half the width of the band about zero in which the contacts know no overlap, m.</summary>
-    public float Band;
     /// <summary>Contacts relative to the centre of the upper body, m.</summary>
     public FourVectors Arms;
 
@@ -41,6 +36,36 @@ unsafe struct LoadSupport
     public Vector3 FrictionBefore, FrictionAfter;
     /// <summary>Twist of the constraint before and after the transfer, N m s.</summary>
     public float TwistBefore, TwistAfter;
+
+    /// <summary>Reads what does not change within a step.</summary>
+    internal LoadSupport(in SupportLink link)
+    {
+        Unsafe.SkipInit(out this);
+        Lower = link.Lower;
+        Impulses = link.Impulses;
+        Count = link.Count;
+        Open = link.Open;
+        Sign = link.IsUpperA ? 1 : -1;
+        Friction = Number(link.Prestep, ContactPrestepLayout.Friction(Count));
+        Normal = Three(link.Prestep, ContactPrestepLayout.Normal(Count)) * Sign;
+        var offsetB = Three(link.Prestep, ContactPrestepLayout.OffsetB(Count));
+        ToLower = offsetB * Sign;
+        // Friction acts where the sweeps let it act: at the mean of the contacts that touch, or of all if none does.
+        Vector3 touching = default, all = default;
+        int touches = 0;
+        for (int i = 0; i < Count; ++i)
+        {
+            var first = i * ContactPrestepLayout.FloatsPerContact;
+            var arm = Three(link.Prestep, first);
+            Arms[i] = link.IsUpperA ? arm : arm - offsetB;
+            all += Arms[i];
+            if (Number(link.Prestep, first + ContactPrestepLayout.Depth) < -link.Band)
+                continue;
+            touching += Arms[i];
+            ++touches;
+        }
+        Center = touches > 0 ? touching * (1f / touches) : all * (1f / Count);
+    }
 
     /// <summary>Reads what the solver has accumulated.</summary>
     internal void Read()
@@ -64,9 +89,6 @@ unsafe struct LoadSupport
         Impulse(first + 2) = friction.Z;
         Impulse(first + 3) = (TwistBefore + (TwistAfter - TwistBefore) * part) * Sign;
     }
-
-    /// <summary>Number of contacts that may carry.</summary>
-    internal readonly int CarryingCount => Count - BitOperations.PopCount((uint)Open);
 
     /// <summary>Sum of the normal impulses before the transfer, N s.</summary>
     internal readonly float Load
@@ -93,5 +115,9 @@ unsafe struct LoadSupport
         }
     }
 
-    readonly ref float Impulse(int field) => ref Impulses[field * Vector<float>.Count];
+    readonly ref float Impulse(int field) => ref Number(Impulses, field);
+
+    static ref float Number(float* column, int field) => ref column[field * Vector<float>.Count];
+
+    static Vector3 Three(float* column, int field) => new(Number(column, field), Number(column, field + 1), Number(column, field + 2));
 }

@@ -15,7 +15,8 @@ unsafe struct SupportGraph
 {
     const int LeastContacts = 3;
 
-    QuickList<LoadSupport> found;
+    // Links by upper body.
+    Buffer<SupportLink> byUpper;
     // Per body of the active set, all of one length.
     Buffer<int> positions;
     Buffer<int> waiting;
@@ -29,40 +30,33 @@ unsafe struct SupportGraph
 
     /// <summary>Bodies, island after island, in each from the ground upwards.</summary>
     internal QuickList<LoadNode> Nodes;
-    /// <summary>Supports, body after body, in the order of the nodes.</summary>
-    internal QuickList<LoadSupport> Supports;
-    /// <summary>Number of supports, from the first, whose contacts are held.</summary>
-    internal int HeldCount;
+    /// <summary>What carries them, body after body, in the order of the nodes.</summary>
+    internal QuickList<SupportLink> Links;
     /// <summary>Where the nodes of each island begin, and where those of the last one end.</summary>
     internal QuickList<int> Islands;
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
     internal Buffer<int> NodeOf;
 
-    /// <summary>Adds what was found to carry a body.</summary>
-    internal void Add(in LoadSupport support, BufferPool pool)
-    {
-        if (!found.Span.Allocated)
-            found = new QuickList<LoadSupport>(64, pool);
-        found.Add(support, pool);
-    }
-
-    /// <summary>Arranges what was added.</summary>
+    /// <summary>Arranges what was found to carry a body.</summary>
+    /// <param name="found">What was found.</param>
     /// <param name="bodyCount">Bodies of the active set.</param>
     /// <param name="heights">Height of each body, in any unit, by which a circle of supports is cut.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal void Build(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool)
+    internal void Build<THeights>(ReadOnlySpan<SupportLink> found, int bodyCount, THeights heights, BufferPool pool) where THeights : struct, IHeights
     {
-        Take(bodyCount, pool);
-        SortByUpper(bodyCount, pool);
-        LinkAbove(pool);
+        Take(found.Length, bodyCount, pool);
+        SortByUpper(found, bodyCount, pool);
+        LinkAbove(bodyCount);
         OrderUpwards(bodyCount, heights, pool);
         MakeNodes(bodyCount, pool);
     }
 
-    void Take(int bodyCount, BufferPool pool)
+    void Take(int linkCount, int bodyCount, BufferPool pool)
     {
-        if (!found.Span.Allocated)
-            found = new QuickList<LoadSupport>(1, pool);
+        var atLeastOne = Math.Max(1, linkCount);
+        pool.TakeAtLeast(atLeastOne, out byUpper);
+        pool.TakeAtLeast(atLeastOne, out nextAbove);
+        Links = new QuickList<SupportLink>(atLeastOne, pool);
         pool.TakeAtLeast(bodyCount, out positions);
         pool.TakeAtLeast(bodyCount, out waiting);
         pool.TakeAtLeast(bodyCount + 1, out starts);
@@ -70,7 +64,6 @@ unsafe struct SupportGraph
         pool.TakeAtLeast(bodyCount, out islandOf);
         pool.TakeAtLeast(bodyCount, out NodeOf);
         pool.TakeAtLeast(bodyCount, out grounded);
-        pool.TakeAtLeast(Math.Max(1, found.Count), out nextAbove);
         order = new QuickList<int>(Math.Max(1, bodyCount), pool);
         for (int i = 0; i < bodyCount; ++i)
             positions[i] = above[i] = NodeOf[i] = -1;
@@ -80,35 +73,34 @@ unsafe struct SupportGraph
     }
 
     // By counting, so that supports of one body stay in the order in which they were found.
-    void SortByUpper(int bodyCount, BufferPool pool)
+    void SortByUpper(ReadOnlySpan<SupportLink> found, int bodyCount, BufferPool pool)
     {
-        for (int i = 0; i < found.Count; ++i)
+        for (int i = 0; i < found.Length; ++i)
             ++starts[found[i].Upper + 1];
         for (int i = 0; i < bodyCount; ++i)
             starts[i + 1] += starts[i];
-        Supports = new QuickList<LoadSupport>(Math.Max(1, found.Count), pool) { Count = found.Count };
         pool.TakeAtLeast<int>(Math.Max(1, bodyCount), out var next);
         starts.CopyTo(0, next, 0, bodyCount);
-        for (int i = 0; i < found.Count; ++i)
-            Supports[next[found[i].Upper]++] = found[i];
+        for (int i = 0; i < found.Length; ++i)
+            byUpper[next[found[i].Upper]++] = found[i];
         pool.Return(ref next);
     }
 
-    void LinkAbove(BufferPool pool)
+    void LinkAbove(int bodyCount)
     {
-        for (int i = Supports.Count - 1; i >= 0; --i)
+        for (int i = starts[bodyCount] - 1; i >= 0; --i)
         {
-            var lower = Supports[i].Lower;
+            var lower = byUpper[i].Lower;
             if (lower < 0)
                 continue;
-            ++waiting[Supports[i].Upper];
+            ++waiting[byUpper[i].Upper];
             nextAbove[i] = above[lower];
             above[lower] = i;
         }
     }
 
     // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
-    void OrderUpwards(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool)
+    void OrderUpwards<THeights>(int bodyCount, THeights heights, BufferPool pool) where THeights : struct, IHeights
     {
         int participants = 0;
         for (int i = 0; i < bodyCount; ++i)
@@ -137,7 +129,7 @@ unsafe struct SupportGraph
             grounded[body] = IsGrounded(body) ? (byte)1 : (byte)0;
             for (int i = above[body]; i >= 0; i = nextAbove[i])
             {
-                var upper = Supports[i].Upper;
+                var upper = byUpper[i].Upper;
                 if (positions[upper] < 0 && waiting[upper] > 0 && --waiting[upper] == 0)
                     order.Add(upper, pool);
             }
@@ -146,12 +138,12 @@ unsafe struct SupportGraph
             pool.Return(ref byHeight);
     }
 
-    static void SortByHeight(int bodyCount, ReadOnlySpan<float> heights, BufferPool pool, out Buffer<int> byHeight)
+    static void SortByHeight<THeights>(int bodyCount, THeights heights, BufferPool pool, out Buffer<int> byHeight) where THeights : struct, IHeights
     {
         pool.Take(bodyCount, out byHeight);
         pool.Take<HeightOfBody>(bodyCount, out var keys);
         for (int i = 0; i < bodyCount; ++i)
-            keys[i] = new() { Height = heights[i], Body = i };
+            keys[i] = new() { Height = heights.Of(i), Body = i };
         new Span<HeightOfBody>(keys.Memory, bodyCount).Sort(default(LowestFirst));
         for (int i = 0; i < bodyCount; ++i)
             byHeight[i] = keys[i].Body;
@@ -175,14 +167,14 @@ unsafe struct SupportGraph
         int contacts = 0;
         for (int i = starts[body]; i < starts[body + 1]; ++i)
         {
-            if (Carries(Supports[i]))
-                contacts += Supports[i].CarryingCount;
+            if (Carries(byUpper[i]))
+                contacts += byUpper[i].CarryingCount;
         }
         return contacts >= LeastContacts;
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
-    readonly bool Carries(in LoadSupport support) => support.Lower < 0 ||
+    readonly bool Carries(in SupportLink support) => support.Lower < 0 ||
         (grounded[support.Lower] != 0 && positions[support.Lower] < positions[support.Upper]);
 
     void MakeNodes(int bodyCount, BufferPool pool)
@@ -190,9 +182,9 @@ unsafe struct SupportGraph
         // Islands by the first of their bodies in the order.
         for (int i = 0; i < order.Count; ++i)
             islandOf[order[i]] = order[i];
-        for (int i = 0; i < Supports.Count; ++i)
+        for (int i = 0; i < starts[bodyCount]; ++i)
         {
-            ref var support = ref Supports[i];
+            ref var support = ref byUpper[i];
             if (support.Lower < 0 || !Carries(support))
                 continue;
             var a = Root(support.Upper);
@@ -237,23 +229,20 @@ unsafe struct SupportGraph
         }
         pool.Return(ref next);
         pool.Return(ref place);
-        // Supports that carry, in the order of the nodes.
-        (found, Supports) = (Supports, found);
-        Supports.Count = 0;
+        // Links that carry, in the order of the nodes.
         for (int i = 0; i < nodeCount; ++i)
         {
             ref var node = ref Nodes[i];
-            node.FirstSupport = Supports.Count;
+            node.FirstSupport = Links.Count;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
-                ref var support = ref found[j];
-                if (!Carries(support))
+                ref var link = ref byUpper[j];
+                if (!Carries(link))
                     continue;
-                Supports.AddUnsafely(support);
-                for (int k = 0; k < support.Count; ++k)
-                    node.Radius = MathHelper.Max(node.Radius, Exact.Length(support.Arms[k]));
+                Links.AddUnsafely(link);
+                node.Radius = MathHelper.Max(node.Radius, link.Radius);
             }
-            node.SupportCount = Supports.Count - node.FirstSupport;
+            node.SupportCount = Links.Count - node.FirstSupport;
         }
     }
 
@@ -267,10 +256,9 @@ unsafe struct SupportGraph
     /// <summary>Gives all memory back; nothing is in the graph.</summary>
     internal void Dispose(BufferPool pool)
     {
-        if (found.Span.Allocated)
-            found.Dispose(pool);
         if (order.Span.Allocated)
         {
+            pool.Return(ref byUpper);
             pool.Return(ref positions);
             pool.Return(ref waiting);
             pool.Return(ref starts);
@@ -281,7 +269,7 @@ unsafe struct SupportGraph
             pool.Return(ref nextAbove);
             order.Dispose(pool);
             Nodes.Dispose(pool);
-            Supports.Dispose(pool);
+            Links.Dispose(pool);
             Islands.Dispose(pool);
         }
         this = default;

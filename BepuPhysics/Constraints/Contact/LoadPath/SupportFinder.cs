@@ -1,0 +1,117 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>Finds the contact constraints of a bundle that carry one of their bodies against what pulls at it, and are quiet.</summary>
+/// <param name="bodies">The bodies, after the first integration.</param>
+/// <param name="before">Their velocities before it, a row each.</param>
+/// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
+// Only contacts that are quiet carry: their surfaces move no faster along or apart than the acceleration from outside gives in some substeps. What
+// slides, rolls fast, tumbles or is hit is left to the sweeps, and so is what rests on something that moves.
+readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, float quietSteps)
+{
+    const int FloatsPerVelocity = 8;
+    // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
+    // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
+    const float LeastSlope = 0.8f;
+    // Half the width of the band in which a contact knows no overlap, per size of the smaller body.
+    const float BandPerSize = 5e-4f;
+
+    /// <summary>Writes what is found in a bundle, in the order of lanes.</summary>
+    /// <returns>How many were found, at most one per lane.</returns>
+    internal int Find(ref TypeBatch batch, int bundle, SupportLink* found)
+    {
+        var count = ConstraintTypeIds.ContactCount(batch.TypeId);
+        var hasB = batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
+        var prestep = (Vector<float>*)batch.Prestep.Memory + bundle * ContactPrestepLayout.PrestepFloats(count);
+        var impulses = (Vector<float>*)batch.AccumulatedImpulses.Memory + bundle * ContactPrestepLayout.ImpulseFloats(count);
+        var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * (hasB ? 2 : 1);
+        // Springs that a game asked for stay springs.
+        var carries = Vector.Equals(prestep[ContactPrestepLayout.Spring(count)], Vector<float>.Zero) & Vector.GreaterThanOrEqual(references[0], Vector<int>.Zero);
+        if (carries == Vector<int>.Zero)
+            return 0;
+        var velocityA = Read(references[0], out var gainA);
+        carries &= Vector.GreaterThan(velocityA.InverseMass, Vector<float>.Zero);
+        var gain = gainA;
+        var fastest = gainA.Length();
+        SolverBodyWide velocityB = default;
+        var fixedB = new Vector<int>(-1);
+        if (hasB)
+        {
+            velocityB = Read(references[1], out var gainB);
+            fixedB = Vector.Equals(references[1] & new Vector<int>(EncodedBody.KinematicFlag), new(EncodedBody.KinematicFlag));
+            var stands = Vector.Equals(velocityB.Linear.LengthSquared() + velocityB.Angular.LengthSquared(), Vector<float>.Zero);
+            carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(velocityB.InverseMass, Vector<float>.Zero));
+            gain = Vector3Wide.Select(fixedB, gainA, gainA + gainB);
+            fastest = Wide.Max(fastest, Wide.Select(fixedB, Vector<float>.Zero, gainB.Length()));
+        }
+        var normal = *(Vector3Wide*)(prestep + ContactPrestepLayout.Normal(count));
+        var along = -Vector3Wide.Dot(gain, normal);
+        var isUpperA = Vector.GreaterThan(along, Vector<float>.Zero);
+        carries &= Vector.GreaterThan(along * along, new Vector<float>(LeastSlope * LeastSlope) * gain.LengthSquared()) & (isUpperA | ~fixedB);
+        if (carries == Vector<int>.Zero)
+            return 0;
+
+        var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
+        var quiet = new Vector<float>(quietSteps) * fastest;
+        var extent = new Vector<float>(float.MaxValue);
+        var radius = Vector<float>.Zero;
+        for (int i = 0; i < count; ++i)
+        {
+            var arm = ((ContactPrestepWide*)prestep)[i].OffsetA;
+            var armB = arm - offsetB;
+            var velocity = velocityA.Linear + Vector3Wide.Cross(velocityA.Angular, arm) - velocityB.Linear - Vector3Wide.Cross(velocityB.Angular, armB);
+            var apart = Vector3Wide.Dot(velocity, normal);
+            carries &= Vector.LessThan(apart, quiet) & Vector.LessThan((velocity - normal * apart).LengthSquared(), quiet * quiet);
+            extent = Wide.Min(extent, Wide.Abs(Vector3Wide.Dot(arm, normal)));
+            extent = Wide.Min(extent, Wide.Select(fixedB, extent, Wide.Abs(Vector3Wide.Dot(armB, normal))));
+            radius = Wide.Max(radius, Vector3Wide.Select(isUpperA, arm, armB).LengthSquared());
+        }
+        var band = new Vector<float>(BandPerSize * 2) * extent;
+        var open = Vector<int>.Zero;
+        for (int i = 0; i < count; ++i)
+        {
+            var touches = Vector.GreaterThanOrEqual(((ContactPrestepWide*)prestep)[i].Depth, new Vector<float>(-2) * band);
+            open |= Vector.AndNot(new Vector<int>(1 << i), touches | Vector.GreaterThan(impulses[i], Vector<float>.Zero));
+        }
+        carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
+
+        var lowerA = Vector.AndNot(new Vector<int>(-1), isUpperA);
+        var indexA = references[0] & new Vector<int>(EncodedBody.IndexMask);
+        var indexB = hasB ? references[1] & new Vector<int>(EncodedBody.IndexMask) : indexA;
+        var upper = Wide.Select(lowerA, indexB, indexA);
+        var lower = Wide.Select(fixedB, new Vector<int>(-1), Wide.Select(lowerA, indexA, indexB));
+        radius = Vector.SquareRoot(radius);
+        int foundCount = 0;
+        for (var lanes = Wide.Bits(carries); lanes != 0; lanes &= lanes - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(lanes);
+            found[foundCount++] = new()
+            {
+                Prestep = (float*)prestep + lane,
+                Impulses = (float*)impulses + lane,
+                Upper = upper[lane],
+                Lower = lower[lane],
+                Band = band[lane],
+                Radius = radius[lane],
+                Count = (byte)count,
+                Open = (byte)open[lane],
+                IsUpperA = isUpperA[lane] != 0,
+            };
+        }
+        return foundCount;
+    }
+
+    // Velocities, masses, and what the integration has added to the velocities of the centres.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    SolverBodyWide Read(Vector<int> references, out Vector3Wide gain)
+    {
+        var rows = new RowOffsets(references);
+        bodies.Gather(rows, BodyAccess.Velocity | BodyAccess.Mass, default, out var body);
+        var row = Transpose.Gather((float*)before, FloatsPerVelocity, rows);
+        gain = body.Linear - new Vector3Wide(row.R0, row.R1, row.R2);
+        return body;
+    }
+}

@@ -1,0 +1,32 @@
+using System.Numerics;
+
+namespace BepuPhysics.Constraints.Contact;
+
+/// <summary>Which body a contact constraint carries, and where its numbers are: all that the graph has to know of it.</summary>
+unsafe struct SupportLink
+{
+    /// <summary>First number of its description: its column in its type batch.</summary>
+    public float* Prestep;
+    /// <summary>First of its accumulated impulses.</summary>
+    public float* Impulses;
+    /// <summary>Index of the upper body in the active set.</summary>
+    public int Upper;
+    /// <summary>Index of the lower body in the active set; negative for what does not move.</summary>
+    public int Lower;
+    /// <summary>Half the width of the band about zero in which the contacts know no overlap, m.</summary>
+    public float Band;
+    /// <summary>Greatest distance of a contact from the centre of the upper body, m.</summary>
+    public float Radius;
+    /// <summary>Number of contacts.</summary>
+    public byte Count;
+    /// <summary>One bit per contact, set where the surfaces are apart: it carries nothing and is left as it is.</summary>
+    public byte Open;
+    /// <summary>Whether the upper body is A of the constraint.</summary>
+    public bool IsUpperA;
+
+    /// <summary>Number of contacts that may carry.</summary>
+    internal readonly int CarryingCount => Count - BitOperations.PopCount(Open);
+
+    /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
+    internal readonly ref float Spring => ref Prestep[ContactPrestepLayout.Spring(Count) * Vector<float>.Count];
+}
