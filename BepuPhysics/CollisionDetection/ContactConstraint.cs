@@ -46,8 +46,9 @@ unsafe readonly struct ContactConstraint
     /// <param name="features">What the contacts are remembered by.</param>
     internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, ref FeatureIds features)
     {
+        var wasHeld = WasHeld;
         WriteMaterial(material);
-        if (KeptArms.MayKeep(contactCount, manifold))
+        if (KeptArms.MayKeep(contactCount, manifold, wasHeld, hasTwoBodies))
         {
             ReadArms(features, out var arms);
             Unsafe.SkipInit(out KeptArms kept);
@@ -71,7 +72,7 @@ unsafe readonly struct ContactConstraint
     {
         WriteMaterial(material);
         WriteGeometry(manifold);
-        if (KeptArms.MayKeep(old.Count, manifold))
+        if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.HasTwoBodies))
         {
             old.GetArms(out var arms);
             Unsafe.SkipInit(out KeptArms kept);
@@ -89,6 +90,8 @@ unsafe readonly struct ContactConstraint
         }
         WriteImpulses(old, manifold, ref features);
     }
+
+    bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
 
     // Contacts stay in the order in which they are: the order in which they are solved makes a difference that can be seen.
     void Keep(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold, ref FeatureIds features)
@@ -195,6 +198,7 @@ unsafe readonly struct ContactConstraint
         Unsafe.SkipInit(out result);
         result.Count = contactCount;
         result.HasTwoBodies = hasTwoBodies;
+        result.WasHeld = WasHeld;
         result.Features = features;
         for (int i = 0; i < contactCount; ++i)
         {

@@ -12,6 +12,8 @@ struct ContactPatch
     public int Count;
     /// <summary>Whether B is a body too, and no static.</summary>
     public bool HasTwoBodies;
+    /// <summary>Whether the load path held it.</summary>
+    public bool WasHeld;
     /// <summary>Features of the contacts.</summary>
     public FeatureIds Features;
     /// <summary>Normal impulses, N s.</summary>

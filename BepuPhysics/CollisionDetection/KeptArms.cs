@@ -1,6 +1,8 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -44,14 +46,33 @@ struct KeptArms
     public int Taken;
 
     /// <summary>Whether a patch may keep arms: if it has contacts enough, and all of them touch.</summary>
+    /// <param name="oldCount">Contacts of the last step.</param>
+    /// <param name="manifold">Those of this one.</param>
+    /// <param name="wasHeld">Whether the last step held the patch, by the load path: what it holds touches within its band.</param>
+    /// <param name="hasTwoBodies">Whether B is a body.</param>
     // A body that rocks turns about the contacts that are left to it, and these have to be where they are.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static bool MayKeep(int oldCount, in ConvexContactManifold manifold)
+    public static bool MayKeep(int oldCount, in ConvexContactManifold manifold, bool wasHeld, bool hasTwoBodies)
     {
         if (oldCount < LeastCount || manifold.Count < LeastCount)
             return false;
-        return manifold.Contact0.Depth > 0 && manifold.Contact1.Depth > 0 && manifold.Contact2.Depth > 0 &&
-            (manifold.Count == LeastCount || manifold.Contact3.Depth > 0);
+        return (manifold.Contact0.Depth > 0 && manifold.Contact1.Depth > 0 && manifold.Contact2.Depth > 0 &&
+            (manifold.Count == LeastCount || manifold.Contact3.Depth > 0)) || (wasHeld && TouchesWithinBand(manifold, hasTwoBodies));
+    }
+
+    // Twice the band: what is beyond it has not been taken out yet.
+    static bool TouchesWithinBand(in ConvexContactManifold manifold, bool hasTwoBodies)
+    {
+        float extent = float.MaxValue, least = float.MaxValue;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            ref readonly var contact = ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i);
+            least = MathHelper.Min(least, contact.Depth);
+            extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(contact.Offset, manifold.Normal)));
+            if (hasTwoBodies)
+                extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(contact.Offset - manifold.OffsetB, manifold.Normal)));
+        }
+        return least >= -2 * ContactMaterialWide.BandPerExtent * extent;
     }
 
     /// <summary>Finds the contacts that are where they were.</summary>

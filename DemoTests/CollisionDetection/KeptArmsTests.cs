@@ -4,6 +4,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
+using Demos.Accuracy;
+using Demos.Running;
 using DemoTests.Scenes;
 using Xunit;
 
@@ -17,7 +19,7 @@ public sealed class KeptArmsTests : IDisposable
     const float Little = .02f;
     const float Much = .1f;
     static readonly PairMaterialProperties material = new(.5f, 2, default);
-    readonly TestWorld world = new();
+    readonly TestWorld world = new(new AccuracySettings { LoadPath = LoadPathChoice.Off });
     readonly BodyHandle lower;
     readonly BodyHandle upper;
 
@@ -250,6 +252,27 @@ public sealed class KeptArmsTests : IDisposable
             Assert.Equal(0, (before.Arms[i] - last.Arms[i]).Length(), 6);
     }
 
+    /// <summary>What the load path held touches within twice its band, which is a thousandth of the half metre from a centre to the contacts.</summary>
+    [Theory]
+    [InlineData(true, -9e-4f, true)]
+    [InlineData(true, -1.1e-3f, false)]
+    [InlineData(false, -9e-4f, false)]
+    [InlineData(false, 1e-4f, true)]
+    public void What_was_held_touches_within_its_band(bool wasHeld, float depth, bool isKept)
+    {
+        var before = Read();
+        Material(1) = wasHeld ? -0f : 0;
+        Update(before, Moved(before, new Vector3(Little, 0, 0), depth));
+        Assert.Equal(isKept, before.Arms[0] == Read().Arms[0]);
+        Assert.False(float.IsNegative(Material(1)));
+        // The same where the constraint is another one.
+        before.WasHeld = wasHeld;
+        var manifold = Moved(before, new Vector3(-Little, 0, 0), depth);
+        manifold.Count = 3;
+        Replace(ref before, manifold);
+        Assert.Equal(isKept, before.Arms[0] == Read().Arms[0]);
+    }
+
     /// <summary>What a step does, with a body that was put elsewhere between two steps.</summary>
     [Theory]
     [InlineData(Little, true)]
@@ -334,11 +357,11 @@ public sealed class KeptArmsTests : IDisposable
     float Depth(int contact) => PrestepFloat(contact * 4 + 3);
 
     // Of four contacts: friction, frequency, damping, recovery.
-    float Material(int field) => PrestepFloat(22 + field);
+    ref float Material(int field) => ref PrestepFloat(22 + field);
 
-    float PrestepFloat(int field)
+    ref float PrestepFloat(int field)
     {
-        var location = world.Solver.Locations[Manifold().Constraint.Slot];
-        return world.Solver.Processor(location.TypeId).PrestepFloat(ref world.Solver.TypeBatchAt(location), location.IndexInTypeBatch, field);
+        ref var location = ref world.Solver.Locations[Manifold().Constraint.Slot];
+        return ref world.Solver.Processor(location.TypeId).PrestepFloat(ref world.Solver.TypeBatchAt(location), location.IndexInTypeBatch, field);
     }
 }

@@ -17,11 +17,13 @@ public class SupportGraphTests
     }
 
     // Each support has three contacts unless said otherwise.
-    static (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3)
+    static (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
+        bool[]? slides = null)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
-        var links = supports.Select(support => new SupportLink { Upper = support.Upper, Lower = support.Lower, Count = (byte)contacts }).ToArray();
+        var links = supports.Select((support, i) =>
+            new SupportLink { Upper = support.Upper, Lower = support.Lower, Count = (byte)contacts, Slides = slides is not null && slides[i] }).ToArray();
         graph.Build(links, bodyCount, new Heights(heights ?? new float[bodyCount]), pool);
         var islands = new int[graph.Islands.Count - 1][];
         for (int i = 0; i < islands.Length; ++i)
@@ -71,6 +73,13 @@ public class SupportGraphTests
         // Nor is what rests on it, but two twos are four.
         Assert.Single(Build(2, [(0, Ground), (1, 0), (1, Ground), (0, Ground)], contacts: 2).Islands);
         Assert.Equal([1], Build(2, [(0, Ground), (1, Ground), (1, Ground)], contacts: 2).Islands.Single());
+    }
+
+    [Fact]
+    public void What_slides_on_all_that_it_rests_on_is_not_in_the_graph()
+    {
+        Assert.Empty(Build(2, [(0, Ground), (0, Ground), (1, 0)], slides: [true, true, false]).Islands);
+        AssertIslands("0 1", Build(2, [(0, Ground), (0, Ground), (1, 0)], slides: [true, false, false]).Islands);
     }
 
     // Three planks of which each lies on the next: the lowest is taken first, and what it lies on itself is left out.

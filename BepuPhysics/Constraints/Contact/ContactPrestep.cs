@@ -23,8 +23,13 @@ struct ContactMaterialWide
     public Vector<float> MaximumRecoveryVelocity;
 
     /// <summary>
+    /// Half the width of the band in which a held patch knows no overlap, over the least distance along the normal of a contact from a centre.
+    /// </summary>
+    internal const float BandPerExtent = 1e-3f;
+
+    /// <summary>
     /// Patches that are held for the step, by the load path: their frequency is negative, less half the width of the band, m, in which they know no
-    /// overlap. What a game gives is not negative, and is written anew for each step.
+    /// overlap. What a game gives is not negative, and is written anew for each step. When the step ends the frequency becomes zero again, a negative one.
     /// </summary>
     internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
 

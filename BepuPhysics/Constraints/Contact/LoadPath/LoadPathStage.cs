@@ -16,8 +16,9 @@ namespace BepuPhysics.Constraints.Contact;
 // about zero. A soft row would give back in the sweep what it was handed.
 sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
-    // Islands share this many blocks; any number gives the same bits.
-    const int Blocks = 16;
+    // Bundles and islands share this many blocks at most; any number gives the same bits.
+    const int MaximumBlocks = 16;
+    const int LeastBundlesPerBlock = 8;
     // Steps of acceleration up to which a contact is quiet.
     const float QuietSteps = 2;
     const float LeastBand = 1e-30f;
@@ -34,7 +35,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
     Buffer<SupportLink> found;
     int bundleCount;
-    readonly int[] foundCounts = new int[Blocks];
+    int blockCount;
+    readonly int[] foundCounts = new int[MaximumBlocks];
     // What carries the nodes, read when a node's island is worked on for the first time in a step.
     Buffer<LoadSupport> supports;
     int heldCount;
@@ -45,12 +47,30 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     {
         if (Mode == LoadPathMode.Off)
             return 0;
-        return point switch
+        switch (point)
         {
-            SolverPoint.BeforeSubsteps or SolverPoint.LastBeforeFirstWarmStart => 1,
-            SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart => Blocks,
-            _ => 0,
-        };
+            case SolverPoint.BeforeSubsteps:
+                CountBundles();
+                return Math.Min(1, bundleCount);
+            case SolverPoint.LastBeforeFirstWarmStart:
+                return Math.Min(1, bundleCount);
+            case SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart:
+                return blockCount;
+            default:
+                return 0;
+        }
+    }
+
+    void CountBundles()
+    {
+        bundleCount = 0;
+        ref var batches = ref solver.ActiveSet.Batches;
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
+                bundleCount += Bundles(batches[i], j);
+        }
+        blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
     }
 
     void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
@@ -67,7 +87,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 Build(substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
-                for (int island = block; island < graph.Islands.Count - 1; island += Blocks)
+                for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
                     Transfer(island);
                 break;
         }
@@ -79,13 +99,6 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         pool.TakeAtLeast(Math.Max(1, set.Count), out before);
         for (int i = 0; i < set.Count; ++i)
             before[i] = set.MotionStates[i].Velocity;
-        bundleCount = 0;
-        ref var batches = ref solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
-        {
-            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
-                bundleCount += Bundles(batches[i], j);
-        }
         pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
     }
 
@@ -93,7 +106,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         batch.Kind == BatchKind.Coloured && batch.TypeBatches[typeBatch].TypeId < ConstraintTypeIds.ContactTypeCount
             ? batch.TypeBatches[typeBatch].BundleCount : 0;
 
-    int FirstBundle(int block) => (int)((long)bundleCount * block / Blocks);
+    int FirstBundle(int block) => (int)((long)bundleCount * block / blockCount);
 
     void Find(int block)
     {
@@ -124,7 +137,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     void Build(float dt)
     {
         int count = 0;
-        for (int i = 0; i < Blocks; ++i)
+        for (int i = 0; i < blockCount; ++i)
         {
             new Span<SupportLink>(found.Memory + FirstBundle(i) * Vector<float>.Count, foundCounts[i]).CopyTo(new(found.Memory + count, foundCounts[i]));
             count += foundCounts[i];
@@ -273,11 +286,11 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         }
     }
 
-    // Lets go of the contacts, and gives back what the step took.
+    // Lets go of the contacts, and gives back what the step took. The sign of the zero tells the next step that they were held.
     void ISolverStage.EndStep()
     {
         for (int i = 0; i < heldCount; ++i)
-            graph.Links[i].Spring = 0;
+            graph.Links[i].Spring = -0f;
         heldCount = 0;
         graph.Dispose(pool);
         if (before.Allocated)

@@ -16,11 +16,13 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
     // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
     const float LeastSlope = 0.8f;
-    // Half the width of the band in which a contact knows no overlap, per size of the smaller body.
-    const float BandPerSize = 5e-4f;
+    // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
+    const float SlidingShare = 0.99f;
+    const float SlidingSteps = 0.1f;
 
     /// <summary>Writes what is found in a bundle, in the order of lanes.</summary>
     /// <returns>How many were found, at most one per lane.</returns>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     internal int Find(ref TypeBatch batch, int bundle, SupportLink* found)
     {
         var count = ConstraintTypeIds.ContactCount(batch.TypeId);
@@ -29,7 +31,8 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
         var impulses = (Vector<float>*)batch.AccumulatedImpulses.Memory + bundle * ContactPrestepLayout.ImpulseFloats(count);
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * (hasB ? 2 : 1);
         // Springs that a game asked for stay springs.
-        var carries = Vector.Equals(prestep[ContactPrestepLayout.Spring(count)], Vector<float>.Zero) & Vector.GreaterThanOrEqual(references[0], Vector<int>.Zero);
+        var carries = Vector.Equals(prestep[ContactPrestepLayout.Spring(count)], Vector<float>.Zero);
+        carries &= Vector.GreaterThanOrEqual(references[0], Vector<int>.Zero);
         if (carries == Vector<int>.Zero)
             return 0;
         var velocityA = Read(references[0], out var gainA);
@@ -37,10 +40,11 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
         var gain = gainA;
         var fastest = gainA.Length();
         SolverBodyWide velocityB = default;
+        Vector3Wide gainB = default;
         var fixedB = new Vector<int>(-1);
         if (hasB)
         {
-            velocityB = Read(references[1], out var gainB);
+            velocityB = Read(references[1], out gainB);
             fixedB = Vector.Equals(references[1] & new Vector<int>(EncodedBody.KinematicFlag), new(EncodedBody.KinematicFlag));
             var stands = Vector.Equals(velocityB.Linear.LengthSquared() + velocityB.Angular.LengthSquared(), Vector<float>.Zero);
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(velocityB.InverseMass, Vector<float>.Zero));
@@ -56,6 +60,8 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
 
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         var quiet = new Vector<float>(quietSteps) * fastest;
+        var slides = Vector<int>.Zero;
+        var sliding = new Vector<float>(SlidingSteps) * fastest;
         var extent = new Vector<float>(float.MaxValue);
         var radius = Vector<float>.Zero;
         for (int i = 0; i < count; ++i)
@@ -65,11 +71,16 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
             var velocity = velocityA.Linear + Vector3Wide.Cross(velocityA.Angular, arm) - velocityB.Linear - Vector3Wide.Cross(velocityB.Angular, armB);
             var apart = Vector3Wide.Dot(velocity, normal);
             carries &= Vector.LessThan(apart, quiet) & Vector.LessThan((velocity - normal * apart).LengthSquared(), quiet * quiet);
+            // What the integration has added is no sliding: the warm start takes it away.
+            velocity -= gainA - gainB;
+            velocity -= normal * Vector3Wide.Dot(velocity, normal);
+            slides |= Vector.GreaterThan(velocity.LengthSquared(), sliding * sliding);
             extent = Wide.Min(extent, Wide.Abs(Vector3Wide.Dot(arm, normal)));
             extent = Wide.Min(extent, Wide.Select(fixedB, extent, Wide.Abs(Vector3Wide.Dot(armB, normal))));
             radius = Wide.Max(radius, Vector3Wide.Select(isUpperA, arm, armB).LengthSquared());
         }
-        var band = new Vector<float>(BandPerSize * 2) * extent;
+        slides &= IsAtLimit(count, prestep, impulses);
+        var band = new Vector<float>(ContactMaterialWide.BandPerExtent) * extent;
         var open = Vector<int>.Zero;
         for (int i = 0; i < count; ++i)
         {
@@ -99,9 +110,19 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
                 Count = (byte)count,
                 Open = (byte)open[lane],
                 IsUpperA = isUpperA[lane] != 0,
+                Slides = slides[lane] != 0,
             };
         }
         return foundCount;
+    }
+
+    static Vector<int> IsAtLimit(int count, Vector<float>* prestep, Vector<float>* impulses)
+    {
+        var load = impulses[0];
+        for (int i = 1; i < count; ++i)
+            load += impulses[i];
+        var limit = new Vector<float>(SlidingShare) * prestep[ContactPrestepLayout.Friction(count)] * load;
+        return Vector.GreaterThan(((Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count)))->LengthSquared(), limit * limit);
     }
 
     // Velocities, masses, and what the integration has added to the velocities of the centres.

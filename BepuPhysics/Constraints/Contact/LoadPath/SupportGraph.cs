@@ -161,16 +161,19 @@ unsafe struct SupportGraph
         public readonly int Compare(HeightOfBody x, HeightOfBody y) => x.Height != y.Height ? x.Height.CompareTo(y.Height) : x.Body.CompareTo(y.Body);
     }
 
-    // On fewer than three contacts a body may roll or rock, and what it has of momentum is no load.
+    // On fewer than three contacts a body may roll or rock, and what it has of momentum is no load. What slides on all that it rests on moves.
     readonly bool IsGrounded(int body)
     {
         int contacts = 0;
+        var slides = true;
         for (int i = starts[body]; i < starts[body + 1]; ++i)
         {
-            if (Carries(byUpper[i]))
-                contacts += byUpper[i].CarryingCount;
+            if (!Carries(byUpper[i]))
+                continue;
+            contacts += byUpper[i].CarryingCount;
+            slides &= byUpper[i].Slides;
         }
-        return contacts >= LeastContacts;
+        return contacts >= LeastContacts && !slides;
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.

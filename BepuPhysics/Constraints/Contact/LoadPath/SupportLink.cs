@@ -23,6 +23,8 @@ unsafe struct SupportLink
     public byte Open;
     /// <summary>Whether the upper body is A of the constraint.</summary>
     public bool IsUpperA;
+    /// <summary>Whether friction is at its limit and the surfaces move along each other.</summary>
+    public bool Slides;
 
     /// <summary>Number of contacts that may carry.</summary>
     internal readonly int CarryingCount => Count - BitOperations.PopCount(Open);
