@@ -27,6 +27,9 @@ static class EngineDefaults
 
     public const AngularIntegrationMode RotationMode = AngularIntegrationMode.Nonconserving;
 
+    /// <summary>It has none.</summary>
+    public const LoadPathChoice LoadPath = LoadPathChoice.Off;
+
     /// <summary>How hard the solver works.</summary>
     public static SolveDescription Solve(RunSettings settings) => settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off }
         ? new(settings.Iterations, settings.Substeps)

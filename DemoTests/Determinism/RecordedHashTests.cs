@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using BepuPhysics;
 using Demos.Accuracy;
 using Demos.Scenes;
 using DemoTests.Quality;
@@ -25,6 +26,9 @@ public class RecordedHashTests
     {
         ["pyramids"] = () => Run(SmallScenes.Pyramids(count: 3, baseCount: 10), 120),
         ["pyramids relaxed"] = () => Run(SmallScenes.Pyramids(count: 3, baseCount: 10), 60, relaxations: 1),
+        ["pyramids by sweeps"] = () => Run(SmallScenes.Pyramids(count: 3, baseCount: 10), 120, loadPath: LoadPathMode.Off),
+        ["pyramids always handed down"] = () => Run(SmallScenes.Pyramids(count: 3, baseCount: 10), 120, loadPath: LoadPathMode.Always),
+        ["hull-pile by sweeps"] = () => Run(SmallScenes.Pile("hull-pile", columns: 4, layers: 4), 120, loadPath: LoadPathMode.Off),
         ["cloth-lattice"] = () => Run(SmallScenes.Lattice(width: 16), 60),
         ["cloth-lattice relaxed"] = () => Run(SmallScenes.Lattice(width: 16), 60, relaxations: 1),
         ["pile"] = () => Run(SceneLibrary.Load("pile", 1), 120),
@@ -67,9 +71,9 @@ public class RecordedHashTests
             .Select(line => line.Split(Separator)).ToDictionary(parts => parts[0], parts => parts[1]);
     }
 
-    static ulong Run(SceneDescription scene, int steps, int relaxations = 0)
+    static ulong Run(SceneDescription scene, int steps, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.WhereNeeded)
     {
-        using var world = new SceneWorld(scene, threads: 1, relaxations);
+        using var world = new SceneWorld(scene, threads: 1, relaxations, loadPath);
         return world.HashSteps(steps)[^1];
     }
 

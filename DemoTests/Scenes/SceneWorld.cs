@@ -19,7 +19,7 @@ sealed unsafe class SceneWorld : IDisposable
     // Made once, so that asking costs nothing.
     readonly Action<int> readWorkerBytes;
 
-    public SceneWorld(SceneDescription scene, int threads, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.Off)
+    public SceneWorld(SceneDescription scene, int threads, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.WhereNeeded)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         workerBytes = new long[threads];

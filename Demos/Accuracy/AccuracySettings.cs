@@ -2,6 +2,7 @@ using System.Globalization;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using Demos.Engine;
 using Demos.Running;
 
 namespace Demos.Accuracy;
@@ -22,7 +23,7 @@ sealed record AccuracySettings
     public int RelaxationCount { get; init; }
 
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
-    public LoadPathChoice LoadPath { get; init; }
+    public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
     public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
     public float Friction { get; init; } = .5f;
     public float Restitution { get; init; }
@@ -63,5 +64,5 @@ sealed record AccuracySettings
         string.Create(CultureInfo.InvariantCulture,
             $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{LoadPathWords}{(Stiff ? " stiff" : "")}");
 
-    string LoadPathWords => LoadPath == LoadPathChoice.Off ? "" : $" load path {LoadPath}";
+    string LoadPathWords => LoadPath == EngineDefaults.LoadPath ? "" : $" load path {LoadPath}";
 }

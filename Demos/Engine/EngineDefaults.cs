@@ -20,6 +20,9 @@ static class EngineDefaults
 
     public const float MaximumDampingRatio = Limits.MaximumDampingRatio;
 
+    /// <summary>Loads are handed down to the ground in one go where that is needed.</summary>
+    public const LoadPathChoice LoadPath = LoadPathChoice.WhereNeeded;
+
     /// <summary>Contacts as hard as the step allows.</summary>
     public static SpringSettings ContactSpring => default;
 

@@ -1,3 +1,5 @@
+using Demos.Engine;
+
 namespace Demos.Running;
 
 /// <summary>How a scene is run; nothing in here changes what the scene is.</summary>
@@ -16,8 +18,9 @@ public sealed record RunSettings
 
     /// <summary>Sweeps per substep that take back what the correction of positions leaves of velocity.</summary>
     public int Relaxations { get; init; }
+
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
-    public LoadPathChoice LoadPath { get; init; }
+    public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
 
     public int Threads { get; init; } = 1;
 

@@ -31,7 +31,7 @@ sealed record TowerSettings
     public int Relaxations { get; init; }
 
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
-    public LoadPathMode LoadPath { get; init; }
+    public LoadPathMode LoadPath { get; init; } = LoadPathMode.WhereNeeded;
 
     /// <summary>How far parts are out of place at most, m.</summary>
     public float Offset { get; init; }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using BepuPhysics;
 using Demos.Accuracy;
+using Demos.Engine;
 using Demos.Running;
 using Demos.Scenes;
 
@@ -52,8 +53,8 @@ sealed record TradeAxis(
                     ? settings with { SpringFrequency = hertz } : null,
             }),
         new("load-path", $"Whether loads are handed down to the ground in one go: {string.Join(", ", loadPathWords)}.",
-            scene => scene.Stands && EngineTraits.HasLoadPath ? loadPathWords : [loadPathWords[0]],
-            value => value == loadPathWords[0] ? "" : $"load {value}",
+            scene => scene.Stands && EngineTraits.HasLoadPath ? loadPathWords : [loadPathWords[(int)EngineDefaults.LoadPath]],
+            value => value == loadPathWords[(int)EngineDefaults.LoadPath] ? "" : $"load {value}",
             (settings, value) => Array.IndexOf(loadPathWords, value) is >= 0 and int index && (index == 0 || EngineTraits.HasLoadPath)
                 ? settings with { LoadPath = (LoadPathChoice)index } : null),
         new("relaxations", "Relaxation sweeps per substep.", _ => EngineTraits.HasRelaxation ? ["0", "1"] : ["0"],
