@@ -33,11 +33,11 @@ public sealed class AccuracyCommandTests : IDisposable
         (int status, string output, _) = Run("accuracy", "C4", "--effort", "accurate", "--json", json, "--page", page);
 
         Assert.Equal(DemosCommand.Finished, status);
-        Assert.Contains("2 judged, 0 failed; 0 reported", output, StringComparison.Ordinal);
+        Assert.Contains("2 of 2 met, 0 known not to be, 0 failed", output, StringComparison.Ordinal);
         JsonElement root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
         Assert.Equal(["engine", "complete", "cases"], root.EnumerateObject().Select(member => member.Name));
         JsonElement first = root.GetProperty("cases")[0];
-        Assert.Equal(["case", "scene", "effort", "settings", "judged", "met", "figures"], first.EnumerateObject().Select(member => member.Name));
+        Assert.Equal(["case", "scene", "effort", "settings", "met", "knownMiss", "figures"], first.EnumerateObject().Select(member => member.Name));
         Assert.Equal(.005, first.GetProperty("figures")[0].GetProperty("limit").GetDouble());
         Assert.Equal(JsonValueKind.Null, first.GetProperty("figures")[2].GetProperty("limit").ValueKind);
         Assert.Equal(4, File.ReadAllLines(page).Length);

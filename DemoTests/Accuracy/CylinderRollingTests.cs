@@ -41,7 +41,7 @@ public class CylinderRollingTests(ITestOutputHelper output)
         double expected = 2 / 3d * Gravity * Math.Sin(angle) * time * time / 2;
         line.Judge(new CaseResult("C2", $"cylinder rolling on 20 degrees, {floor}", settings))
             .Limit("distance", line.Way / expected - 1, .02, "%")
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     [Theory]
@@ -65,7 +65,7 @@ public class CylinderRollingTests(ITestOutputHelper output)
         line.Judge(new CaseResult("C2", FormattableString.Invariant($"cylinder rolling at 5 m/s, yaw {yaw}, {floor}"), settings))
             .Limit("distance", line.Way / 50 - 1, .02, "%")
             // Two triangles know nothing of each other: the edge between them is one to stumble over.
-            .Finish(output, enforce: effort == Effort.Accurate && floor != Floors.Pair);
+            .Finish(output);
     }
 
     /// <summary>
@@ -93,7 +93,7 @@ public class CylinderRollingTests(ITestOutputHelper output)
         line.Judge(new CaseResult("C2", $"prism of 64 sides rolling on 20 degrees, {floor}", settings))
             .Limit("distance", line.Way / PrismDistance(angle, time) - 1, .05, "%")
             .Note("against a round one", line.Way / round - 1, "%")
-            .Finish(output, enforce: false);
+            .Finish(output);
     }
 
     /// <summary>Way of the prism while it pivots about one corner after the other, every one of them without bounce.</summary>

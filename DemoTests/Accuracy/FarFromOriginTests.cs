@@ -36,7 +36,7 @@ public class FarFromOriginTests(ITestOutputHelper output)
             .Limit("rolling error in 5 m", RollingError(settings, origin), .05, "m")
             .Limit("stack loss", StackChange(settings, origin, out double drift), .05, "m")
             .Limit("stack drift", drift, .05, "m")
-            .Finish(output, enforce: false);
+            .Finish(output);
     }
 
     static double PendulumPeriodError(AccuracySettings settings, Vector3 origin)

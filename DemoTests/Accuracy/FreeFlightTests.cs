@@ -59,7 +59,7 @@ public class FreeFlightTests(ITestOutputHelper output)
         new CaseResult("I1", scene, settings)
             .Limit("error of the fall", error / fallen, substepsPaid ? 1e-3 : double.PositiveInfinity, "%")
             .Limit("round-off", roundOff, .01, "m")
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     [Theory]
@@ -91,7 +91,7 @@ public class FreeFlightTests(ITestOutputHelper output)
             // at the defaults, and reported where more is paid.
             result.Limit("missing flips", flips - reference.FlipCount, effort == Effort.Default ? 0 : double.PositiveInfinity);
         }
-        result.Finish(output, enforce: true);
+        result.Finish(output);
     }
 
     [Theory]
@@ -108,7 +108,7 @@ public class FreeFlightTests(ITestOutputHelper output)
         double angle = DoubleQuaternion.AngleBetween(world.Orientation(body), reference.Orientation);
         new CaseResult("I2b", "box from (1, 10, 1) rad/s", $"{settings} {settings.AngularMode}")
             .Limit("attitude", angle * 180 / Math.PI, 5, "degrees")
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     [Theory]
@@ -128,7 +128,7 @@ public class FreeFlightTests(ITestOutputHelper output)
         new CaseResult("I3", "rod at 100 rad/s, 45 degrees", $"{settings} {settings.AngularMode}")
             .Limit("energy", energyError, .01, "%")
             .Limit("momentum", momentumError, .01, "%")
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     /// <summary>

@@ -23,17 +23,6 @@ sealed class RestingPile
         "capsules crosswise", "cylinders crosswise", "capsules in a groove", "cylinders in a groove",
     ];
 
-    /// <summary>Whether a pile is measured, but not judged.</summary>
-    public static bool IsOnlyReported(string name) => name switch
-    {
-        // In labile balance: rounding alone makes it fall.
-        "spheres on each other" => true,
-        // Rollers on rollers hold nothing back, and where a layer moves aside, contacts that give way tilt it further that way: rounding
-        // grows by e in a few seconds.
-        "capsules crosswise" or "cylinders crosswise" => true,
-        _ => false,
-    };
-
     readonly Solids solids;
     readonly List<Resting> bodies = [];
     double top;

@@ -43,7 +43,7 @@ public class SlopeTests(ITestOutputHelper output)
             result.Limit("creep", slid, .001, "m");
         else
             result.Limit("distance", slid / expected - 1, .05, "%").Note("slid", slid, "m");
-        result.Finish(output, enforce: effort == Effort.Accurate);
+        result.Finish(output);
     }
 
     /// <summary>Both where sliding is slow, so that the coefficient is known to a tenth of a percent, and where it is fast.</summary>
@@ -70,7 +70,7 @@ public class SlopeTests(ITestOutputHelper output)
             .Limit("error at 30 degrees", atSteep / Friction - 1, .02, "%")
             .Limit("error at 1.05 mu", atShallow / Friction - 1, .02, "%")
             .Note("mu", atSteep)
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     public static TheoryData<string, string, Effort> ShapesOnFloors()
@@ -102,7 +102,7 @@ public class SlopeTests(ITestOutputHelper output)
         new CaseResult("C1", $"{solid} on {floor}", settings)
             .Limit("creep at .98 mu", SlidDistance(solid, floor, below, settings), .001, "m")
             .Limit("distance at 1.02 mu", slid / SlidingOracle.SlopeDistance(Gravity, above, Friction, Duration) - 1, .05, "%")
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     [Theory]
@@ -117,7 +117,7 @@ public class SlopeTests(ITestOutputHelper output)
             .Limit("error at 30 degrees", atSteep / Friction - 1, .02, "%")
             .Limit("error at 1.05 mu", atShallow / Friction - 1, .02, "%")
             .Note("mu", atSteep)
-            .Finish(output, enforce: effort == Effort.Accurate);
+            .Finish(output);
     }
 
     /// <summary>Way down the slope in five seconds from rest, starting in contact.</summary>

@@ -6,9 +6,8 @@ namespace Demos.Accuracy;
 /// <param name="Id">The family, as C5.</param>
 /// <param name="Scene">What is simulated.</param>
 /// <param name="Effort">What the run pays.</param>
-/// <param name="IsJudged">Whether its limits must be met; else they are only reported.</param>
 /// <param name="Run">Simulates it with settings and adds figures to a result.</param>
-sealed record AccuracyCase(string Id, string Scene, Effort Effort, bool IsJudged, Action<AccuracySettings, CaseResult> Run)
+sealed record AccuracyCase(string Id, string Scene, Effort Effort, Action<AccuracySettings, CaseResult> Run)
 {
     public string Name => $"{Id} {Scene}, {Effort}";
 

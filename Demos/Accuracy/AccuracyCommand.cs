@@ -60,11 +60,11 @@ static class AccuracyCommand
         bool isComplete = results.Count == cases.Length;
         var table = new TextTable("case", "scene", "settings", "measured", "must", "verdict");
         foreach ((AccuracyCase subject, CaseResult result) in results)
-            table.Add(subject.Id, subject.Scene, result.Settings, result.Found, result.Must, result.Verdict(subject.IsJudged));
+            table.Add(subject.Id, subject.Scene, result.Settings, result.Found, result.Must, result.Verdict);
         table.Write(terminal.Output);
-        int judged = results.Count(entry => entry.Case.IsJudged), failed = results.Count(entry => entry.Result.Failure(entry.Case.IsJudged) is not null);
-        int missed = results.Count(entry => !entry.Case.IsJudged && !entry.Result.IsMet);
-        terminal.Output.WriteLine($"{judged} judged, {failed} failed; {results.Count - judged} reported, {missed} beyond what is wished for");
+        int met = results.Count(entry => entry.Result.IsMet), failed = results.Count(entry => entry.Result.Failure is not null);
+        int known = results.Count(entry => !entry.Result.IsMet && entry.Result.KnownMiss is not null);
+        terminal.Output.WriteLine($"{met} of {results.Count} met, {known} known not to be, {failed} failed");
         if (jsonPath is not null)
             File.WriteAllText(jsonPath, ToJson(results, isComplete));
         if (pagePath is not null)
@@ -96,7 +96,7 @@ static class AccuracyCommand
         new AccuracyRunJson(EngineDefaults.Name, isComplete,
         [
             .. results.Select(entry => new AccuracyCaseJson(entry.Case.Id, entry.Case.Scene, entry.Case.Effort.ToString(), entry.Result.Settings,
-                entry.Case.IsJudged, entry.Result.IsMet,
+                entry.Result.IsMet, entry.Result.KnownMiss,
                 [.. entry.Result.Figures.Select(figure => new AccuracyFigureJson(figure.Quantity, Known(figure.Value), Known(figure.Limit), figure.Unit))])),
         ]),
         AccuracyJsonContext.Default.AccuracyRunJson);

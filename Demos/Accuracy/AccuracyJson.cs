@@ -7,7 +7,8 @@ namespace Demos.Accuracy;
 sealed record AccuracyFigureJson(string Quantity, double? Value, double? Limit, string Unit);
 
 /// <summary>A case as it is written to a file.</summary>
-sealed record AccuracyCaseJson(string Case, string Scene, string Effort, string Settings, bool Judged, bool Met, IReadOnlyList<AccuracyFigureJson> Figures);
+sealed record AccuracyCaseJson(string Case, string Scene, string Effort, string Settings, bool Met, string? KnownMiss,
+    IReadOnlyList<AccuracyFigureJson> Figures);
 
 /// <summary>A run of the suite as it is written to a file.</summary>
 sealed record AccuracyRunJson(string Engine, bool Complete, IReadOnlyList<AccuracyCaseJson> Cases);

@@ -21,8 +21,7 @@ static class AccuracySuite
     /// <summary>A case at both efforts.</summary>
     /// <param name="id">The family.</param>
     /// <param name="scene">What is simulated.</param>
-    /// <param name="isJudged">Whether its limits must be met at the accurate effort; at the default they are reported.</param>
     /// <param name="run">Simulates it.</param>
-    public static IEnumerable<AccuracyCase> AtBothEfforts(string id, string scene, bool isJudged, Action<AccuracySettings, CaseResult> run) =>
-        Enum.GetValues<Effort>().Select(effort => new AccuracyCase(id, scene, effort, isJudged && effort == Effort.Accurate, run));
+    public static IEnumerable<AccuracyCase> AtBothEfforts(string id, string scene, Action<AccuracySettings, CaseResult> run) =>
+        Enum.GetValues<Effort>().Select(effort => new AccuracyCase(id, scene, effort, run));
 }

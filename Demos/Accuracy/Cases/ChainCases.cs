@@ -10,7 +10,7 @@ static class ChainCases
     const int LinkCount = 100;
 
     public static IEnumerable<AccuracyCase> All { get; } = Enum.GetValues<ChainStart>().SelectMany(start => new[] { 1f, 100, 1000 }.SelectMany(load =>
-        AccuracySuite.AtBothEfforts("J3", FormattableString.Invariant($"{start}, 1:{load}"), false, (settings, result) => Run(settings, start, load, result))));
+        AccuracySuite.AtBothEfforts("J3", FormattableString.Invariant($"{start}, 1:{load}"), (settings, result) => Run(settings, start, load, result))));
 
     static void Run(AccuracySettings settings, ChainStart start, float load, CaseResult result)
     {

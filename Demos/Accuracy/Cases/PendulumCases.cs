@@ -5,7 +5,7 @@ namespace Demos.Accuracy.Cases;
 /// <summary>A pendulum of 1 m, let go at the horizontal (J1): period by the arithmetic-geometric mean, energy and joint gap over a minute.</summary>
 static class PendulumCases
 {
-    public static IEnumerable<AccuracyCase> All { get; } = AccuracySuite.AtBothEfforts("J1", "pendulum from the horizontal", true, Run);
+    public static IEnumerable<AccuracyCase> All { get; } = AccuracySuite.AtBothEfforts("J1", "pendulum from the horizontal", Run);
 
     static void Run(AccuracySettings settings, CaseResult result)
     {

@@ -12,7 +12,7 @@ namespace Demos.Accuracy.Cases;
 static class RestCases
 {
     public static IEnumerable<AccuracyCase> All { get; } = new[] { 1f, 1000 }.SelectMany(mass =>
-        AccuracySuite.AtBothEfforts("C4", FormattableString.Invariant($"box of {mass} kg"), true, (settings, result) => Run(settings, mass, result)));
+        AccuracySuite.AtBothEfforts("C4", FormattableString.Invariant($"box of {mass} kg"), (settings, result) => Run(settings, mass, result)));
 
     static void Run(AccuracySettings settings, float mass, CaseResult result)
     {

@@ -10,9 +10,9 @@ static class StackCases
     public static IEnumerable<AccuracyCase> All { get; } =
     [
         .. new[] { 10, 30, 100 }.SelectMany(count =>
-            AccuracySuite.AtBothEfforts("C5", $"stack of {count}", false, (settings, result) => RunTall(settings, count, result))),
+            AccuracySuite.AtBothEfforts("C5", $"stack of {count}", (settings, result) => RunTall(settings, count, result))),
         .. new[] { 1, 10 }.SelectMany(lightCount => new[] { 10f, 100, 1000, 10_000 }.SelectMany(ratio =>
-            AccuracySuite.AtBothEfforts("C6", FormattableString.Invariant($"1:{ratio} on {lightCount}"), false,
+            AccuracySuite.AtBothEfforts("C6", FormattableString.Invariant($"1:{ratio} on {lightCount}"),
                 (settings, result) => RunHeavy(settings, lightCount, ratio, result)))),
     ];
 
