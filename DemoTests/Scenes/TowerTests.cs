@@ -59,6 +59,20 @@ public class TowerTests
         Assert.InRange(result.Lean, 0, .2);
     }
 
+    /// <summary>Of which the topmost box is pushed: while a stack sways its contacts are let go, or it would sway more and more.</summary>
+    [Theory]
+    [InlineData("cubes-20", .5f)]
+    [InlineData("slim-20", .3f)]
+    [InlineData("slim-20", .5f)]
+    [InlineData("slim-house", .1f)]
+    [InlineData("slim-house", .5f)]
+    public void A_pushed_structure_comes_to_rest(string name, float push)
+    {
+        TowerResult result = Watch(name, new TowerSettings { Push = push });
+        Assert.True(result.Stands, $"fell at {result.FellAt} s");
+        Assert.InRange(result.Lean, 0, .15);
+    }
+
     /// <summary>At the time at which they fall with 64 relaxed substeps, to a fifth: softer contacts let them begin to fall at once.</summary>
     [Theory]
     [InlineData("offset-.09")]

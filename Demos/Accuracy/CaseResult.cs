@@ -62,7 +62,9 @@ sealed class CaseResult(string id, string scene, object settings)
     /// <summary>A row of the page.</summary>
     public string Row => $"| {id} | {scene} | {settings} | {Found} | {Must} | {Verdict} |";
 
-    /// <summary>What is wrong, or null: a figure that is not finite always is, one beyond its limit where that is not known; and a known miss that is none.</summary>
+    /// <summary>
+    /// What is wrong, or null: a figure that is not finite always is, one beyond its limit where that is not known; and a known miss that is none.
+    /// </summary>
     public string? Failure
     {
         get

@@ -40,7 +40,8 @@ static class KnownMisses
             ("HorizontalZigzag, 1:1000", "s16 i1 r1 stiff"));
         Add("R1", "it rolls over the gap between the boxes",
             ("lying cylinder on two boxes", "s4 i1"));
-        // Rollers on rollers hold nothing back, and where a layer moves aside, contacts that give way tilt it further that way: rounding grows by e in a few seconds.
+        // Rollers on rollers hold nothing back, and where a layer moves aside, contacts that give way tilt it further that way: rounding grows by e in a
+        // few seconds.
         Add("R1", "in labile balance: rounding alone makes it fall",
             ("ten: capsules crosswise", "s16 i1 r1 stiff"),
             ("ten: capsules crosswise", "s4 i1"),

@@ -10,17 +10,18 @@ static class Houses
     /// <summary>A house of five storeys, one of cards, and two towers of blocks.</summary>
     public static IEnumerable<Structure> All()
     {
-        yield return new("house", "house of five storeys of uprights and lintels", House) { FreeAxes = Vector3.UnitZ };
+        yield return new("house", "house of five storeys of uprights and lintels", () => House("house", .4f)) { FreeAxes = Vector3.UnitZ };
+        yield return new("slim-house", "house of five storeys on uprights of 5 cm", () => House("slim-house", .05f)) { FreeAxes = Vector3.UnitZ };
         yield return new("card-house", "card house of three storeys", CardHouse) { FreeAxes = Vector3.UnitZ };
         yield return new("jenga-75", "18 layers of blocks of 75 x 15 x 25 cm", () => Jenga("jenga-75", .75f));
         yield return new("jenga-7.5", "18 layers of blocks of 7.5 x 1.5 x 2.5 cm", () => Jenga("jenga-7.5", .075f)) { Scale = .1f };
     }
 
-    static SceneDescription House()
+    static SceneDescription House(string name, float thickness)
     {
-        var upright = new Vector3(.4f, 1.5f, .8f);
+        var upright = new Vector3(thickness, 1.5f, .8f);
         var lintel = new Vector3(3, .3f, .8f);
-        SceneDescription scene = Ground.Create("house");
+        SceneDescription scene = Ground.Create(name);
         for (int storey = 0; storey < 5; ++storey)
         {
             float floor = storey * (upright.Y + lintel.Y);

@@ -16,6 +16,9 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
     // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
     const float LeastSlope = 0.8f;
+    // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
+    // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
+    const float RestingSteps = 1;
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
     const float SlidingShare = 0.99f;
     const float SlidingSteps = 0.1f;
@@ -58,6 +61,9 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
         if (carries == Vector<int>.Zero)
             return 0;
 
+        var resting = new Vector<float>(RestingSteps) * fastest;
+        carries &= Vector.LessThan((velocityA.Linear - gainA).LengthSquared(), resting * resting);
+        carries &= Vector.LessThan((velocityB.Linear - gainB).LengthSquared(), resting * resting);
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         var quiet = new Vector<float>(quietSteps) * fastest;
         var slides = Vector<int>.Zero;
