@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.Diagnostics;
 
 namespace BepuPhysics;
@@ -7,20 +6,45 @@ namespace BepuPhysics;
 /// <summary>Seconds that each stage of the last step took, by the object that is responsible for the stage.</summary>
 public sealed class SimulationProfiler
 {
-    readonly Dictionary<object, double> seconds = new(8);
+    // A handful: looking through them costs less than a hash of one.
+    (object Stage, long Ticks)[] times = [];
 
     /// <summary>Key of the time in which contacts become constraints.</summary>
     public static object Flush { get; } = new();
 
     /// <summary>Seconds that a stage took in the last step; 0 where it did not run.</summary>
-    public double this[object stage] => seconds.TryGetValue(stage, out var value) ? value : 0;
+    public double this[object stage]
+    {
+        get
+        {
+            foreach (var time in times)
+            {
+                if (time.Stage == stage)
+                    return Stopwatch.GetElapsedTime(0, time.Ticks).TotalSeconds;
+            }
+            return 0;
+        }
+    }
 
     internal Timer Time(object stage) => new(this, stage);
+
+    void Set(object stage, long ticks)
+    {
+        for (int i = 0; i < times.Length; ++i)
+        {
+            if (times[i].Stage == stage)
+            {
+                times[i].Ticks = ticks;
+                return;
+            }
+        }
+        times = [.. times, (stage, ticks)];
+    }
 
     internal readonly struct Timer(SimulationProfiler profiler, object stage) : IDisposable
     {
         readonly long start = Stopwatch.GetTimestamp();
 
-        public void Dispose() => profiler.seconds[stage] = Stopwatch.GetElapsedTime(start).TotalSeconds;
+        public void Dispose() => profiler.Set(stage, Stopwatch.GetTimestamp() - start);
     }
 }

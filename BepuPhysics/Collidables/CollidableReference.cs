@@ -4,7 +4,7 @@ using System.Diagnostics.CodeAnalysis;
 namespace BepuPhysics.Collidables;
 
 /// <summary>Names a body or a static as the collision detection sees it.</summary>
-public struct CollidableReference : IEquatable<CollidableReference>
+public record struct CollidableReference
 {
     const int MobilityShift = 30;
 
@@ -47,15 +47,5 @@ public struct CollidableReference : IEquatable<CollidableReference>
         throw new ArgumentOutOfRangeException(nameof(handleValue), handleValue, "No body or static has a handle of that value.");
 
     /// <inheritdoc/>
-    public readonly bool Equals(CollidableReference other) => Packed == other.Packed;
-    /// <inheritdoc/>
-    public override readonly bool Equals(object? obj) => obj is CollidableReference other && Equals(other);
-    /// <inheritdoc/>
-    public override readonly int GetHashCode() => (int)Packed;
-    /// <inheritdoc/>
     public override readonly string ToString() => Mobility == CollidableMobility.Static ? StaticHandle.ToString() : $"{Mobility} {BodyHandle}";
-    /// <summary>Whether both name the same collidable.</summary>
-    public static bool operator ==(CollidableReference a, CollidableReference b) => a.Packed == b.Packed;
-    /// <summary>Whether the two name different collidables.</summary>
-    public static bool operator !=(CollidableReference a, CollidableReference b) => a.Packed != b.Packed;
 }

@@ -3,7 +3,7 @@ using System;
 namespace BepuPhysics.Collidables;
 
 /// <summary>Names a shape: its type and its index among the shapes of that type. The default names no shape.</summary>
-public struct TypedIndex : IEquatable<TypedIndex>
+public record struct TypedIndex
 {
     /// <summary>Number of shape types that can be told apart.</summary>
     public const int MaximumTypeCount = 1 << TypeBits;
@@ -37,15 +37,5 @@ public struct TypedIndex : IEquatable<TypedIndex>
     public readonly bool Exists => (Packed & 1u << 31) != 0;
 
     /// <inheritdoc/>
-    public readonly bool Equals(TypedIndex other) => Packed == other.Packed;
-    /// <inheritdoc/>
-    public override readonly bool Equals(object? obj) => obj is TypedIndex other && Equals(other);
-    /// <inheritdoc/>
-    public override readonly int GetHashCode() => (int)Packed;
-    /// <inheritdoc/>
     public override readonly string ToString() => Exists ? $"shape {Index} of type {Type}" : "no shape";
-    /// <summary>Whether both name the same shape.</summary>
-    public static bool operator ==(TypedIndex a, TypedIndex b) => a.Packed == b.Packed;
-    /// <summary>Whether the two name different shapes.</summary>
-    public static bool operator !=(TypedIndex a, TypedIndex b) => a.Packed != b.Packed;
 }

@@ -120,28 +120,11 @@ unsafe readonly struct ContactConstraint
             if (kept.Places[i] >= 0)
                 continue;
             var arm = Contact(manifold, i).Offset - drift;
-            var place = FindFree(arms, kept.Taken, arm);
+            var place = arms.FindNearest(kept.Taken, arm);
             kept.Places[i] = place;
             kept.Taken |= 1 << place;
             WriteArm(place, arm);
         }
-    }
-
-    int FindFree(in OldArms arms, int taken, Vector3 arm)
-    {
-        int nearest = -1;
-        float least = 0;
-        for (int i = 0; i < contactCount; ++i)
-        {
-            if ((taken & 1 << i) != 0)
-                continue;
-            var distance = Exact.DistanceSquared(arms[i], arm);
-            if (nearest >= 0 && !(distance < least))
-                continue;
-            least = distance;
-            nearest = i;
-        }
-        return nearest;
     }
 
     // The force of a kept patch points where it did, while its normal turns with the bodies: what that leaves of the normal force is friction. A load that
@@ -240,7 +223,8 @@ unsafe readonly struct ContactConstraint
         {
             if ((received & 1 << i) != 0)
                 continue;
-            var nearest = old.FindNearest(given, Unsafe.Add(ref contact, i).Offset);
+            old.GetArms(out var arms);
+            var nearest = arms.FindNearest(given, Unsafe.Add(ref contact, i).Offset);
             if (nearest < 0)
                 continue;
             normals[i] = old.Normals[nearest];

@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.Intrinsics;
 using BepuPhysics.Constraints.Contact;
-using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -29,25 +28,7 @@ struct ContactPatch
     /// <summary>Impulse against turning about the normal, N m s.</summary>
     public float Twist;
 
-    /// <summary>The nearest contact among those that are left; -1 where none is.</summary>
-    /// <param name="taken">A bit for each contact that is not left.</param>
-    /// <param name="offset">Place relative to the centre of A.</param>
-    public readonly int FindNearest(int taken, Vector3 offset)
-    {
-        int nearest = -1;
-        float least = float.MaxValue;
-        for (int i = 0; i < Count; ++i)
-        {
-            var distance = Exact.DistanceSquared(Arms[i], offset);
-            if ((taken & 1 << i) != 0 || (nearest >= 0 && !(distance < least)))
-                continue;
-            least = distance;
-            nearest = i;
-        }
-        return nearest;
-    }
-
-    /// <summary>The arms, where there are three or four.</summary>
+    /// <summary>The arms; of lanes beyond the count nothing is known.</summary>
     public readonly void GetArms(out OldArms arms)
     {
         arms.X = Vector128.Create(Arms[0].X, Arms[1].X, Arms[2].X, Arms[3].X);

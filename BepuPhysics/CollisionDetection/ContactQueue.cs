@@ -34,6 +34,9 @@ unsafe struct ContactQueue
     int located;
     int written;
 
+    /// <summary>Forgets all contacts.</summary>
+    public void Clear() => added = located = written = 0;
+
     /// <summary>Adds the contacts of a manifold whose constraint has as many.</summary>
     /// <param name="solver">The constraints.</param>
     /// <param name="features">What the cache remembers the contacts by; it stays where it is until they are written.</param>

@@ -128,16 +128,19 @@ struct KeptArms
     static Vector128<float> LengthSquared(Vector128<float> x, Vector128<float> y, Vector128<float> z) => x * x + y * y + z * z;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector128<float> DistanceSquared(Vector128<float> x, Vector128<float> y, Vector128<float> z, in Vector3 place) =>
+    internal static Vector128<float> DistanceSquared(Vector128<float> x, Vector128<float> y, Vector128<float> z, in Vector3 place) =>
         LengthSquared(x - Vector128.Create(place.X), y - Vector128.Create(place.Y), z - Vector128.Create(place.Z));
 
-    static int Nearest(Vector128<float> distances, uint candidates)
+    /// <summary>The nearest of some contacts; the first of several, -1 where there is none.</summary>
+    /// <param name="distances">Square of the distance of each.</param>
+    /// <param name="candidates">A bit for each that is asked about.</param>
+    internal static int Nearest(Vector128<float> distances, uint candidates)
     {
-        var nearest = BitOperations.TrailingZeroCount(candidates);
-        for (var rest = candidates & candidates - 1; rest != 0; rest &= rest - 1)
+        int nearest = -1;
+        for (; candidates != 0; candidates &= candidates - 1)
         {
-            var candidate = BitOperations.TrailingZeroCount(rest);
-            if (distances.GetElement(candidate) < distances.GetElement(nearest))
+            var candidate = BitOperations.TrailingZeroCount(candidates);
+            if (nearest < 0 || distances.GetElement(candidate) < distances.GetElement(nearest))
                 nearest = candidate;
         }
         return nearest;
@@ -174,4 +177,10 @@ struct OldArms
 
     /// <summary>Arm of a contact.</summary>
     public readonly Vector3 this[int contact] => new(X.GetElement(contact), Y.GetElement(contact), Z.GetElement(contact));
+
+    /// <summary>The contact nearest to a place among those that are left; -1 where none is.</summary>
+    /// <param name="taken">A bit for each contact that is not left.</param>
+    /// <param name="place">Place relative to the centre of A.</param>
+    public readonly int FindNearest(int taken, in Vector3 place) =>
+        KeptArms.Nearest(KeptArms.DistanceSquared(X, Y, Z, place), (1u << Count) - 1 & ~(uint)taken);
 }

@@ -64,8 +64,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         finally
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
-            if (order.Span.Allocated)
-                order.Dispose(Pool);
+            Release(ref order, Pool);
             ReleaseWorkers();
         }
     }
@@ -73,7 +72,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void ApplyChanges()
     {
         RemoveUnseenPairs();
-        order = new QuickList<NoteKey>(64, Pool);
         RemoveGoneManifolds();
         order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
@@ -87,7 +85,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         WatchBouncingPairs();
     }
 
-    // Only some pairs need some lists; no others pay for them.
+    // Only some steps, and some pairs, need a list; no others pay for it.
     static void Note<T>(ref QuickList<T> notes, in T note, BufferPool pool) where T : unmanaged
     {
         if (!notes.Span.Allocated)
@@ -98,11 +96,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void Gather<T>(ref QuickList<T> notes, int worker) where T : unmanaged, INote
     {
         for (int i = 0; i < notes.Count; ++i)
-            order.Add(new() { Key = Key(notes[i].Pair), Worker = worker, Index = i }, Pool);
+            Note(ref order, new() { Key = Key(notes[i].Pair), Worker = worker, Index = i }, Pool);
     }
 
     void SortByKey()
     {
+        if (order.Count < 2)
+            return;
         var comparer = new ByKey();
         QuickSort.Sort(order.Span, order.Count, ref comparer);
     }

@@ -110,8 +110,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 if (TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
                     continue;
             }
-            worker.Pending.Add(
-                new(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material }, worker.Pool);
+            Note(ref worker.Pending, new(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material }, worker.Pool);
         }
         SkipGone(ref worker, tested.Pair, ref known, ulong.MaxValue);
     }

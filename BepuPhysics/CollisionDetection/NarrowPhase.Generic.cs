@@ -28,6 +28,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public QuickList<PendingManifold> Pending;
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
+        /// <summary>Null where the worker has no memory: before a step, and after it.</summary>
         public BufferPool Pool;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
         public int PairsLeft;
@@ -188,7 +189,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
                 return;
             }
         }
-        worker.Pending.Add(new(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material }, worker.Pool);
+        Note(ref worker.Pending, new(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material }, worker.Pool);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -212,22 +213,27 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             if (tested.ConstraintTypeId == CachedManifold.NoConstraint)
                 return;
         }
-        worker.Pending.Add(new(tested.Pair, ChildIds.None, keepsHistory: true), worker.Pool);
+        Note(ref worker.Pending, new(tested.Pair, ChildIds.None, keepsHistory: true), worker.Pool);
     }
 
     void Release(ref Worker worker)
     {
         if (worker.Pool is null)
             return;
-        worker.Pool.RemoveUser(this);
+        if (worker.Pool != Pool)
+            worker.Pool.RemoveUser(this);
         worker.Batcher.Dispose();
         worker.TestedPairs.Dispose(worker.Pool);
-        worker.Pending.Dispose(worker.Pool);
-        if (worker.Bouncing.Span.Allocated)
-            worker.Bouncing.Dispose(worker.Pool);
-        if (worker.Gone.Span.Allocated)
-            worker.Gone.Dispose(worker.Pool);
-        worker = default;
+        Release(ref worker.Pending, worker.Pool);
+        Release(ref worker.Bouncing, worker.Pool);
+        Release(ref worker.Gone, worker.Pool);
+        worker.Pool = null!;
+    }
+
+    static void Release<T>(ref QuickList<T> notes, BufferPool pool) where T : unmanaged
+    {
+        if (notes.Span.Allocated)
+            notes.Dispose(pool);
     }
 
     void ReleaseWorkers()

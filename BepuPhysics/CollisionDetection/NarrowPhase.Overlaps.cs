@@ -1,7 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.CollisionDetection;
@@ -72,17 +71,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher)
     {
-        worker.Queue = default;
+        worker.Queue.Clear();
         worker.Pool = dispatcher is null ? Pool : dispatcher.WorkerPools[index];
         if (worker.Pool != Pool)
             worker.Pool.AddUser(this);
         worker.Batcher = new CollisionBatcher<Completion>(
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
-        worker.Contacts = default;
-        worker.Pending = new QuickList<PendingManifold>(16, worker.Pool);
-        worker.Bouncing = default;
-        worker.Gone = default;
+        worker.Contacts.Clear();
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }

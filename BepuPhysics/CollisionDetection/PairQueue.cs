@@ -33,6 +33,9 @@ unsafe struct PairQueue
     int added;
     int taken;
 
+    /// <summary>Forgets all pairs.</summary>
+    public void Clear() => added = taken = 0;
+
     /// <summary>Adds a pair. There must be room: <see cref="TryTake"/> after each.</summary>
     public void Add(in PairCache cache, Bodies bodies, CollidablePair pair)
     {

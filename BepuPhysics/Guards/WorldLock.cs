@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using System.Threading;
 
 namespace BepuPhysics;
@@ -43,8 +44,9 @@ sealed class WorldLock
         get
         {
             int sum = 0;
+            ref var first = ref MemoryMarshal.GetArrayDataReference(reading);
             for (int i = 1; i <= StripeCount; ++i)
-                sum += Volatile.Read(ref reading[i * StripeLength]);
+                sum += Volatile.Read(ref Unsafe.Add(ref first, i * StripeLength));
             return sum != 0;
         }
     }
@@ -77,8 +79,8 @@ sealed class WorldLock
     /// <summary>As <see cref="Change"/>, until <see cref="Release"/>.</summary>
     internal void Hold(string operation)
     {
-        Take(operation);
-        if (IsStepOfOther || IsRead)
+        var thread = Take(operation);
+        if ((Volatile.Read(ref stepper) is var other and not 0 && other != thread) || IsRead)
             Refuse(operation);
         activity = operation;
     }
@@ -168,16 +170,17 @@ sealed class WorldLock
     /// <summary>Ends a substep event.</summary>
     internal void EndEvent() => Volatile.Write(ref eventThread, 0);
 
-    bool IsStepOfOther => Volatile.Read(ref stepper) is var thread and not 0 && thread != CurrentThread;
-
     bool MayReadNow(int thread) =>
         Volatile.Read(ref eventThread) == thread || (readableStage != 0 && markedStage == readableStage);
 
-    void Take(string operation)
+    // Tells which thread is calling, as asking takes a while.
+    int Take(string operation)
     {
         CheckAlive();
-        if (Interlocked.CompareExchange(ref holder, CurrentThread, 0) != 0)
+        var thread = CurrentThread;
+        if (Interlocked.CompareExchange(ref holder, thread, 0) != 0)
             ThrowBusy(operation);
+        return thread;
     }
 
     [DoesNotReturn]

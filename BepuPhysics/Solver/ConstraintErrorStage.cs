@@ -29,6 +29,8 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
 
     bool ISolverStage.ChangesVelocities => false;
 
+    bool ISolverStage.IsNeeded => solver.Governor is not null;
+
     int ISolverStage.GetBlockCount(SolverPoint point)
     {
         if (point != SolverPoint.AfterSubsteps || solver.Governor is null)

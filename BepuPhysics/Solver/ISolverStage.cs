@@ -33,6 +33,9 @@ interface ISolverStage
     /// <summary>Whether it changes velocities.</summary>
     bool ChangesVelocities => true;
 
+    /// <summary>Whether it may have blocks anywhere in the step; one that is not needed is not asked where.</summary>
+    bool IsNeeded => true;
+
     /// <summary>Number of independent blocks of work at a point, known before the step.</summary>
     int GetBlockCount(SolverPoint point);
 

@@ -37,8 +37,7 @@ readonly unsafe struct Islands
         pool.Take<int>(Math.Max(1, set.Count), out var parents);
         // Island of a root, plus one.
         pool.Take<int>(Math.Max(1, set.Count), out var islands);
-        for (int i = 0; i < set.Count; ++i)
-            parents[i] = i;
+        DisjointSets.Begin(parents, set.Count);
         islands.Clear(0, set.Count);
         starts.Clear(0, set.Count + 1);
         Connect(solver, parents);
@@ -47,7 +46,7 @@ readonly unsafe struct Islands
         {
             if (!IsDynamic(all, slot, out var index))
                 continue;
-            ref var island = ref islands[Root(parents, index)];
+            ref var island = ref islands[DisjointSets.Root(parents, index)];
             if (island == 0)
                 island = ++Count;
             ++starts[island];
@@ -58,7 +57,7 @@ readonly unsafe struct Islands
         for (int slot = 0; slot <= all.HandlePool.HighestPossiblyClaimedId; ++slot)
         {
             if (IsDynamic(all, slot, out var index))
-                bodies[next[islands[Root(parents, index)] - 1]++] = index;
+                bodies[next[islands[DisjointSets.Root(parents, index)] - 1]++] = index;
         }
         pool.Return(ref next);
         pool.Return(ref parents);
@@ -89,22 +88,12 @@ readonly unsafe struct Islands
                         var reference = processor.BodyReference(ref typeBatch, k, slot);
                         if ((reference & EncodedBody.KinematicFlag) != 0)
                             continue;
-                        var root = Root(parents, reference & EncodedBody.IndexMask);
-                        if (first >= 0)
-                            parents[Math.Max(first, root)] = Math.Min(first, root);
-                        first = first < 0 ? root : Math.Min(first, root);
+                        var root = DisjointSets.Root(parents, reference & EncodedBody.IndexMask);
+                        first = first < 0 ? root : DisjointSets.Join(parents, first, root);
                     }
                 }
             }
         }
-    }
-
-    // Every step halves the path, so that no forest grows deep.
-    static int Root(Buffer<int> parents, int index)
-    {
-        while (parents[index] != index)
-            index = parents[index] = parents[parents[index]];
-        return index;
     }
 
     internal void Dispose(BufferPool pool)

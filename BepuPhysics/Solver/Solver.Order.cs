@@ -27,9 +27,11 @@ public sealed unsafe partial class Solver
     // Part of the state of a simulation: it begins with zero and takes the same values in each run.
     uint shuffleState;
 
-    /// <summary>Lists the batches that have joints, in the order of their indices.</summary>
+    /// <summary>Lists the batches that have joints, in the order of their indices, if any sweep goes through them in another.</summary>
     void BuildOrder(ref SolveWork work)
     {
+        if (hubsToShuffleForOneSweep + hubsToShuffleForSweeps == 0)
+            return;
         work.Order = new QuickList<int>(Math.Max(1, work.BlocksOfBatch.Count), pool);
         for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
             if (work.BlocksOfBatch[i].JointCount > 0)

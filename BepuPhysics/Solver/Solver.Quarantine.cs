@@ -1,25 +1,10 @@
-using BepuPhysics.Constraints;
-
 namespace BepuPhysics;
 
 // What becomes of the constraints of bodies that had to be stopped.
 public sealed unsafe partial class Solver
 {
     /// <summary>Whether the last step changed velocities after it had moved the bodies for the last time.</summary>
-    internal bool EndsWithVelocities
-    {
-        get
-        {
-            if (relaxationIterationCount > 0)
-                return true;
-            for (int i = 0; i < OptionalStages.Count; ++i)
-            {
-                if (OptionalStages[i].ChangesVelocities && OptionalStages[i].GetBlockCount(SolverPoint.AfterSubsteps) > 0)
-                    return true;
-            }
-            return false;
-        }
-    }
+    internal bool EndsWithVelocities => relaxationIterationCount > 0 || endsWithVelocities;
 
     /// <summary>Sets the accumulated impulses of a constraint that exists to zero.</summary>
     // Two workers may do so at once, for the two bodies of the constraint: both write zeros.

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -57,13 +58,12 @@ public sealed unsafe partial class Solver
     {
         public StageKind Kind;
         public IntegrationStage Integration;
-        public int Substep;
         public int Batch;
         public int FirstBlock;
         public int BlockCount;
-        public int Iterations;
         public SolverPoint Point;
         public int Optional;
+        public Substep Substep;
     }
 
     // A range of bundles of one type batch.
@@ -82,9 +82,13 @@ public sealed unsafe partial class Solver
         public int Count;
     }
 
+    // Whether the last step changed velocities in an optional stage after its substeps.
+    bool endsWithVelocities;
+
     internal void Step(float dt, IPoseIntegrator integrator, IThreadDispatcher? dispatcher)
     {
         ref var set = ref bodies.Awake;
+        endsWithVelocities = false;
         if (set.Count == 0)
         {
             shuffleState = 0;
@@ -183,47 +187,60 @@ public sealed unsafe partial class Solver
     {
         BuildOrder(ref work);
         work.Stages = new QuickList<Stage>(64, pool);
-        work.Iterations = IterationsOf(0);
         Span<int> optional = stackalloc int[OptionalStages.Count * SolverPoints.Count];
         if (!CountOptional(optional))
             optional = default;
-        AddOptional(ref work, optional, SolverPoint.BeforeSubsteps, 0);
+        BeginSubstep(ref work, 0);
+        AddOptional(ref work, optional, SolverPoint.BeforeSubsteps);
         var relaxes = relaxationIterationCount > 0;
         for (int substep = 0; substep < LastSubstepCount; ++substep)
         {
-            work.Iterations = IterationsOf(substep);
+            if (substep > 0)
+                BeginSubstep(ref work, substep);
             if (SubstepStarted is not null)
-                work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = substep, BlockCount = 1 }, pool);
-            AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between, substep);
-            AddOptional(ref work, optional, SolverPoint.AfterIntegration, substep);
-            AddOptional(ref work, optional, SolverPoint.BeforeWarmStart, substep);
+                work.Stages.Add(new() { Kind = StageKind.SubstepStarted, Substep = work.Substep, BlockCount = 1 }, pool);
+            AddIntegration(ref work, substep == 0 ? IntegrationStage.First : relaxes ? IntegrationStage.Velocities : IntegrationStage.Between);
+            AddOptional(ref work, optional, SolverPoint.AfterIntegration);
+            AddOptional(ref work, optional, SolverPoint.BeforeWarmStart);
             if (substep == 0)
             {
-                AddOptional(ref work, optional, SolverPoint.BeforeFirstWarmStart, substep);
-                AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart, substep);
+                AddOptional(ref work, optional, SolverPoint.BeforeFirstWarmStart);
+                AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart);
             }
             ShuffleOrder(ref work);
-            AddSweep(ref work, StageKind.WarmStart, substep);
-            AddOptional(ref work, optional, SolverPoint.AfterWarmStart, substep);
+            AddSweep(ref work, StageKind.WarmStart, work.Substep);
+            AddOptional(ref work, optional, SolverPoint.AfterWarmStart);
             for (int i = work.Iterations; i > 0; --i)
-                AddSweep(ref work, StageKind.Solve, substep);
-            AddOptional(ref work, optional, SolverPoint.AfterSolve, substep);
+                AddSweep(ref work, StageKind.Solve, work.Substep);
+            AddOptional(ref work, optional, SolverPoint.AfterSolve);
             if (relaxes)
-                AddIntegration(ref work, IntegrationStage.Poses, substep);
-            for (int i = relaxationIterationCount; i > 0; --i)
-                AddSweep(ref work, StageKind.Relax, substep);
+            {
+                AddIntegration(ref work, IntegrationStage.Poses);
+                var relaxation = SubstepOf(work, substep, isRelaxation: true);
+                for (int i = relaxationIterationCount; i > 0; --i)
+                    AddSweep(ref work, StageKind.Relax, relaxation);
+            }
             if (SubstepEnded is not null)
-                work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = substep, BlockCount = 1 }, pool);
+                work.Stages.Add(new() { Kind = StageKind.SubstepEnded, Substep = work.Substep, BlockCount = 1 }, pool);
         }
         if (!relaxes)
-            AddIntegration(ref work, IntegrationStage.Last, LastSubstepCount - 1);
-        AddOptional(ref work, optional, SolverPoint.AfterSubsteps, LastSubstepCount - 1);
+            AddIntegration(ref work, IntegrationStage.Last);
+        AddOptional(ref work, optional, SolverPoint.AfterSubsteps);
     }
 
-    void AddIntegration(ref SolveWork work, IntegrationStage stage, int substep)
+    void BeginSubstep(ref SolveWork work, int substep)
+    {
+        work.Iterations = IterationsOf(substep);
+        work.Substep = SubstepOf(work, substep, isRelaxation: false);
+    }
+
+    Substep SubstepOf(in SolveWork work, int substep, bool isRelaxation) => new(
+        substep, work.SubstepDt, substep == 0 ? work.FirstWarmStartScale : 1, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt);
+
+    void AddIntegration(ref SolveWork work, IntegrationStage stage)
     {
         var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
-        work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, Substep = substep, BlockCount = blocks }, pool);
+        work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, BlockCount = blocks }, pool);
     }
 
     int IterationsOf(int substep)
@@ -236,33 +253,43 @@ public sealed unsafe partial class Solver
     bool CountOptional(Span<int> blocks)
     {
         var any = false;
-        for (int i = 0; i < blocks.Length; ++i)
+        for (int i = 0; i < OptionalStages.Count; ++i)
         {
-            blocks[i] = OptionalStages[i / SolverPoints.Count].GetBlockCount((SolverPoint)(i % SolverPoints.Count));
-            any |= blocks[i] > 0;
+            var stage = OptionalStages[i];
+            if (!stage.IsNeeded)
+            {
+                blocks.Slice(i * SolverPoints.Count, SolverPoints.Count).Clear();
+                continue;
+            }
+            for (int point = 0; point < SolverPoints.Count; ++point)
+            {
+                var count = stage.GetBlockCount((SolverPoint)point);
+                blocks[i * SolverPoints.Count + point] = count;
+                any |= count > 0;
+            }
+            endsWithVelocities |= blocks[i * SolverPoints.Count + (int)SolverPoint.AfterSubsteps] > 0 && stage.ChangesVelocities;
         }
         return any;
     }
 
-    void AddOptional(ref SolveWork work, ReadOnlySpan<int> blocks, SolverPoint point, int substep)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void AddOptional(ref SolveWork work, ReadOnlySpan<int> blocks, SolverPoint point)
+    {
+        if (!blocks.IsEmpty)
+            AddOptionalAt(ref work, blocks, point);
+    }
+
+    void AddOptionalAt(ref SolveWork work, ReadOnlySpan<int> blocks, SolverPoint point)
     {
         for (int i = 0; i * SolverPoints.Count < blocks.Length; ++i)
         {
             var count = blocks[i * SolverPoints.Count + (int)point];
             if (count > 0)
-                work.Stages.Add(new()
-                {
-                    Kind = StageKind.Optional,
-                    Substep = substep,
-                    Iterations = work.Iterations,
-                    Point = point,
-                    Optional = i,
-                    BlockCount = count,
-                }, pool);
+                work.Stages.Add(new() { Kind = StageKind.Optional, Substep = work.Substep, Point = point, Optional = i, BlockCount = count }, pool);
         }
     }
 
-    void AddSweep(ref SolveWork work, StageKind kind, int substep)
+    void AddSweep(ref SolveWork work, StageKind kind, in Substep substep)
     {
         if (!work.ShufflesOrder)
         {
@@ -285,21 +312,13 @@ public sealed unsafe partial class Solver
         }
     }
 
-    void AddBatch(ref SolveWork work, StageKind kind, int substep, int batch, int firstBlock, int blockCount)
+    void AddBatch(ref SolveWork work, StageKind kind, in Substep substep, int batch, int firstBlock, int blockCount)
     {
         if (blockCount == 0)
             return;
-        work.Stages.Add(new()
-        {
-            Kind = kind,
-            Substep = substep,
-            Iterations = work.Iterations,
-            Batch = batch,
-            FirstBlock = firstBlock,
-            BlockCount = blockCount,
-        }, pool);
+        work.Stages.Add(new() { Kind = kind, Substep = substep, Batch = batch, FirstBlock = firstBlock, BlockCount = blockCount }, pool);
         if (IsFallback(batch))
-            work.Stages.Add(new() { Kind = StageKind.JoinParts, Substep = substep, Batch = batch, BlockCount = -1 }, pool);
+            work.Stages.Add(new() { Kind = StageKind.JoinParts, Batch = batch, BlockCount = -1 }, pool);
     }
 
     bool IsFallback(int batch) => ActiveSet.Batches[batch].Kind == BatchKind.Fallback;
@@ -311,7 +330,8 @@ public sealed unsafe partial class Solver
         public Solver Solver;
         public IPoseIntegrator Integrator;
         public float SubstepDt;
-        // Sweeps of the substep for which stages are being listed.
+        // The substep for which stages are being listed, and its sweeps.
+        public Substep Substep;
         public int Iterations;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
@@ -348,27 +368,23 @@ public sealed unsafe partial class Solver
                     Split.Join(ref Solver.bodies.Awake, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
                     break;
                 case StageKind.Optional:
-                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, SubstepOf(stage), blockIndex);
+                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, stage.Substep, blockIndex);
                     break;
                 case StageKind.SubstepStarted:
-                    Solver.Raise(Solver.SubstepStarted!, stage.Substep);
+                    Solver.Raise(Solver.SubstepStarted!, stage.Substep.Index);
                     break;
                 case StageKind.SubstepEnded:
-                    Solver.Raise(Solver.SubstepEnded!, stage.Substep);
+                    Solver.Raise(Solver.SubstepEnded!, stage.Substep.Index);
                     break;
             }
         }
-
-        readonly Substep SubstepOf(in Stage stage) => new(
-            stage.Substep, SubstepDt, stage.Substep == 0 ? FirstWarmStartScale : 1, stage.Iterations, Solver.relaxationIterationCount,
-            stage.Kind == StageKind.Relax, Solver.usualSubstepDt);
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {
             ref var constraints = ref Solver.ActiveSet.Batches[stage.Batch];
             ref var batch = ref constraints.TypeBatches[block.TypeBatch];
             var processor = Solver.Processor(batch.TypeId);
-            var substep = SubstepOf(stage);
+            ref readonly var substep = ref stage.Substep;
             if (constraints.Kind == BatchKind.Fallback)
             {
                 var split = Split.For(block.TypeBatch);

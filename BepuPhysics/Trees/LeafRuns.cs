@@ -81,11 +81,9 @@ unsafe struct LeafRuns
                 place += child->LeafCount;
             }
         }
+        // One run of eight floats.
         for (var array = 0; array < ArrayCount; ++array)
-        {
-            for (var place = tree.LeafCount; place < stride; ++place)
-                boxes[place + array * stride] = 0;
-        }
+            Vector256<float>.Zero.Store(boxes + tree.LeafCount + array * stride);
     }
 
     static int[] MakePackings()

@@ -1,5 +1,3 @@
-using System;
-
 namespace BepuPhysics;
 
 /// <summary>Name of a body for as long as it exists. Never changes, unlike the place of the body in memory.</summary>
@@ -7,13 +5,16 @@ namespace BepuPhysics;
 /// No other body gets the same name later: a handle that outlived its body is refused. This holds for the next 255 bodies in the same slot;
 /// after those the value begins anew.
 /// </remarks>
-public struct BodyHandle(int value) : IEquatable<BodyHandle>
+public record struct BodyHandle
 {
     internal const int SlotMask = HandleLayout.SlotMask;
     internal const int MaximumValue = (1 << HandleLayout.ValueBits) - 1;
 
     /// <summary>Value that identifies the body, to be stored and compared; not negative for a body that exists. No index: see <see cref="Slot"/>.</summary>
-    public int Value = value;
+    public int Value;
+
+    /// <summary>Names what has a value.</summary>
+    public BodyHandle(int value) => Value = value;
 
     /// <summary>
     /// Number that no other body has at the same time, as index into arrays of a game's own. Small: the slot of a body that was removed is the
@@ -22,15 +23,5 @@ public struct BodyHandle(int value) : IEquatable<BodyHandle>
     public readonly int Slot => Value & SlotMask;
 
     /// <inheritdoc/>
-    public readonly bool Equals(BodyHandle other) => Value == other.Value;
-    /// <inheritdoc/>
-    public override readonly bool Equals(object? obj) => obj is BodyHandle other && Equals(other);
-    /// <inheritdoc/>
-    public override readonly int GetHashCode() => Value;
-    /// <inheritdoc/>
     public override readonly string ToString() => HandleLayout.Describe("body", Value);
-    /// <summary>Whether both name the same body.</summary>
-    public static bool operator ==(BodyHandle a, BodyHandle b) => a.Value == b.Value;
-    /// <summary>Whether the two name different bodies.</summary>
-    public static bool operator !=(BodyHandle a, BodyHandle b) => a.Value != b.Value;
 }

@@ -1,5 +1,3 @@
-using System;
-
 namespace BepuPhysics;
 
 /// <summary>Name of a static for as long as it exists. Never changes, unlike the place of the static in memory.</summary>
@@ -7,13 +5,16 @@ namespace BepuPhysics;
 /// No other static gets the same name later: a handle that outlived its static is refused. This holds for the next 255 statics in the same slot;
 /// after those the value begins anew.
 /// </remarks>
-public struct StaticHandle(int value) : IEquatable<StaticHandle>
+public record struct StaticHandle
 {
     internal const int SlotMask = HandleLayout.SlotMask;
     internal const int MaximumValue = (1 << HandleLayout.ValueBits) - 1;
 
     /// <summary>Value that identifies the static, to be stored and compared; not negative for a static that exists. No index: see <see cref="Slot"/>.</summary>
-    public int Value = value;
+    public int Value;
+
+    /// <summary>Names what has a value.</summary>
+    public StaticHandle(int value) => Value = value;
 
     /// <summary>
     /// Number that no other static has at the same time, as index into arrays of a game's own. Small: the slot of a static that was removed is the
@@ -22,15 +23,5 @@ public struct StaticHandle(int value) : IEquatable<StaticHandle>
     public readonly int Slot => Value & SlotMask;
 
     /// <inheritdoc/>
-    public readonly bool Equals(StaticHandle other) => Value == other.Value;
-    /// <inheritdoc/>
-    public override readonly bool Equals(object? obj) => obj is StaticHandle other && Equals(other);
-    /// <inheritdoc/>
-    public override readonly int GetHashCode() => Value;
-    /// <inheritdoc/>
     public override readonly string ToString() => HandleLayout.Describe("static", Value);
-    /// <summary>Whether both name the same static.</summary>
-    public static bool operator ==(StaticHandle a, StaticHandle b) => a.Value == b.Value;
-    /// <summary>Whether the two name different statics.</summary>
-    public static bool operator !=(StaticHandle a, StaticHandle b) => a.Value != b.Value;
 }

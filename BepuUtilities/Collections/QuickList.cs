@@ -23,7 +23,7 @@ public partial struct QuickList<T> where T : unmanaged
     public QuickList(int initialCapacity, IUnmanagedMemoryPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        pool.TakeAtLeast(initialCapacity, out Span);
+        PoolCalls.TakeAtLeast(pool, initialCapacity, out Span);
         Count = 0;
     }
 

@@ -115,7 +115,7 @@ public unsafe partial struct Buffer<T> where T : unmanaged
     public void Dispose(IUnmanagedMemoryPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        pool.Return(ref this);
+        PoolCalls.Return(pool, ref this);
     }
 
     /// <summary>The elements as a span.</summary>

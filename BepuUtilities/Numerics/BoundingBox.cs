@@ -86,12 +86,3 @@ public struct BoundingBox
     /// <inheritdoc/>
     public override readonly string ToString() => $"({Min}, {Max})";
 }
-
-/// <summary>A bundle of axis-aligned boxes.</summary>
-public struct BoundingBoxWide : IWide<BoundingBox>
-{
-    /// <summary>Corners with the least coordinates.</summary>
-    public Vector3Wide Min;
-    /// <summary>Corners with the greatest coordinates.</summary>
-    public Vector3Wide Max;
-}

@@ -39,6 +39,19 @@ public class TrigonometryTests
         Assert.InRange(MaximumError(Wide.Cos, Math.Cos, from, to, count), 0, 1e-7);
     }
 
+    [Theory]
+    [InlineData(3f), InlineData(-1e4f), InlineData(float.NaN)]
+    public void AnglesInOtherLanesDoNotChangeABit(float other)
+    {
+        for (var x = -1f; x <= 1; x += 0.0009765625f)
+        {
+            Wide.SinCos(new Vector<float>(x), out var sin, out var cos);
+            Wide.SinCos(new Vector<float>(x).WithElement(0, other), out var mixedSin, out var mixedCos);
+            Assert.Equal(BitConverter.SingleToInt32Bits(sin[1]), BitConverter.SingleToInt32Bits(mixedSin[1]));
+            Assert.Equal(BitConverter.SingleToInt32Bits(cos[1]), BitConverter.SingleToInt32Bits(mixedCos[1]));
+        }
+    }
+
     [Fact]
     public void SineOfSmallAnglesIsRelativelyAccurate()
     {

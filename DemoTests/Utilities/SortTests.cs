@@ -2,7 +2,6 @@ using System;
 using System.Linq;
 using System.Numerics;
 using BepuUtilities.Collections;
-using BepuUtilities.Memory;
 using Xunit;
 
 namespace DemoTests.Utilities;
@@ -20,49 +19,6 @@ public class SortTests
         2 => ulong.MaxValue - (ulong)operation.Value * i,
         _ => ((ulong)operation.Value + i) * 0x9E3779B97F4A7C15,
     };
-
-    [Fact]
-    public void RadixSortIsStable() => OperationSequences.Check(4, 60_000, operations =>
-    {
-        using var pool = new BufferPool();
-        var keys = Keys(operations);
-        var expected = keys.Select((key, index) => (key, index)).OrderBy(pair => pair.key).ToArray();
-        pool.Take(keys.Length + 5, out Buffer<ulong> sorted);
-        pool.Take(keys.Length + 5, out Buffer<int> order);
-        sorted.AsSpan().Fill(77);
-        order.AsSpan().Fill(-7);
-        for (int i = 0; i < keys.Length; ++i)
-        {
-            sorted[i] = keys[i];
-            order[i] = i;
-        }
-        RadixSort.Sort(sorted, order, keys.Length, pool);
-        Assert.Equal(expected, sorted.AsSpan()[..keys.Length].ToArray().Zip(order.AsSpan().ToArray()));
-        Assert.Equal(-1, sorted.AsSpan()[keys.Length..].IndexOfAnyExcept(77ul));
-        Assert.Equal(-1, order.AsSpan()[keys.Length..].IndexOfAnyExcept(-7));
-        pool.Return(ref sorted);
-        pool.Return(ref order);
-        pool.AssertEmpty();
-    });
-
-    [Fact]
-    public void RadixSortOfShortKeysIsStable() => OperationSequences.Check(4, 60_000, operations =>
-    {
-        var keys = Keys(operations).Select(key => (uint)(key >> 8)).ToArray();
-        var values = Enumerable.Range(0, keys.Length).ToArray();
-        var expected = keys.Zip(values).OrderBy(pair => pair.First).ToArray();
-        RadixSort.Sort(keys, values, new uint[keys.Length], new int[keys.Length + 1]);
-        Assert.Equal(expected, keys.Zip(values));
-    });
-
-    [Fact]
-    public void RadixSortRefusesTooLittleScratchMemory()
-    {
-        Assert.Throws<ArgumentOutOfRangeException>(() => RadixSort.Sort(new uint[40], new int[40], new uint[39], new int[40]));
-        Assert.Throws<ArgumentOutOfRangeException>(() => RadixSort.Sort(new uint[40], new int[39], new uint[40], new int[40]));
-        using var pool = new BufferPool();
-        Assert.Throws<ArgumentOutOfRangeException>(() => RadixSort.Sort(default(Buffer<uint>), default, 1, pool));
-    }
 
     [Fact]
     public void QuickSortSorts() => OperationSequences.Check(4, 60_000, operations =>

@@ -14,12 +14,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in PairMotion motion)
     {
-        ref var batch = ref GetBatch(task, taskIndex);
-        var pair = new PairInput(speculativeMargin, pairId, flipped, PairInput.NoHistory);
-        if (flipped)
-            task.Write(ref batch, Shapes, shapeIndexB, shapeIndexA, offsetB, orientationB, orientationA, pair);
-        else
-            task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
+        ref var batch = ref Write(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId,
+            PairInput.NoHistory);
         ((ExpandingTask)task).Parent(batch, batch.Count - 1).Motion = motion;
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);

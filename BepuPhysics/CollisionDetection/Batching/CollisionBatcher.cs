@@ -191,14 +191,22 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
     internal void Add(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, int history)
     {
+        ref var batch = ref Write(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId, history);
+        if (batch.Count == PairBatch.Capacity)
+            Execute(task, ref batch);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    ref PairBatch Write(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, int history)
+    {
         ref var batch = ref GetBatch(task, taskIndex);
         var pair = new PairInput(speculativeMargin, pairId, flipped, history);
         if (flipped)
             task.Write(ref batch, Shapes, shapeIndexB, shapeIndexA, offsetB, orientationB, orientationA, pair);
         else
             task.Write(ref batch, Shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
-        if (batch.Count == PairBatch.Capacity)
-            Execute(task, ref batch);
+        return ref batch;
     }
 
     /// <summary>Tests all pairs that wait, and returns all memory to the pool. The batcher is empty then and may be used again.</summary>

@@ -56,8 +56,14 @@ public abstract unsafe class CollisionTask
 
     /// <summary>As <see cref="Write"/>, unless a shape does not exist.</summary>
     /// <returns>Whether both shapes exist.</returns>
-    internal abstract bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
-        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair);
+    internal bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        if (!shapes.Exists(ShapeTypeIndexA, shapeIndexA) || !shapes.Exists(ShapeTypeIndexB, shapeIndexB))
+            return false;
+        Write(ref batch, shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
+        return true;
+    }
 
     /// <summary>Writes a pair of shapes that are anywhere into the next lane of a batch that has room.</summary>
     internal abstract void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,

@@ -53,19 +53,6 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private protected static bool TryFind(Shapes shapes, int shapeIndexA, int shapeIndexB, out TShapeA* shapeA, out TShapeB* shapeB)
-    {
-        if (!shapes.Exists(TShapeA.TypeId, shapeIndexA) || !shapes.Exists(TShapeB.TypeId, shapeIndexB))
-        {
-            shapeA = null;
-            shapeB = null;
-            return false;
-        }
-        Find(shapes, shapeIndexA, shapeIndexB, out shapeA, out shapeB);
-        return true;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private protected static void Write(ref PairBatch batch, TShapeA* shapeA, TShapeB* shapeB, in Vector3 offsetB, in Quaternion orientationA,
         in Quaternion orientationB, in PairInput pair, bool needsOrientationA, bool needsOrientationB)
     {

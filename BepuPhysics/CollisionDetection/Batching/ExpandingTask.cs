@@ -108,15 +108,6 @@ abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.
     static void* Find<TShape>(Shapes shapes, int index) where TShape : unmanaged, IShape =>
         Unsafe.AsPointer(ref Unsafe.As<ShapeBatch<TShape>>(shapes.GetBatch(TShape.TypeId)).Get(index));
 
-    internal sealed override bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
-        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
-    {
-        if (!shapes.Exists(TShapeA.TypeId, shapeIndexA) || !shapes.Exists(TShapeB.TypeId, shapeIndexB))
-            return false;
-        Write(ref batch, shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
-        return true;
-    }
-
     internal sealed override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {

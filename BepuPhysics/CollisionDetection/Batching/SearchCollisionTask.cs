@@ -42,15 +42,6 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
         WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
     }
 
-    internal override bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
-        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
-    {
-        if (!TryFind(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB))
-            return false;
-        WriteLane(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
-        return true;
-    }
-
     internal override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
         in Quaternion orientationB, in PairInput pair) =>
         WriteLane(ref batch, (TShapeA*)shapeA, (TShapeB*)shapeB, offsetB, orientationA, orientationB, pair);

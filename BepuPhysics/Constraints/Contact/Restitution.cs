@@ -72,6 +72,8 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
 
     internal void Abandon() => pairs = default;
 
+    bool ISolverStage.IsNeeded => pairs.Count > 0;
+
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
         SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration => (pairs.Count + PairsPerBlock - 1) / PairsPerBlock,

@@ -43,23 +43,23 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     LoadPathMode Mode => solver.LoadPath;
 
-    int ISolverStage.GetBlockCount(SolverPoint point)
+    bool ISolverStage.IsNeeded
     {
-        if (Mode == LoadPathMode.Off)
-            return 0;
-        switch (point)
+        get
         {
-            case SolverPoint.BeforeSubsteps:
-                CountBundles();
-                return Math.Min(1, bundleCount);
-            case SolverPoint.LastBeforeFirstWarmStart:
-                return Math.Min(1, bundleCount);
-            case SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart:
-                return blockCount;
-            default:
-                return 0;
+            if (Mode == LoadPathMode.Off)
+                return false;
+            CountBundles();
+            return bundleCount > 0;
         }
     }
+
+    int ISolverStage.GetBlockCount(SolverPoint point) => point switch
+    {
+        SolverPoint.BeforeSubsteps or SolverPoint.LastBeforeFirstWarmStart => 1,
+        SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart => blockCount,
+        _ => 0,
+    };
 
     void CountBundles()
     {

@@ -190,8 +190,8 @@ unsafe struct SupportGraph
             ref var support = ref byUpper[i];
             if (support.Lower < 0 || !Carries(support))
                 continue;
-            var a = Root(support.Upper);
-            var b = Root(support.Lower);
+            var a = DisjointSets.Root(islandOf, support.Upper);
+            var b = DisjointSets.Root(islandOf, support.Lower);
             if (positions[a] < positions[b])
                 islandOf[b] = a;
             else
@@ -204,7 +204,7 @@ unsafe struct SupportGraph
         int islandCount = 0;
         for (int i = 0; i < order.Count; ++i)
         {
-            if (grounded[order[i]] != 0 && Root(order[i]) == order[i])
+            if (grounded[order[i]] != 0 && DisjointSets.Root(islandOf, order[i]) == order[i])
                 place[order[i]] = islandCount++;
         }
         for (int i = 0; i <= islandCount; ++i)
@@ -214,7 +214,7 @@ unsafe struct SupportGraph
         {
             if (grounded[order[i]] == 0)
                 continue;
-            ++Islands[place[Root(order[i])] + 1];
+            ++Islands[place[DisjointSets.Root(islandOf, order[i])] + 1];
             ++nodeCount;
         }
         for (int i = 0; i < islandCount; ++i)
@@ -226,7 +226,7 @@ unsafe struct SupportGraph
         {
             if (grounded[order[i]] == 0)
                 continue;
-            var node = next[place[Root(order[i])]]++;
+            var node = next[place[DisjointSets.Root(islandOf, order[i])]]++;
             NodeOf[order[i]] = node;
             Nodes[node] = new() { Body = order[i] };
         }
@@ -247,13 +247,6 @@ unsafe struct SupportGraph
             }
             node.SupportCount = Links.Count - node.FirstSupport;
         }
-    }
-
-    readonly int Root(int body)
-    {
-        while (islandOf[body] != body)
-            body = islandOf[body] = islandOf[islandOf[body]];
-        return body;
     }
 
     /// <summary>Gives all memory back; nothing is in the graph.</summary>
