@@ -16,10 +16,16 @@ public static partial class DefaultTypes
         RegisterContacts<Few3<ContactPrestepWide>, Few3<Vector<float>>>(solver, 3);
         RegisterContacts<Few4<ContactPrestepWide>, Few4<Vector<float>>>(solver, 4);
         solver.Register<BallSocket>();
+        solver.Register<AngularHinge>();
+        solver.Register<AngularSwivelHinge>();
         solver.Register<SwingLimit>();
         solver.Register<TwistLimit>();
+        solver.Register<AngularServo>();
         solver.Register<Weld>();
         solver.Register<DistanceLimit>();
+        solver.Register<PointOnLineServo>();
+        solver.Register<LinearAxisServo>();
+        solver.Register<LinearAxisLimit>();
         solver.Register<AngularAxisMotor>();
         solver.Register<OneBodyAngularMotor>();
         solver.Register<OneBodyLinearServo>();

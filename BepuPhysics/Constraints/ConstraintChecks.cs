@@ -17,6 +17,12 @@ static class ConstraintChecks
             throw new ArgumentException($"{name} must be finite and at most {maximum} in each component, not {value}.", name);
     }
 
+    internal static void Offset(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumOffset))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumOffset} m.");
+    }
+
     internal static void Finite(float value, string name)
     {
         if (!float.IsFinite(value))

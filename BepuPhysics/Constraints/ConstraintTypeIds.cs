@@ -8,10 +8,16 @@ public static class ConstraintTypeIds
 
     internal const int ContactTwoBody = 4;
     internal const int BallSocket = 22;
+    internal const int AngularHinge = 23;
+    internal const int AngularSwivelHinge = 24;
     internal const int SwingLimit = 25;
     internal const int TwistLimit = 27;
+    internal const int AngularServo = 29;
     internal const int Weld = 31;
     internal const int DistanceLimit = 34;
+    internal const int PointOnLineServo = 37;
+    internal const int LinearAxisServo = 38;
+    internal const int LinearAxisLimit = 40;
     internal const int AngularAxisMotor = 41;
     internal const int OneBodyAngularMotor = 43;
     internal const int OneBodyLinearServo = 44;

@@ -13,6 +13,8 @@ readonly record struct DoubleVector(double X, double Y, double Z)
     public static DoubleVector operator *(DoubleVector a, double s) => new(a.X * s, a.Y * s, a.Z * s);
     public static double Dot(DoubleVector a, DoubleVector b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
     public static DoubleVector Cross(DoubleVector a, DoubleVector b) => new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
+    /// <summary>Angle between two vectors of any length.</summary>
+    public static double Angle(DoubleVector a, DoubleVector b) => Math.Atan2(Cross(a, b).Length, Dot(a, b));
     public double Length => Math.Sqrt(Dot(this, this));
     public double[] ToArray() => [X, Y, Z];
 }
@@ -65,6 +67,10 @@ readonly record struct DoubleRotation(DoubleVector X, DoubleVector Y, DoubleVect
 readonly record struct DoublePose(DoubleVector Position, DoubleRotation Orientation)
 {
     public DoubleVector ToWorld(Vector3 local) => Orientation * new DoubleVector(local);
+
+    /// <summary>How far a point of the second body is from one of the first, along an axis of the first.</summary>
+    public static double Along(DoublePose[] poses, Vector3 localOffsetA, Vector3 localOffsetB, Vector3 localAxisA) => DoubleVector.Dot(
+        poses[0].ToWorld(localAxisA), poses[1].Position + poses[1].ToWorld(localOffsetB) - poses[0].Position - poses[0].ToWorld(localOffsetA));
 
     /// <summary>The pose after a small motion: three coordinates of translation, three of rotation.</summary>
     public DoublePose Moved(int coordinate, double by)

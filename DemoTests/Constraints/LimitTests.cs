@@ -62,6 +62,44 @@ public class DistanceLimitTests : JointTests<DistanceLimit>
     }
 }
 
+public class LinearAxisLimitTests : JointTests<LinearAxisLimit>
+{
+    private protected override LinearAxisLimit Describe(JointSamples samples, SpringSettings spring)
+    {
+        var minimum = samples.Uniform(-2, 2);
+        return new()
+        {
+            LocalOffsetA = samples.Vector(1),
+            LocalOffsetB = samples.Vector(1),
+            LocalAxis = samples.Direction(),
+            MinimumOffset = minimum,
+            MaximumOffset = minimum + samples.Uniform(0.1f, 3),
+            SpringSettings = spring,
+        };
+    }
+
+    private protected override double[] Error(LinearAxisLimit d, DoublePose[] poses)
+    {
+        var offset = Offset(d, poses);
+        return [Math.Abs(offset - d.MinimumOffset) < Math.Abs(d.MaximumOffset - offset) ? offset - d.MinimumOffset : d.MaximumOffset - offset];
+    }
+
+    static double Offset(LinearAxisLimit d, DoublePose[] poses) => DoublePose.Along(poses, d.LocalOffsetA, d.LocalOffsetB, d.LocalAxis);
+
+    private protected override bool IsSmooth(LinearAxisLimit d, DoublePose[] poses) =>
+        Math.Abs(Offset(d, poses) - (d.MinimumOffset + (double)d.MaximumOffset) / 2) > 0.01;
+
+    private protected override IEnumerable<(string, LinearAxisLimit, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        var axis = Vector3.UnitZ;
+        yield return ("No arms", new() { LocalAxis = axis, MinimumOffset = -1, MaximumOffset = 1 }, NewBodies(samples));
+        yield return ("No range", new() { LocalAxis = axis }, NewBodies(samples));
+        yield return ("No minimum", new() { LocalAxis = axis, MinimumOffset = float.MinValue }, NewBodies(samples));
+        yield return ("No maximum", new() { LocalAxis = axis, MaximumOffset = float.MaxValue }, NewBodies(samples));
+        yield return ("No limits", new() { LocalAxis = axis, MinimumOffset = float.MinValue, MaximumOffset = float.MaxValue }, NewBodies(samples));
+    }
+}
+
 public class SwingLimitTests : JointTests<SwingLimit>
 {
     private protected override SwingLimit Describe(JointSamples samples, SpringSettings spring) =>
@@ -69,12 +107,7 @@ public class SwingLimitTests : JointTests<SwingLimit>
 
     private protected override double[] Error(SwingLimit d, DoublePose[] poses) => [Math.Acos(d.MinimumDot) - Angle(d, poses)];
 
-    static double Angle(SwingLimit d, DoublePose[] poses)
-    {
-        var a = poses[0].ToWorld(d.AxisLocalA);
-        var b = poses[1].ToWorld(d.AxisLocalB);
-        return Math.Atan2(DoubleVector.Cross(a, b).Length, DoubleVector.Dot(a, b));
-    }
+    static double Angle(SwingLimit d, DoublePose[] poses) => DoubleVector.Angle(poses[0].ToWorld(d.AxisLocalA), poses[1].ToWorld(d.AxisLocalB));
 
     private protected override bool IsSmooth(SwingLimit d, DoublePose[] poses) => Angle(d, poses) is > 0.05 and < Math.PI - 0.05;
 
