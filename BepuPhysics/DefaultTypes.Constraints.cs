@@ -19,17 +19,32 @@ public static partial class DefaultTypes
         solver.Register<AngularHinge>();
         solver.Register<AngularSwivelHinge>();
         solver.Register<SwingLimit>();
+        solver.Register<TwistServo>();
         solver.Register<TwistLimit>();
+        solver.Register<TwistMotor>();
         solver.Register<AngularServo>();
+        solver.Register<AngularMotor>();
         solver.Register<Weld>();
+        solver.Register<VolumeConstraint>();
+        solver.Register<DistanceServo>();
         solver.Register<DistanceLimit>();
+        solver.Register<CenterDistanceConstraint>();
+        solver.Register<AreaConstraint>();
         solver.Register<PointOnLineServo>();
         solver.Register<LinearAxisServo>();
+        solver.Register<LinearAxisMotor>();
         solver.Register<LinearAxisLimit>();
         solver.Register<AngularAxisMotor>();
+        solver.Register<OneBodyAngularServo>();
         solver.Register<OneBodyAngularMotor>();
         solver.Register<OneBodyLinearServo>();
+        solver.Register<OneBodyLinearMotor>();
+        solver.Register<SwivelHinge>();
         solver.Register<Hinge>();
+        solver.Register<BallSocketMotor>();
+        solver.Register<BallSocketServo>();
+        solver.Register<AngularAxisGearMotor>();
+        solver.Register<CenterDistanceLimit>();
     }
 
     static void RegisterContacts<TContacts, TNormals>(Solver solver, int contactCount)

@@ -152,3 +152,31 @@ public class HingeTests : JointTests<Hinge>
         AssertClose([Math.PI, 0], probe.PositionError(0)[3..], 1e-6);
     }
 }
+
+public class SwivelHingeTests : JointTests<SwivelHinge>
+{
+    private protected override SwivelHinge Describe(JointSamples samples, SpringSettings spring) => new()
+    {
+        LocalOffsetA = samples.Vector(1),
+        LocalSwivelAxisA = samples.Direction(),
+        LocalOffsetB = samples.Vector(1),
+        LocalHingeAxisB = samples.Direction(),
+        SpringSettings = spring,
+    };
+
+    private protected override double[] Error(SwivelHinge d, DoublePose[] poses)
+    {
+        var position = poses[0].Position + poses[0].ToWorld(d.LocalOffsetA) - poses[1].Position - poses[1].ToWorld(d.LocalOffsetB);
+        return [.. position.ToArray(), Math.PI / 2 - Angle(d, poses)];
+    }
+
+    static double Angle(SwivelHinge d, DoublePose[] poses) =>
+        DoubleVector.Angle(poses[0].ToWorld(d.LocalSwivelAxisA), poses[1].ToWorld(d.LocalHingeAxisB));
+
+    private protected override bool IsSmooth(SwivelHinge d, DoublePose[] poses) => Angle(d, poses) is > 0.05 and < Math.PI - 0.05;
+
+    private protected override void Settle(SwivelHinge d, SampleBody[] bodies) => Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
+
+    private protected override IEnumerable<(string, SwivelHinge, SampleBody[])> DegenerateCases(JointSamples samples) =>
+        Rotations.ParallelAxes(samples, NewBodies, (a, b) => new SwivelHinge { LocalSwivelAxisA = a, LocalHingeAxisB = b });
+}

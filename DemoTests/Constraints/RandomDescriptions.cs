@@ -81,8 +81,9 @@ static class RandomDescriptions
 
     static float[] Values(Type type, string name, JointSamples samples)
     {
+        // Points that are to be in one place have no direction, and so no derivative, where they are.
         if (type == typeof(float))
-            return [samples.Uniform(-1, 2)];
+            return [name == "TargetDistance" ? samples.Uniform(0.3f, 2) : samples.Uniform(-1, 2)];
         if (type == typeof(Vector3))
             return Floats(IsDirection(name) ? samples.Direction() : samples.Vector(1));
         if (type == typeof(Quaternion))

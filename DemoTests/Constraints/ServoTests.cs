@@ -1,9 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Numerics;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using Xunit;
 
 namespace DemoTests.Constraints;
@@ -111,108 +109,4 @@ public abstract class ServoTests<TDescription> : JointTests<TDescription> where 
     }
 
     static double Length(double[] v) => Math.Sqrt(v.Sum(x => x * x));
-}
-
-public class OneBodyLinearServoTests : ServoTests<OneBodyLinearServo>
-{
-    private protected override OneBodyLinearServo Describe(JointSamples samples, SpringSettings spring, ServoSettings servo) =>
-        new() { LocalOffset = samples.Vector(1), Target = samples.Vector(2), SpringSettings = spring, ServoSettings = servo };
-
-    private protected override double[] Error(OneBodyLinearServo d, DoublePose[] poses) =>
-        (poses[0].Position + poses[0].ToWorld(d.LocalOffset) - new DoubleVector(d.Target)).ToArray();
-
-    private protected override void Settle(OneBodyLinearServo d, SampleBody[] bodies) =>
-        bodies[0].Position = d.Target - Exact.Rotate(d.LocalOffset, bodies[0].Orientation);
-}
-
-public class LinearAxisServoTests : ServoTests<LinearAxisServo>
-{
-    private protected override LinearAxisServo Describe(JointSamples samples, SpringSettings spring, ServoSettings servo) => new()
-    {
-        LocalOffsetA = samples.Vector(1),
-        LocalOffsetB = samples.Vector(1),
-        LocalPlaneNormal = samples.Direction(),
-        TargetOffset = samples.Uniform(-2, 2),
-        SpringSettings = spring,
-        ServoSettings = servo,
-    };
-
-    private protected override double[] Error(LinearAxisServo d, DoublePose[] poses) =>
-        [d.TargetOffset - DoublePose.Along(poses, d.LocalOffsetA, d.LocalOffsetB, d.LocalPlaneNormal)];
-
-    private protected override IEnumerable<(string, LinearAxisServo, SampleBody[])> OwnDegenerateCases(JointSamples samples)
-    {
-        yield return ("No arms", new() { LocalPlaneNormal = Vector3.UnitX, ServoSettings = ServoSettings.Default }, NewBodies(samples));
-    }
-}
-
-public class PointOnLineServoTests : ServoTests<PointOnLineServo>
-{
-    private protected override PointOnLineServo Describe(JointSamples samples, SpringSettings spring, ServoSettings servo) => new()
-    {
-        LocalOffsetA = samples.Vector(1),
-        LocalOffsetB = samples.Vector(1),
-        LocalDirection = samples.Direction(),
-        SpringSettings = spring,
-        ServoSettings = servo,
-    };
-
-    private protected override double[] Error(PointOnLineServo d, DoublePose[] poses)
-    {
-        // The rows are coordinates in a frame of A; which one is the joint's choice.
-        var (x, y) = Rotations.Tangents(d.LocalDirection);
-        return [-DoublePose.Along(poses, d.LocalOffsetA, d.LocalOffsetB, x), -DoublePose.Along(poses, d.LocalOffsetA, d.LocalOffsetB, y)];
-    }
-
-    private protected override void Settle(PointOnLineServo d, SampleBody[] bodies) => Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
-
-    private protected override IEnumerable<(string, PointOnLineServo, SampleBody[])> OwnDegenerateCases(JointSamples samples)
-    {
-        foreach (var axis in new Vector3[] { new(1, 0, 0), new(0, 1, 0), new(0, 0, 1), new(0, 0, -1) })
-            yield return ($"No arms, along {axis}", new() { LocalDirection = axis, ServoSettings = ServoSettings.Default }, NewBodies(samples));
-    }
-}
-
-public class AngularServoTests : ServoTests<AngularServo>
-{
-    private protected override AngularServo Describe(JointSamples samples, SpringSettings spring, ServoSettings servo) =>
-        new() { TargetRelativeRotationLocalA = samples.Rotation(), SpringSettings = spring, ServoSettings = servo };
-
-    private protected override double[] Error(AngularServo d, DoublePose[] poses) => Rotation(d, poses).ToArray();
-
-    static DoubleVector Rotation(AngularServo d, DoublePose[] poses) =>
-        (poses[0].Orientation * DoubleRotation.From(d.TargetRelativeRotationLocalA) * poses[1].Orientation.Inverse).Vector;
-
-    private protected override bool IsSmooth(AngularServo d, DoublePose[] poses) => Rotation(d, poses).Length < 3;
-
-    private protected override void Settle(AngularServo d, SampleBody[] bodies) =>
-        bodies[1].Orientation = Exact.Concatenate(d.TargetRelativeRotationLocalA, bodies[0].Orientation);
-
-    private protected override IEnumerable<(string, AngularServo, SampleBody[])> OwnDegenerateCases(JointSamples samples)
-    {
-        foreach (var axis in new Vector3[] { new(1, 0, 0), new(0, 1, 0), new(0, 0, 1), new(0, 0, -1), samples.Direction() })
-        {
-            var servo = new AngularServo { TargetRelativeRotationLocalA = Quaternion.Identity, ServoSettings = ServoSettings.Default };
-            yield return ($"Half a turn about {axis}", servo, TurnedBy(samples, new(axis, 0)));
-            yield return ($"No rotation, by the other quaternion, {axis}", servo, TurnedBy(samples, new(axis * 1e-30f, -1)));
-        }
-    }
-
-    static SampleBody[] TurnedBy(JointSamples samples, Quaternion turn)
-    {
-        var bodies = NewBodies(samples);
-        bodies[0].Orientation = Quaternion.Identity;
-        bodies[1].Orientation = turn;
-        return bodies;
-    }
-
-    /// <summary>A little short of half a turn the way goes back, a little beyond it goes on; both are as long as they say.</summary>
-    [Theory, InlineData(-1e-3f), InlineData(1e-3f)]
-    public void TheShorterWayIsTaken(float beyond)
-    {
-        var half = (MathF.PI + beyond) / 2;
-        var probe = JointProbes.New<AngularServo>();
-        probe.Set(0, new() { TargetRelativeRotationLocalA = Quaternion.Identity }, TurnedBy(new(1), new(0, MathF.Sin(half), 0, MathF.Cos(half))));
-        AssertClose([0, (beyond > 0 ? 1 : -1) * (Math.PI - Math.Abs(beyond)), 0], probe.PositionError(0), 1e-6);
-    }
 }

@@ -18,6 +18,9 @@ struct LinearRow : IJacobian<LinearRow, TwoBodies, Rows1, Rows1>
     /// <summary>What the row measures, m; what that is, the joint says.</summary>
     public Vector<float> Distance;
 
+    // Squares of lengths lose digits below this, so the direction is not a unit vector any more: what floats can hold, no size of a thing.
+    const float LeastLengthSquared = 1e-30f;
+
     // Slack to a maximum such as float.MaxValue: no speed uses it up, and it can be divided by a timestep.
     const float EndlessSlack = 1e18f;
 
@@ -36,6 +39,29 @@ struct LinearRow : IJacobian<LinearRow, TwoBodies, Rows1, Rows1>
         var useMinimum = Vector.LessThan(Vector.Abs(aboveMinimum), Vector.Abs(belowMaximum)) & hasMinimum;
         sign = Wide.Select(useMinimum, -Vector<float>.One, Vector<float>.One);
         return Wide.Min(Wide.Select(useMinimum, aboveMinimum, belowMaximum), new Vector<float>(EndlessSlack));
+    }
+
+    /// <summary>A difference as a unit vector, times a sign. Points that coincide have no direction; it is the world's Y axis by definition.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector3Wide DirectionOf(in Vector3Wide difference, Vector<float> lengthSquared, Vector<float> length, Vector<float> sign)
+    {
+        var apart = Vector.GreaterThan(lengthSquared, new Vector<float>(LeastLengthSquared));
+        return Vector3Wide.Select(apart, difference * (sign / length), new Vector3Wide(Vector<float>.Zero, sign, Vector<float>.Zero));
+    }
+
+    /// <summary>A row along the line from a point of A to a point of B, whose velocity is what their distance loses.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static void BetweenPoints(in TwoBodies bodies, in Vector3Wide localOffsetA, in Vector3Wide localOffsetB, out LinearRow row)
+    {
+        var offsetA = bodies.A.Orientation * localOffsetA;
+        var offsetB = bodies.B.Orientation * localOffsetB;
+        // The positions are subtracted first: far from the origin their difference is still exact.
+        var difference = (bodies.B.Position - bodies.A.Position) + (offsetB - offsetA);
+        var lengthSquared = difference.LengthSquared();
+        row.Distance = Vector.SquareRoot(lengthSquared);
+        row.Direction = DirectionOf(difference, lengthSquared, row.Distance, Vector<float>.One);
+        row.AngularA = Vector3Wide.Cross(offsetA, row.Direction);
+        row.AngularB = Vector3Wide.Cross(offsetB, row.Direction);
     }
 
     /// <inheritdoc/>

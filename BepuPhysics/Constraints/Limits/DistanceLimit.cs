@@ -60,12 +60,9 @@ struct DistanceLimitWide : IWide<DistanceLimit>
 // d = (xB + rB) - (xA + rA),  u = d / |d|
 // C = maximum - |d| >= 0  with n = u,  or  |d| - minimum >= 0  with n = -u,  whichever limit is nearer
 // A minimum of zero cannot be violated, so such a lane always watches its maximum: the anchors of a slack rope may pass through
-// each other. Anchors that coincide have no direction; it is the world's Y axis by definition.
+// each other.
 readonly struct DistanceLimitJoint : IJacobianJoint<TwoBodies, DistanceLimitWide, LinearRow, Rows1, Rows1>
 {
-    // Squares of lengths lose digits below this, so the direction is not a unit vector any more: what floats can hold, no size of a thing.
-    const float LeastLengthSquared = 1e-30f;
-
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
     /// <inheritdoc/>
@@ -83,9 +80,7 @@ readonly struct DistanceLimitJoint : IJacobianJoint<TwoBodies, DistanceLimitWide
         var length = Vector.SquareRoot(lengthSquared);
         geometry.Distance = LinearRow.NearerLimit(
             length, prestep.MinimumDistance, prestep.MaximumDistance, Vector.GreaterThan(prestep.MinimumDistance, Vector<float>.Zero), out var sign);
-        var apart = Vector.GreaterThan(lengthSquared, new Vector<float>(LeastLengthSquared));
-        geometry.Direction = Vector3Wide.Select(
-            apart, difference * (sign / length), new Vector3Wide(Vector<float>.Zero, sign, Vector<float>.Zero));
+        geometry.Direction = LinearRow.DirectionOf(difference, lengthSquared, length, sign);
         geometry.AngularA = Vector3Wide.Cross(offsetA, geometry.Direction);
         geometry.AngularB = Vector3Wide.Cross(offsetB, geometry.Direction);
     }

@@ -28,6 +28,8 @@ public struct TwistLimit : ITwoBodyConstraintDescription<TwistLimit>
     {
         ConstraintChecks.Unit(description.LocalBasisA, nameof(LocalBasisA));
         ConstraintChecks.Unit(description.LocalBasisB, nameof(LocalBasisB));
+        ConstraintChecks.Angle(description.MinimumAngle, nameof(MinimumAngle));
+        ConstraintChecks.Angle(description.MaximumAngle, nameof(MaximumAngle));
         ConstraintChecks.Order(description.MinimumAngle, description.MaximumAngle, nameof(MinimumAngle), nameof(MaximumAngle));
         ConstraintChecks.Spring(description.SpringSettings, nameof(SpringSettings));
     }

@@ -14,14 +14,25 @@ static class JointOperations
         .. Of(w => new AngularHinge { LocalHingeAxisA = Axis(w), LocalHingeAxisB = Axis(w), SpringSettings = Spring(w) }),
         .. Of(w => new AngularSwivelHinge { LocalSwivelAxisA = Axis(w), LocalHingeAxisB = Axis(w), SpringSettings = Spring(w) }),
         .. Of(w => new SwingLimit { AxisLocalA = Axis(w), AxisLocalB = Axis(w), MinimumDot = w.Random.Number(-1, 1), SpringSettings = Spring(w) }),
+        .. Of(w => new TwistServo
+        {
+            LocalBasisA = w.Random.Turn(), LocalBasisB = w.Random.Turn(), TargetAngle = w.Random.Number(-7, 7), SpringSettings = Spring(w),
+            ServoSettings = Servo(w),
+        }),
         .. Of(w => new TwistLimit
         {
             LocalBasisA = w.Random.Turn(), LocalBasisB = w.Random.Turn(), MinimumAngle = w.Random.Number(-3, 0),
             MaximumAngle = w.Random.Number(0, 3), SpringSettings = Spring(w),
         }),
+        .. Of(w => new TwistMotor { LocalAxisA = Axis(w), LocalAxisB = Axis(w), TargetVelocity = w.Random.Number(-5, 5), Settings = Motor(w) }),
         .. Of(w => new AngularServo { TargetRelativeRotationLocalA = w.Random.Turn(), SpringSettings = Spring(w), ServoSettings = Servo(w) }),
+        .. Of(w => new AngularMotor { TargetVelocityLocalA = w.Random.Vector(5), Settings = Motor(w) }),
         .. Of(w => new Weld { LocalOffset = Point(w), LocalOrientation = w.Random.Turn(), SpringSettings = Spring(w) }),
+        .. OfFourBodies(w => new VolumeConstraint { TargetScaledVolume = w.Random.Number(-4, 4), SpringSettings = Spring(w) }),
+        .. Of(w => new DistanceServo(Point(w), Point(w), w.Random.Number(0, 3), Spring(w), Servo(w))),
         .. Of(w => new DistanceLimit(Point(w), Point(w), w.Random.Number(0, 1), w.Random.Number(1, 3), Spring(w))),
+        .. Of(w => new CenterDistanceConstraint(w.Random.Number(0, 3), Spring(w))),
+        .. OfThreeBodies(w => new AreaConstraint { TargetScaledArea = w.Random.Number(0, 4), SpringSettings = Spring(w) }),
         .. Of(w => new PointOnLineServo
         {
             LocalOffsetA = Point(w), LocalOffsetB = Point(w), LocalDirection = Axis(w), ServoSettings = Servo(w), SpringSettings = Spring(w),
@@ -31,21 +42,35 @@ static class JointOperations
             LocalOffsetA = Point(w), LocalOffsetB = Point(w), LocalPlaneNormal = Axis(w), TargetOffset = w.Random.Number(-2, 2),
             ServoSettings = Servo(w), SpringSettings = Spring(w),
         }),
+        .. Of(w => new LinearAxisMotor
+        {
+            LocalOffsetA = Point(w), LocalOffsetB = Point(w), LocalAxis = Axis(w), TargetVelocity = w.Random.Number(-5, 5), Settings = Motor(w),
+        }),
         .. Of(w => new LinearAxisLimit
         {
             LocalOffsetA = Point(w), LocalOffsetB = Point(w), LocalAxis = Axis(w), MinimumOffset = w.Random.Number(-2, 0),
             MaximumOffset = w.Random.Number(0, 2), SpringSettings = Spring(w),
         }),
         .. Of(w => new AngularAxisMotor { LocalAxisA = Axis(w), TargetVelocity = w.Random.Number(-5, 5), Settings = Motor(w) }),
+        .. OfOneBody(w => new OneBodyAngularServo { TargetOrientation = w.Random.Turn(), SpringSettings = Spring(w), ServoSettings = Servo(w) }),
         .. OfOneBody(w => new OneBodyAngularMotor { TargetVelocity = w.Random.Vector(5), Settings = Motor(w) }),
         .. OfOneBody(w => new OneBodyLinearServo
         {
             LocalOffset = Point(w), Target = w.Random.Vector(3), SpringSettings = Spring(w), ServoSettings = Servo(w),
         }),
+        .. OfOneBody(w => new OneBodyLinearMotor { LocalOffset = Point(w), TargetVelocity = w.Random.Vector(5), Settings = Motor(w) }),
+        .. Of(w => new SwivelHinge
+        {
+            LocalOffsetA = Point(w), LocalSwivelAxisA = Axis(w), LocalOffsetB = Point(w), LocalHingeAxisB = Axis(w), SpringSettings = Spring(w),
+        }),
         .. Of(w => new Hinge
         {
             LocalOffsetA = Point(w), LocalHingeAxisA = Axis(w), LocalOffsetB = Point(w), LocalHingeAxisB = Axis(w), SpringSettings = Spring(w),
         }),
+        .. Of(w => new BallSocketMotor { LocalOffsetB = Point(w), TargetVelocityLocalA = w.Random.Vector(5), Settings = Motor(w) }),
+        .. Of(w => new BallSocketServo { LocalOffsetA = Point(w), LocalOffsetB = Point(w), SpringSettings = Spring(w), ServoSettings = Servo(w) }),
+        .. Of(w => new AngularAxisGearMotor { LocalAxisA = Axis(w), VelocityScale = w.Random.Number(-3, 3), Settings = Motor(w) }),
+        .. Of(w => new CenterDistanceLimit(w.Random.Number(0, 1), w.Random.Number(1, 3), Spring(w))),
     ];
 
     static Vector3 Point(FuzzWorld w) => w.Random.Vector(1);
@@ -104,4 +129,24 @@ static class JointOperations
         }
         return description;
     }
+
+    static FuzzOperation[] OfThreeBodies<T>(Func<FuzzWorld, T> describe) where T : unmanaged, IThreeBodyConstraintDescription<T> =>
+    [
+        new($"Solver.Add<{typeof(T).Name}>", 7, w =>
+        {
+            BodyHandle a = w.AnyBody(), b = w.AnyBody(), c = w.AnyBody();
+            w.Constraints.Live.Add(w.Simulation.Solver.Add(a, b, c, Spoiled(w, describe)));
+        }),
+        .. Any(describe),
+    ];
+
+    static FuzzOperation[] OfFourBodies<T>(Func<FuzzWorld, T> describe) where T : unmanaged, IFourBodyConstraintDescription<T> =>
+    [
+        new($"Solver.Add<{typeof(T).Name}>", 7, w =>
+        {
+            BodyHandle a = w.AnyBody(), b = w.AnyBody(), c = w.AnyBody(), d = w.AnyBody();
+            w.Constraints.Live.Add(w.Simulation.Solver.Add(a, b, c, d, Spoiled(w, describe)));
+        }),
+        .. Any(describe),
+    ];
 }
