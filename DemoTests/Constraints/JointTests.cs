@@ -157,6 +157,26 @@ public abstract class JointTests<TDescription> where TDescription : unmanaged, I
         Assert.True(pushed > 10 && rested > 10, $"{pushed} pushed, {rested} did not.");
     }
 
+    /// <summary>What is left of the way is used up by no less than the whole of it in a substep: until then a limit is not there.</summary>
+    [Fact]
+    public void LimitsDoNothingInside()
+    {
+        if (Kind != RowKind.Inequality)
+            return;
+        var inside = 0;
+        ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
+        {
+            var before = probe.Velocity(lane);
+            if (probe.RelativeVelocity(lane)[0] < -probe.PositionError(lane)[0] / Substep.Dt + 1e-3)
+                return;
+            probe.Solve(Substep);
+            Assert.Equal(before, probe.Velocity(lane));
+            Assert.Equal(0, probe.Impulse(lane)[0]);
+            ++inside;
+        });
+        Assert.True(inside > 10, $"Only {inside} were inside.");
+    }
+
     [Fact]
     public void LanesDoNotSeeEachOther()
     {

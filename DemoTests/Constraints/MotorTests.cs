@@ -74,6 +74,36 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
         Assert.True(limited > 100, $"Only {limited} reached it.");
     }
 
+    /// <summary>A load below the greatest force is carried at the target velocity; one above it moves the motor by what is left over.</summary>
+    [Theory, InlineData(0.7f), InlineData(1.3f)]
+    public void LoadsAreCarriedUpToTheForce(float part)
+    {
+        const float Dt = 1 / 240f;
+        const double Force = 2000;
+        ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
+        {
+            probe.Set(lane, Describe(samples, new MotorSettings((float)Force, 0)), bodies);
+            probe.SetImpulse(lane, new double[RowCount]);
+            double[] load = [.. Enumerable.Range(0, RowCount).Select(row => row == 0 ? part * Force * Dt : 0)];
+            double last = 0, next = 0;
+            for (int i = 0; i < 400; ++i)
+            {
+                var kept = probe.Impulse(lane);
+                probe.SetImpulse(lane, load);
+                probe.ApplyImpulse();
+                probe.SetImpulse(lane, kept);
+                probe.WarmStart(new(0, Dt));
+                probe.Solve(new(0, Dt));
+                (last, next) = (next, probe.RelativeVelocity(lane)[0]);
+            }
+            var gained = load[0] * probe.InverseEffectiveMass(lane)[0, 0];
+            if (part < 1)
+                AssertClose(probe.TargetVelocity(lane), probe.RelativeVelocity(lane), 1e-3 * (1 + gained));
+            else
+                Assert.True(Math.Abs(next - last - gained * (1 - 1 / part)) <= 0.02 * gained, $"{next - last} of {gained}");
+        });
+    }
+
     [Fact]
     public void RelaxationLeavesItAlone() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
     {
