@@ -16,14 +16,35 @@ public static partial class DefaultTypes
         RegisterContacts<Few3<ContactPrestepWide>, Few3<Vector<float>>>(solver, 3);
         RegisterContacts<Few4<ContactPrestepWide>, Few4<Vector<float>>>(solver, 4);
         solver.Register<BallSocket>();
+        solver.Register<AngularHinge>();
+        solver.Register<AngularSwivelHinge>();
         solver.Register<SwingLimit>();
+        solver.Register<TwistServo>();
         solver.Register<TwistLimit>();
+        solver.Register<TwistMotor>();
+        solver.Register<AngularServo>();
+        solver.Register<AngularMotor>();
         solver.Register<Weld>();
+        solver.Register<VolumeConstraint>();
+        solver.Register<DistanceServo>();
         solver.Register<DistanceLimit>();
+        solver.Register<CenterDistanceConstraint>();
+        solver.Register<AreaConstraint>();
+        solver.Register<PointOnLineServo>();
+        solver.Register<LinearAxisServo>();
+        solver.Register<LinearAxisMotor>();
+        solver.Register<LinearAxisLimit>();
         solver.Register<AngularAxisMotor>();
+        solver.Register<OneBodyAngularServo>();
         solver.Register<OneBodyAngularMotor>();
         solver.Register<OneBodyLinearServo>();
+        solver.Register<OneBodyLinearMotor>();
+        solver.Register<SwivelHinge>();
         solver.Register<Hinge>();
+        solver.Register<BallSocketMotor>();
+        solver.Register<BallSocketServo>();
+        solver.Register<AngularAxisGearMotor>();
+        solver.Register<CenterDistanceLimit>();
     }
 
     static void RegisterContacts<TContacts, TNormals>(Solver solver, int contactCount)

@@ -17,6 +17,12 @@ static class ConstraintChecks
             throw new ArgumentException($"{name} must be finite and at most {maximum} in each component, not {value}.", name);
     }
 
+    internal static void Offset(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumOffset))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumOffset} m.");
+    }
+
     internal static void Finite(float value, string name)
     {
         if (!float.IsFinite(value))
@@ -77,6 +83,40 @@ static class ConstraintChecks
     }
 
     internal static void AngularVelocity(Vector3 value, string name) => Bounded(value, Limits.MaximumAngularVelocity, name);
+
+    internal static void LinearVelocity(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumLinearVelocity))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumLinearVelocity} m/s.");
+    }
+
+    internal static void LinearVelocity(Vector3 value, string name) => Bounded(value, Limits.MaximumLinearVelocity, name);
+
+    internal static void Angle(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumAngle))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumAngle} radians.");
+    }
+
+    internal static void GearRatio(float value, string name)
+    {
+        if (!(MathF.Abs(value) <= Limits.MaximumGearRatio))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumGearRatio}.");
+    }
+
+    // The square and the cube of a distance that constraints take.
+    internal static void Area(float value, string name)
+    {
+        if (!(value >= 0 && value <= Limits.MaximumDistance * Limits.MaximumDistance))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be from 0 to {Limits.MaximumDistance * Limits.MaximumDistance} m^2.");
+    }
+
+    internal static void Volume(float value, string name)
+    {
+        const float Maximum = Limits.MaximumDistance * Limits.MaximumDistance * Limits.MaximumDistance;
+        if (!(MathF.Abs(value) <= Maximum))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Maximum} m^3.");
+    }
 
     internal static void Order(float minimum, float maximum, string minimumName, string maximumName)
     {

@@ -11,13 +11,15 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 {
     const int CoordinatesPerBody = 6;
 
-    static bool IConstraint<TBodies, TPrestep, TRows>.HasError => MakesHubs;
+    static bool IConstraint<TBodies, TPrestep, TRows>.HasError => MakesHubs && TJoint.Kind != RowKind.Servo;
 
     static BodyAccess IConstraint<TBodies, TPrestep, TRows>.ErrorAccess => BodyAccess.Pose;
 
-    // The distance between points that are held together; of limits the greatest violation. All types that hand weight on are of these two kinds.
+    // The distance between points that are held together; of limits the greatest violation. A servo may be on its way.
     static Vector<float> IConstraint<TBodies, TPrestep, TRows>.Error(in TBodies bodies, in TPrestep prestep)
     {
+        if (TJoint.Kind == RowKind.Servo)
+            return Vector<float>.Zero;
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);

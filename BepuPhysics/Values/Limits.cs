@@ -29,8 +29,12 @@ public static class Limits
     public const float MaximumSize = 1e7f;
     /// <summary>Greatest coordinate of a point in the frame of a body, such as the anchor of a joint, m.</summary>
     public const float MaximumOffset = 1e7f;
-    /// <summary>Greatest distance that a limit may demand as the least, m.</summary>
+    /// <summary>Greatest distance that a joint may demand, m; areas and volumes are at most its square and its cube.</summary>
     public const float MaximumDistance = 1e8f;
+    /// <summary>Greatest angle of a joint, radians: beyond, neighbouring floats are no angles any more.</summary>
+    public const float MaximumAngle = 1e5f;
+    /// <summary>Greatest ratio of a gear, either way.</summary>
+    public const float MaximumGearRatio = 1e4f;
     /// <summary>Greatest speculative margin that may be asked for as the least one, m.</summary>
     public const float MaximumMinimumSpeculativeMargin = 1e7f;
     /// <summary>Greatest component of an impulse, N s; of its arm, m; of a ray's direction.</summary>

@@ -6,6 +6,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using Demos.Accuracy;
+using DemoTests.Constraints;
 
 namespace DemoTests.Accuracy;
 
@@ -73,7 +74,10 @@ sealed class BadInputWorld : IDisposable
     public TypedIndex RemovedShape { get; }
 
     /// <summary>A constraint of that type between two bodies.</summary>
-    public ConstraintHandle Joint<T>() => joints[typeof(T)];
+    public ConstraintHandle Joint<T>() => Joint(typeof(T));
+
+    /// <summary>A constraint of the type with that description.</summary>
+    public ConstraintHandle Joint(Type description) => joints[description];
 
     public BodyDescription HealthyBody() => BodyDescription.CreateDynamic(
         new RigidPose(new Vector3(0, 20, 0)), new Sphere(.5f).ComputeInertia(1),
@@ -176,6 +180,26 @@ sealed class BadInputWorld : IDisposable
             ServoSettings = ServoSettings.Default,
             SpringSettings = new SpringSettings(5, 1),
         }));
+        JoinOthers();
+    }
+
+    // The types that have no place above: random ones of their kind, on bodies of their own.
+    void JoinOthers()
+    {
+        var row = 8;
+        foreach (var type in JointTypes.All)
+        {
+            if (!joints.ContainsKey(type.Description))
+                joints.Add(type.Description, type.AddTo(Solver, AddRow(row++, type.BodyCount), type.NewColumn()));
+        }
+    }
+
+    BodyHandle[] AddRow(int row, int count)
+    {
+        var bodies = new BodyHandle[count];
+        for (int i = 0; i < count; ++i)
+            bodies[i] = world.AddDynamic(new Sphere(.25f), 1 + i, new RigidPose(new Vector3(-6 + i, 5 + i % 3 * .5f, -3 * row)));
+        return bodies;
     }
 
     void Join<T>(int row, in T joint) where T : unmanaged, ITwoBodyConstraintDescription<T>

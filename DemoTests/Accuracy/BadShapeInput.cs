@@ -46,7 +46,7 @@ static class BadShapeInput
         var pool = new BufferPool();
         var others = new Shapes(pool, 8);
         TypedIndex last = default;
-        for (int i = 0; i < 40; ++i)
+        for (int i = 0; i < 1000; ++i)
             last = others.Add(new Sphere(1));
         others.Dispose();
         pool.AssertEmpty();

@@ -26,6 +26,7 @@ static class BadSolverInput
         Servos(list);
         Motors(list);
         Handles(list);
+        BadConstraintInput.AddTo(list);
     }
 
     static void Steps(BadInputList list)

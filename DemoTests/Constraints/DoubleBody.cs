@@ -8,11 +8,16 @@ readonly record struct DoubleVector(double X, double Y, double Z)
 {
     public DoubleVector(Vector3 v) : this(v.X, v.Y, v.Z) { }
 
+    /// <summary>Three numbers of a longer list.</summary>
+    public static DoubleVector At(double[] values, int start) => new(values[start], values[start + 1], values[start + 2]);
+
     public static DoubleVector operator +(DoubleVector a, DoubleVector b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
     public static DoubleVector operator -(DoubleVector a, DoubleVector b) => new(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
     public static DoubleVector operator *(DoubleVector a, double s) => new(a.X * s, a.Y * s, a.Z * s);
     public static double Dot(DoubleVector a, DoubleVector b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
     public static DoubleVector Cross(DoubleVector a, DoubleVector b) => new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
+    /// <summary>Angle between two vectors of any length.</summary>
+    public static double Angle(DoubleVector a, DoubleVector b) => Math.Atan2(Cross(a, b).Length, Dot(a, b));
     public double Length => Math.Sqrt(Dot(this, this));
     public double[] ToArray() => [X, Y, Z];
 }
@@ -65,6 +70,19 @@ readonly record struct DoubleRotation(DoubleVector X, DoubleVector Y, DoubleVect
 readonly record struct DoublePose(DoubleVector Position, DoubleRotation Orientation)
 {
     public DoubleVector ToWorld(Vector3 local) => Orientation * new DoubleVector(local);
+
+    /// <summary>How far a point of the second body is from one of the first, along an axis of the first.</summary>
+    public static double Along(DoublePose[] poses, Vector3 localOffsetA, Vector3 localOffsetB, Vector3 localAxisA) => DoubleVector.Dot(
+        poses[0].ToWorld(localAxisA), poses[1].Position + poses[1].ToWorld(localOffsetB) - poses[0].Position - poses[0].ToWorld(localOffsetA));
+
+    /// <summary>The velocity that A has where a point of B is, less that of the point; six numbers per body.</summary>
+    public static DoubleVector OfAAtPointOfB(DoublePose[] poses, Vector3 localOffsetB, double[] v)
+    {
+        var arm = poses[1].ToWorld(localOffsetB);
+        var fromA = poses[1].Position + arm - poses[0].Position;
+        return DoubleVector.At(v, 0) + DoubleVector.Cross(DoubleVector.At(v, 3), fromA) -
+            (DoubleVector.At(v, 6) + DoubleVector.Cross(DoubleVector.At(v, 9), arm));
+    }
 
     /// <summary>The pose after a small motion: three coordinates of translation, three of rotation.</summary>
     public DoublePose Moved(int coordinate, double by)

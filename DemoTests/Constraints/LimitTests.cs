@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using Xunit;
 
 namespace DemoTests.Constraints;
@@ -62,6 +61,74 @@ public class DistanceLimitTests : JointTests<DistanceLimit>
     }
 }
 
+public class LinearAxisLimitTests : JointTests<LinearAxisLimit>
+{
+    private protected override LinearAxisLimit Describe(JointSamples samples, SpringSettings spring)
+    {
+        var minimum = samples.Uniform(-2, 2);
+        return new()
+        {
+            LocalOffsetA = samples.Vector(1),
+            LocalOffsetB = samples.Vector(1),
+            LocalAxis = samples.Direction(),
+            MinimumOffset = minimum,
+            MaximumOffset = minimum + samples.Uniform(0.1f, 3),
+            SpringSettings = spring,
+        };
+    }
+
+    private protected override double[] Error(LinearAxisLimit d, DoublePose[] poses)
+    {
+        var offset = Offset(d, poses);
+        return [Math.Abs(offset - d.MinimumOffset) < Math.Abs(d.MaximumOffset - offset) ? offset - d.MinimumOffset : d.MaximumOffset - offset];
+    }
+
+    static double Offset(LinearAxisLimit d, DoublePose[] poses) => DoublePose.Along(poses, d.LocalOffsetA, d.LocalOffsetB, d.LocalAxis);
+
+    private protected override bool IsSmooth(LinearAxisLimit d, DoublePose[] poses) =>
+        Math.Abs(Offset(d, poses) - (d.MinimumOffset + (double)d.MaximumOffset) / 2) > 0.01;
+
+    private protected override IEnumerable<(string, LinearAxisLimit, SampleBody[])> DegenerateCases(JointSamples samples)
+    {
+        var axis = Vector3.UnitZ;
+        yield return ("No arms", new() { LocalAxis = axis, MinimumOffset = -1, MaximumOffset = 1 }, NewBodies(samples));
+        yield return ("No range", new() { LocalAxis = axis }, NewBodies(samples));
+        yield return ("No minimum", new() { LocalAxis = axis, MinimumOffset = float.MinValue }, NewBodies(samples));
+        yield return ("No maximum", new() { LocalAxis = axis, MaximumOffset = float.MaxValue }, NewBodies(samples));
+        yield return ("No limits", new() { LocalAxis = axis, MinimumOffset = float.MinValue, MaximumOffset = float.MaxValue }, NewBodies(samples));
+    }
+}
+
+public class CenterDistanceLimitTests : JointTests<CenterDistanceLimit>
+{
+    private protected override CenterDistanceLimit Describe(JointSamples samples, SpringSettings spring)
+    {
+        var minimum = samples.Coin() ? 0 : samples.Uniform(0.1f, 3);
+        return new(minimum, minimum + samples.Uniform(0.1f, 3), spring);
+    }
+
+    private protected override double[] Error(CenterDistanceLimit d, DoublePose[] poses)
+    {
+        var distance = (poses[0].Position - poses[1].Position).Length;
+        var above = distance - d.MinimumDistance;
+        var below = d.MaximumDistance - distance;
+        return [d.MinimumDistance > 0 && Math.Abs(above) < Math.Abs(below) ? above : below];
+    }
+
+    private protected override bool IsSmooth(CenterDistanceLimit d, DoublePose[] poses)
+    {
+        var distance = (poses[0].Position - poses[1].Position).Length;
+        return distance > 0.1 && Math.Abs(distance - (d.MinimumDistance + (double)d.MaximumDistance) / 2) > 0.01;
+    }
+
+    private protected override IEnumerable<(string, CenterDistanceLimit, SampleBody[])> DegenerateCases(JointSamples samples) =>
+    [
+        .. Rotations.NearBodies(samples, NewBodies, distance => new CenterDistanceLimit(distance, distance, default)),
+        .. Rotations.NearBodies(samples, NewBodies, distance => new CenterDistanceLimit(0, distance, default)),
+        .. Rotations.NearBodies(samples, NewBodies, distance => new CenterDistanceLimit(distance, float.MaxValue, default)),
+    ];
+}
+
 public class SwingLimitTests : JointTests<SwingLimit>
 {
     private protected override SwingLimit Describe(JointSamples samples, SpringSettings spring) =>
@@ -69,12 +136,7 @@ public class SwingLimitTests : JointTests<SwingLimit>
 
     private protected override double[] Error(SwingLimit d, DoublePose[] poses) => [Math.Acos(d.MinimumDot) - Angle(d, poses)];
 
-    static double Angle(SwingLimit d, DoublePose[] poses)
-    {
-        var a = poses[0].ToWorld(d.AxisLocalA);
-        var b = poses[1].ToWorld(d.AxisLocalB);
-        return Math.Atan2(DoubleVector.Cross(a, b).Length, DoubleVector.Dot(a, b));
-    }
+    static double Angle(SwingLimit d, DoublePose[] poses) => DoubleVector.Angle(poses[0].ToWorld(d.AxisLocalA), poses[1].ToWorld(d.AxisLocalB));
 
     private protected override bool IsSmooth(SwingLimit d, DoublePose[] poses) => Angle(d, poses) is > 0.05 and < Math.PI - 0.05;
 
@@ -149,47 +211,26 @@ public class TwistLimitTests : JointTests<TwistLimit>
 
     private protected override double[] Error(TwistLimit d, DoublePose[] poses)
     {
-        var twist = Twist(d, poses);
+        var twist = Rotations.Twist(poses, d.LocalBasisA, d.LocalBasisB);
         var above = Math.IEEERemainder(twist - d.MinimumAngle, 2 * Math.PI);
         var below = Math.IEEERemainder(d.MaximumAngle - twist, 2 * Math.PI);
         return [Math.Abs(above) < Math.Abs(below) ? above : below];
     }
 
-    // B's basis is swung the shortest way until the twist axes agree; the twist is where its X axis then points.
-    static double Twist(TwistLimit d, DoublePose[] poses)
-    {
-        var a = poses[0].Orientation * DoubleRotation.From(d.LocalBasisA);
-        var b = poses[1].Orientation * DoubleRotation.From(d.LocalBasisB);
-        var cross = DoubleVector.Cross(b.Z, a.Z);
-        var swing = DoubleRotation.From(cross.Length == 0 ? cross : cross * (Math.Atan2(cross.Length, DoubleVector.Dot(a.Z, b.Z)) / cross.Length));
-        var x = swing * b.X;
-        return Math.Atan2(DoubleVector.Dot(x, a.Y), DoubleVector.Dot(x, a.X));
-    }
-
     private protected override bool IsSmooth(TwistLimit d, DoublePose[] poses)
     {
-        var a = poses[0].Orientation * DoubleRotation.From(d.LocalBasisA);
-        var b = poses[1].Orientation * DoubleRotation.From(d.LocalBasisB);
-        var twist = Twist(d, poses);
+        var twist = Rotations.Twist(poses, d.LocalBasisA, d.LocalBasisB);
         var above = Math.IEEERemainder(twist - d.MinimumAngle, 2 * Math.PI);
         var below = Math.IEEERemainder(d.MaximumAngle - twist, 2 * Math.PI);
-        return DoubleVector.Dot(a.Z, b.Z) > -0.5 && Math.Abs(Math.Abs(above) - Math.Abs(below)) > 0.01;
+        return Rotations.TwistAxesDot(poses, d.LocalBasisA, d.LocalBasisB) > -0.5 && Math.Abs(Math.Abs(above) - Math.Abs(below)) > 0.01;
     }
 
     private protected override IEnumerable<(string, TwistLimit, SampleBody[])> DegenerateCases(JointSamples samples)
     {
-        for (int i = 0; i < 20; ++i)
-        {
-            // Twist axes against each other, exactly and nearly.
-            var bodies = NewBodies(samples);
-            bodies[0].Orientation = bodies[1].Orientation = samples.Rotation();
-            var half = samples.Uniform(-3, 3);
-            var opposite = new Quaternion(MathF.Cos(half), MathF.Sin(half), 0, 0);
-            if (i % 2 == 1)
-                opposite = Exact.Concatenate(opposite, samples.Rotation(0.2f));
-            yield return ("Axes against each other",
-                new() { LocalBasisA = Quaternion.Identity, LocalBasisB = opposite, MinimumAngle = -0.1f, MaximumAngle = 0.1f }, bodies);
-        }
+        var opposed = Rotations.OpposedTwistAxes(samples, NewBodies, basisB =>
+            new TwistLimit { LocalBasisA = Quaternion.Identity, LocalBasisB = basisB, MinimumAngle = -0.1f, MaximumAngle = 0.1f });
+        foreach (var item in opposed)
+            yield return item;
         var both = new Quaternion(0, 0, 1, 0);
         var same = NewBodies(samples);
         same[0].Orientation = same[1].Orientation = Quaternion.Identity;

@@ -148,6 +148,35 @@ public class MotorSceneTests
         AssertClose(new Vector3(1, 4, 3), Spin(world, body), 1e-3f);
     }
 
+    /// <summary>About the axes of A, which stays where it is: the opposite turns the other.</summary>
+    [Fact]
+    public void An_angular_motor_turns_A_against_B()
+    {
+        using var world = World();
+        var quarter = Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2);
+        var a = world.AddKinematic(ball, new RigidPose(Vector3.Zero, quarter));
+        var b = AddBall(world, x: 5);
+        world.Solver.Add(a, b, new AngularMotor { TargetVelocityLocalA = new Vector3(2, 0, 1), Settings = new(float.MaxValue, 0) });
+        world.Step(30);
+        // X of A is Y of the world.
+        AssertClose(new Vector3(0, -2, -1), Spin(world, b), 1e-4f);
+    }
+
+    [Theory, InlineData(2f), InlineData(-0.5f)]
+    public void A_gear_turns_B_by_a_multiple_of_A(float scale)
+    {
+        using var world = World();
+        var a = AddBall(world, new Vector3(0, 6, 0));
+        var b = AddBall(world, new Vector3(1, 0, 0), x: 5);
+        world.Solver.Add(a, b, new AngularAxisGearMotor { LocalAxisA = Vector3.UnitY, VelocityScale = scale, Settings = new(float.MaxValue, 0) });
+        world.Step(30);
+        // scale wA = wB, with torques scale : -1 on equal inertias: 6 - scale^2 x = x for wA, and wB = scale wA.
+        var expected = 6 / (1 + scale * scale);
+        Assert.Equal(expected, Spin(world, a).Y, 1e-3f);
+        Assert.Equal(expected * scale, Spin(world, b).Y, 1e-3f);
+        Assert.Equal(1, Spin(world, b).X, 1e-3f);
+    }
+
     [Fact]
     public void Torque_and_target_can_be_changed()
     {

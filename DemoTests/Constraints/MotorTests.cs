@@ -12,7 +12,7 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
     /// <summary>J v of linear and angular velocities, six numbers per body.</summary>
     private protected abstract double[] Velocity(TDescription description, DoublePose[] poses, double[] velocities);
 
-    private protected abstract double[] Target(TDescription description);
+    private protected abstract double[] Target(TDescription description, DoublePose[] poses);
 
     private protected abstract TDescription Describe(JointSamples samples, MotorSettings settings);
 
@@ -21,7 +21,7 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
 
     private protected sealed override double[] Error(TDescription description, DoublePose[] poses) => new double[RowCount];
 
-    private protected sealed override double[] Wanted(TDescription description, double[] error) => Target(description);
+    private protected sealed override double[] Wanted(TDescription description, double[] error, DoublePose[] poses) => Target(description, poses);
 
     private protected sealed override double[][] Jacobian(TDescription description, SampleBody[] bodies)
     {
@@ -34,8 +34,13 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
         return [.. Enumerable.Range(0, RowCount).Select(row => columns.Select(column => column[row]).ToArray())];
     }
 
-    private protected override IEnumerable<(string, TDescription, SampleBody[])> DegenerateCases(JointSamples samples)
+    /// <summary>Cases of the type's own.</summary>
+    private protected virtual IEnumerable<(string Name, TDescription Description, SampleBody[] Bodies)> OwnDegenerateCases(JointSamples samples) => [];
+
+    private protected sealed override IEnumerable<(string, TDescription, SampleBody[])> DegenerateCases(JointSamples samples)
     {
+        foreach (var own in OwnDegenerateCases(samples))
+            yield return own;
         foreach (var force in new[] { 0, 1, float.MaxValue, float.PositiveInfinity })
         {
             foreach (var softness in new[] { 0, 1e-45f, 1e-7f, 1, 1e7f, float.MaxValue, float.PositiveInfinity })
@@ -45,7 +50,7 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
 
     [Fact]
     public void TargetIsTheDefinition() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
-        AssertClose(Target(description), probe.TargetVelocity(lane), 0));
+        AssertClose(Target(description, Poses(bodies)), probe.TargetVelocity(lane), 1e-5));
 
     [Fact]
     public void ImpulsesKeepTheirLimit()
@@ -69,6 +74,36 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
         Assert.True(limited > 100, $"Only {limited} reached it.");
     }
 
+    /// <summary>A load below the greatest force is carried at the target velocity; one above it moves the motor by what is left over.</summary>
+    [Theory, InlineData(0.7f), InlineData(1.3f)]
+    public void LoadsAreCarriedUpToTheForce(float part)
+    {
+        const float Dt = 1 / 240f;
+        const double Force = 2000;
+        ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
+        {
+            probe.Set(lane, Describe(samples, new MotorSettings((float)Force, 0)), bodies);
+            probe.SetImpulse(lane, new double[RowCount]);
+            double[] load = [.. Enumerable.Range(0, RowCount).Select(row => row == 0 ? part * Force * Dt : 0)];
+            double last = 0, next = 0;
+            for (int i = 0; i < 400; ++i)
+            {
+                var kept = probe.Impulse(lane);
+                probe.SetImpulse(lane, load);
+                probe.ApplyImpulse();
+                probe.SetImpulse(lane, kept);
+                probe.WarmStart(new(0, Dt));
+                probe.Solve(new(0, Dt));
+                (last, next) = (next, probe.RelativeVelocity(lane)[0]);
+            }
+            var gained = load[0] * probe.InverseEffectiveMass(lane)[0, 0];
+            if (part < 1)
+                AssertClose(probe.TargetVelocity(lane), probe.RelativeVelocity(lane), 1e-3 * (1 + gained));
+            else
+                Assert.True(Math.Abs(next - last - gained * (1 - 1 / part)) <= 0.02 * gained, $"{next - last} of {gained}");
+        });
+    }
+
     [Fact]
     public void RelaxationLeavesItAlone() => ForEachSample(settled: false, (probe, lane, description, bodies, samples) =>
     {
@@ -76,28 +111,4 @@ public abstract class MotorTests<TDescription> : JointTests<TDescription> where 
         probe.Solve(new(0, 1 / 240f, relaxations: 1, isRelaxation: true));
         Assert.Equal(before, probe.LaneBits(lane));
     });
-}
-
-public class AngularAxisMotorTests : MotorTests<AngularAxisMotor>
-{
-    private protected override AngularAxisMotor Describe(JointSamples samples, MotorSettings settings) =>
-        new() { LocalAxisA = samples.Direction(), TargetVelocity = samples.Uniform(-5, 5), Settings = settings };
-
-    private protected override double[] Target(AngularAxisMotor d) => [d.TargetVelocity];
-
-    private protected override double[] Velocity(AngularAxisMotor d, DoublePose[] poses, double[] v)
-    {
-        var relative = new DoubleVector(v[3], v[4], v[5]) - new DoubleVector(v[9], v[10], v[11]);
-        return [DoubleVector.Dot(poses[0].ToWorld(d.LocalAxisA), relative)];
-    }
-}
-
-public class OneBodyAngularMotorTests : MotorTests<OneBodyAngularMotor>
-{
-    private protected override OneBodyAngularMotor Describe(JointSamples samples, MotorSettings settings) =>
-        new() { TargetVelocity = samples.Vector(5), Settings = settings };
-
-    private protected override double[] Target(OneBodyAngularMotor d) => new DoubleVector(d.TargetVelocity).ToArray();
-
-    private protected override double[] Velocity(OneBodyAngularMotor d, DoublePose[] poses, double[] v) => v[3..6];
 }

@@ -127,15 +127,7 @@ public class HingeTests : JointTests<Hinge>
     private protected override double[] Error(Hinge d, DoublePose[] poses)
     {
         var position = poses[0].Position + poses[0].ToWorld(d.LocalOffsetA) - poses[1].Position - poses[1].ToWorld(d.LocalOffsetB);
-        var a = poses[0].ToWorld(d.LocalHingeAxisA);
-        var b = poses[1].ToWorld(d.LocalHingeAxisB);
-        var cross = DoubleVector.Cross(b, a);
-        var rotation = cross.Length == 0 ? cross : cross * (Math.Atan2(cross.Length, DoubleVector.Dot(a, b)) / cross.Length);
-        // The rows are coordinates in a frame of A; which one is the joint's choice.
-        Vector3Wide.BuildOrthonormalBasis(Lanes.Broadcast<Vector3, Vector3Wide>(d.LocalHingeAxisA), out var x, out var y);
-        return [.. position.ToArray(),
-            DoubleVector.Dot(poses[0].ToWorld(Lanes.Read<Vector3, Vector3Wide>(ref x, 0)), rotation),
-            DoubleVector.Dot(poses[0].ToWorld(Lanes.Read<Vector3, Vector3Wide>(ref y, 0)), rotation)];
+        return [.. position.ToArray(), .. Rotations.TurnToAlign(poses, d.LocalHingeAxisA, d.LocalHingeAxisB)];
     }
 
     private protected override bool IsSmooth(Hinge d, DoublePose[] poses) =>
@@ -147,16 +139,8 @@ public class HingeTests : JointTests<Hinge>
         Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
     }
 
-    private protected override IEnumerable<(string, Hinge, SampleBody[])> DegenerateCases(JointSamples samples)
-    {
-        foreach (var axis in new Vector3[] { new(1, 0, 0), new(0, 1, 0), new(0, 0, 1), new(0, 0, -1), samples.Direction() })
-        {
-            var bodies = NewBodies(samples);
-            bodies[0].Orientation = bodies[1].Orientation = Quaternion.Identity;
-            yield return ($"Same axis {axis}", new() { LocalHingeAxisA = axis, LocalHingeAxisB = axis }, bodies);
-            yield return ($"Opposite axes {axis}", new() { LocalHingeAxisA = axis, LocalHingeAxisB = -axis }, bodies);
-        }
-    }
+    private protected override IEnumerable<(string, Hinge, SampleBody[])> DegenerateCases(JointSamples samples) =>
+        Rotations.ParallelAxes(samples, NewBodies, (a, b) => new Hinge { LocalHingeAxisA = a, LocalHingeAxisB = b });
 
     [Fact]
     public void OppositeAxesAreHalfATurnApart()
@@ -169,47 +153,30 @@ public class HingeTests : JointTests<Hinge>
     }
 }
 
-public class OneBodyLinearServoTests : JointTests<OneBodyLinearServo>
+public class SwivelHingeTests : JointTests<SwivelHinge>
 {
-    private protected override OneBodyLinearServo Describe(JointSamples samples, SpringSettings spring) =>
-        new() { LocalOffset = samples.Vector(1), Target = samples.Vector(2), SpringSettings = spring, ServoSettings = ServoSettings.Default };
-
-    private protected override double[] Error(OneBodyLinearServo d, DoublePose[] poses) =>
-        (poses[0].Position + poses[0].ToWorld(d.LocalOffset) - new DoubleVector(d.Target)).ToArray();
-
-    private protected override IEnumerable<(string, OneBodyLinearServo, SampleBody[])> DegenerateCases(JointSamples samples)
+    private protected override SwivelHinge Describe(JointSamples samples, SpringSettings spring) => new()
     {
-        var bodies = NewBodies(samples);
-        yield return ("At its target", new() { Target = bodies[0].Position, ServoSettings = ServoSettings.Default }, bodies);
-        yield return ("At its target, with a base speed", new() { Target = bodies[0].Position, ServoSettings = new(10, 1, 100) }, bodies);
-        yield return ("No force", new() { Target = samples.Vector(1), ServoSettings = new(10, 1, 0) }, bodies);
-        yield return ("No speed", new() { Target = samples.Vector(1), ServoSettings = new(0, 0, 100) }, bodies);
-        yield return ("Infinite force and speed",
-            new() { Target = samples.Vector(1), ServoSettings = new(float.PositiveInfinity, 0, float.PositiveInfinity) }, bodies);
+        LocalOffsetA = samples.Vector(1),
+        LocalSwivelAxisA = samples.Direction(),
+        LocalOffsetB = samples.Vector(1),
+        LocalHingeAxisB = samples.Direction(),
+        SpringSettings = spring,
+    };
+
+    private protected override double[] Error(SwivelHinge d, DoublePose[] poses)
+    {
+        var position = poses[0].Position + poses[0].ToWorld(d.LocalOffsetA) - poses[1].Position - poses[1].ToWorld(d.LocalOffsetB);
+        return [.. position.ToArray(), Math.PI / 2 - Angle(d, poses)];
     }
 
-    [Fact]
-    public void ForceAndSpeedKeepTheirLimits()
-    {
-        var samples = new JointSamples(9);
-        const float dt = 1 / 240f;
-        for (int trial = 0; trial < 200; ++trial)
-        {
-            var bodies = NewBodies(samples);
-            var servo = Describe(samples, samples.Spring());
-            servo.ServoSettings = new(samples.Uniform(0.1f, 3), samples.Uniform(0, 0.1f), samples.Uniform(0.1f, 50));
-            var probe = JointProbes.New<OneBodyLinearServo>();
-            probe.Set(0, servo, bodies);
-            for (int i = 0; i < 300; ++i)
-            {
-                probe.WarmStart(new(0, dt, 1, 1));
-                probe.Solve(new(0, dt, 1, 1));
-                Assert.True(Length(probe.Impulse(0)) <= servo.ServoSettings.MaximumForce * dt * 1.0001);
-            }
-            if (servo.ServoSettings.MaximumForce > 40 && servo.SpringSettings.AngularFrequency == 0)
-                Assert.InRange(Length(probe.RelativeVelocity(0)), 0, servo.ServoSettings.MaximumSpeed * 1.01);
-        }
-    }
+    static double Angle(SwivelHinge d, DoublePose[] poses) =>
+        DoubleVector.Angle(poses[0].ToWorld(d.LocalSwivelAxisA), poses[1].ToWorld(d.LocalHingeAxisB));
 
-    static double Length(double[] v) => new DoubleVector(v[0], v[1], v[2]).Length;
+    private protected override bool IsSmooth(SwivelHinge d, DoublePose[] poses) => Angle(d, poses) is > 0.05 and < Math.PI - 0.05;
+
+    private protected override void Settle(SwivelHinge d, SampleBody[] bodies) => Rotations.JoinAnchors(bodies, d.LocalOffsetA, d.LocalOffsetB);
+
+    private protected override IEnumerable<(string, SwivelHinge, SampleBody[])> DegenerateCases(JointSamples samples) =>
+        Rotations.ParallelAxes(samples, NewBodies, (a, b) => new SwivelHinge { LocalSwivelAxisA = a, LocalHingeAxisB = b });
 }

@@ -81,11 +81,11 @@ static class RandomDescriptions
 
     static float[] Values(Type type, string name, JointSamples samples)
     {
+        // Points that are to be in one place have no direction, and so no derivative, where they are.
         if (type == typeof(float))
-            return [samples.Uniform(-1, 2)];
+            return [name == "TargetDistance" ? samples.Uniform(0.3f, 2) : samples.Uniform(-1, 2)];
         if (type == typeof(Vector3))
-            return Floats(name.Contains("Axis", StringComparison.Ordinal) || name.Contains("Direction", StringComparison.Ordinal) ||
-                name.Contains("Normal", StringComparison.Ordinal) ? samples.Direction() : samples.Vector(1));
+            return Floats(IsDirection(name) ? samples.Direction() : samples.Vector(1));
         if (type == typeof(Quaternion))
             return Floats(samples.Rotation());
         if (type == typeof(SpringSettings))
@@ -96,6 +96,10 @@ static class RandomDescriptions
             return Floats(samples.Coin() ? new MotorSettings(float.MaxValue, 0) : new MotorSettings(samples.Uniform(1, 100), samples.Uniform(0, 1)));
         throw new InvalidOperationException($"No random values for {name} of type {type.Name}: say here what they are.");
     }
+
+    /// <summary>Whether a vector of that name is a unit vector.</summary>
+    public static bool IsDirection(string name) => name.Contains("Axis", StringComparison.Ordinal) ||
+        name.Contains("Direction", StringComparison.Ordinal) || name.Contains("Normal", StringComparison.Ordinal);
 
     static float[] Floats<T>(T value) where T : unmanaged
     {

@@ -12,6 +12,7 @@ static class RowMatrices
         Rows1 m => new double[,] { { m.X[lane] } },
         RowMatrix2 m => Assemble(2, Entry(m.M, lane), null, null, 2),
         RowMatrix3 m => Assemble(3, Entry(m.M, lane), null, null, 3),
+        RowMatrix4 m => Assemble(4, Entry(m.Linear, lane), (i, _) => Component(m.Coupling, i, lane), (_, _) => m.Angular[lane], 3),
         RowMatrix5 m => Assemble(5, Entry(m.Linear, lane), (i, j) => Component(j == 0 ? m.Coupling.X : m.Coupling.Y, i, lane), Entry(m.Angular, lane), 3),
         RowMatrix6 m => Assemble(6, Entry(m.Linear, lane),
             (i, j) => Component(i == 0 ? m.Coupling.X : i == 1 ? m.Coupling.Y : m.Coupling.Z, j, lane), Entry(m.Angular, lane), 3),

@@ -186,7 +186,7 @@ public class RowTests
     }
 
     // Newton's method, with the step that moves mass the least.
-    static void Settle(RowBench bench)
+    internal static void Settle(RowBench bench)
     {
         for (int i = 0; i < 30; ++i)
         {

@@ -104,7 +104,7 @@ public class WinchTests : MotorTests<Winch>
         Settings = settings,
     };
 
-    private protected override double[] Target(Winch d) => [d.Speed];
+    private protected override double[] Target(Winch d, DoublePose[] poses) => [d.Speed];
 
     private protected override double[] Velocity(Winch d, DoublePose[] poses, double[] v)
     {

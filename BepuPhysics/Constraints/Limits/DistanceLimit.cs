@@ -28,7 +28,7 @@ public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float mi
     public static int ConstraintTypeId => ConstraintTypeIds.DistanceLimit;
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
-        TwoBodies, DistanceLimitWide, Rows1, JointConstraint<TwoBodies, DistanceLimitWide, DistanceLimitGeometry, Rows1, Rows1, DistanceLimitJoint>>();
+        TwoBodies, DistanceLimitWide, Rows1, JointConstraint<TwoBodies, DistanceLimitWide, LinearRow, Rows1, Rows1, DistanceLimitJoint>>();
     /// <inheritdoc/>
     public static void Validate(in DistanceLimit description)
     {
@@ -56,33 +56,13 @@ struct DistanceLimitWide : IWide<DistanceLimit>
     public SpringSettingsWide SpringSettings;
 }
 
-/// <summary>The side of a distance limit that is nearer, in world axes.</summary>
-struct DistanceLimitGeometry
-{
-    /// <summary>Direction of the impulse on A: to B for the greatest distance, away from B for the least.</summary>
-    public Vector3Wide Direction;
-    /// <summary>Lever arm of A crossed with the direction.</summary>
-    public Vector3Wide AngularA;
-    /// <summary>Lever arm of B crossed with the direction.</summary>
-    public Vector3Wide AngularB;
-    /// <summary>Distance that is left to the nearer limit; negative beyond it.</summary>
-    public Vector<float> Slack;
-}
-
 /// <summary>Row of <see cref="DistanceLimit"/>.</summary>
 // d = (xB + rB) - (xA + rA),  u = d / |d|
 // C = maximum - |d| >= 0  with n = u,  or  |d| - minimum >= 0  with n = -u,  whichever limit is nearer
-// J = [ n, rA x n, -n, -(rB x n) ]   over (vA, wA, vB, wB)
-// K = 1/mA + 1/mB + (rA x n) IA^-1 (rA x n) + (rB x n) IB^-1 (rB x n)
 // A minimum of zero cannot be violated, so such a lane always watches its maximum: the anchors of a slack rope may pass through
-// each other. Anchors that coincide have no direction; it is the world's Y axis by definition.
-readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, DistanceLimitGeometry, Rows1, Rows1>
+// each other.
+readonly struct DistanceLimitJoint : IJacobianJoint<TwoBodies, DistanceLimitWide, LinearRow, Rows1, Rows1>
 {
-    // Squares of lengths lose digits below this, so the direction is not a unit vector any more: what floats can hold, no size of a thing.
-    const float LeastLengthSquared = 1e-30f;
-    // Slack to a maximum such as float.MaxValue: no speed uses it up, and it can be divided by a timestep.
-    const float EndlessSlack = 1e18f;
-
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
     /// <inheritdoc/>
@@ -90,7 +70,7 @@ readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, Distan
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Prepare(in TwoBodies bodies, in DistanceLimitWide prestep, out DistanceLimitGeometry geometry)
+    public static void Prepare(in TwoBodies bodies, in DistanceLimitWide prestep, out LinearRow geometry)
     {
         var offsetA = bodies.A.Orientation * prestep.LocalOffsetA;
         var offsetB = bodies.B.Orientation * prestep.LocalOffsetB;
@@ -98,47 +78,17 @@ readonly struct DistanceLimitJoint : IJoint<TwoBodies, DistanceLimitWide, Distan
         var difference = (bodies.B.Position - bodies.A.Position) + (offsetB - offsetA);
         var lengthSquared = difference.LengthSquared();
         var length = Vector.SquareRoot(lengthSquared);
-        var aboveMinimum = length - prestep.MinimumDistance;
-        var belowMaximum = prestep.MaximumDistance - length;
-        var useMinimum =
-            Vector.LessThan(Vector.Abs(aboveMinimum), Vector.Abs(belowMaximum)) & Vector.GreaterThan(prestep.MinimumDistance, Vector<float>.Zero);
-        geometry.Slack = Wide.Min(Wide.Select(useMinimum, aboveMinimum, belowMaximum), new Vector<float>(EndlessSlack));
-
-        var sign = Wide.Select(useMinimum, -Vector<float>.One, Vector<float>.One);
-        var apart = Vector.GreaterThan(lengthSquared, new Vector<float>(LeastLengthSquared));
-        geometry.Direction = Vector3Wide.Select(
-            apart, difference * (sign / length), new Vector3Wide(Vector<float>.Zero, sign, Vector<float>.Zero));
+        geometry.Distance = LinearRow.NearerLimit(
+            length, prestep.MinimumDistance, prestep.MaximumDistance, Vector.GreaterThan(prestep.MinimumDistance, Vector<float>.Zero), out var sign);
+        geometry.Direction = LinearRow.DirectionOf(difference, lengthSquared, length, sign);
         geometry.AngularA = Vector3Wide.Cross(offsetA, geometry.Direction);
         geometry.AngularB = Vector3Wide.Cross(offsetB, geometry.Direction);
     }
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PositionError(in TwoBodies bodies, in DistanceLimitWide prestep, in DistanceLimitGeometry geometry, out Rows1 error) =>
-        error.X = geometry.Slack;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void RelativeVelocity(in DistanceLimitGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = Vector3Wide.Dot(bodies.A.Linear - bodies.B.Linear, geometry.Direction) +
-            (Vector3Wide.Dot(bodies.A.Angular, geometry.AngularA) - Vector3Wide.Dot(bodies.B.Angular, geometry.AngularB));
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in DistanceLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse)
-    {
-        bodies.A.Linear += geometry.Direction * (impulse.X * bodies.A.InverseMass);
-        bodies.A.Angular += bodies.A.InverseInertia * (geometry.AngularA * impulse.X);
-        bodies.B.Linear -= geometry.Direction * (impulse.X * bodies.B.InverseMass);
-        bodies.B.Angular -= bodies.B.InverseInertia * (geometry.AngularB * impulse.X);
-    }
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in DistanceLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = bodies.A.InverseMass + bodies.B.InverseMass +
-            (Symmetric3x3Wide.VectorSandwich(geometry.AngularA, bodies.A.InverseInertia) +
-            Symmetric3x3Wide.VectorSandwich(geometry.AngularB, bodies.B.InverseInertia));
+    public static void PositionError(in TwoBodies bodies, in DistanceLimitWide prestep, in LinearRow geometry, out Rows1 error) =>
+        error.X = geometry.Distance;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

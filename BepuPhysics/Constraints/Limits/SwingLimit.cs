@@ -27,7 +27,7 @@ public struct SwingLimit : ITwoBodyConstraintDescription<SwingLimit>
     public static int ConstraintTypeId => ConstraintTypeIds.SwingLimit;
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
-        TwoBodies, SwingLimitWide, Rows1, JointConstraint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1, SwingLimitJoint>>();
+        TwoBodies, SwingLimitWide, Rows1, JointConstraint<TwoBodies, SwingLimitWide, AxesRow, Rows1, Rows1, SwingLimitJoint>>();
     /// <inheritdoc/>
     public static void Validate(in SwingLimit description)
     {
@@ -51,70 +51,29 @@ struct SwingLimitWide : IWide<SwingLimit>
     public SpringSettingsWide SpringSettings;
 }
 
-/// <summary>The two axes of a swing limit in world axes.</summary>
-struct SwingLimitGeometry
-{
-    /// <summary>Axis of A crossed with axis of B, made a unit vector.</summary>
-    public Vector3Wide Axis;
-    /// <summary>Sine of the angle between the axes; not negative.</summary>
-    public Vector<float> Sine;
-    /// <summary>Cosine of the angle between the axes.</summary>
-    public Vector<float> Cosine;
-}
-
 /// <summary>Row of <see cref="SwingLimit"/>.</summary>
 // C = maximum angle - angle(a, b) >= 0   the same limit as dot(a, b) >= MinimumDot, but measured in radians: a deviation of the cosine is
 //                                        a quadratic measure near 0 and pi, where a limit in it would be soft or have no slope at all
-// J = [ 0, n^T, 0, -n^T ]   over (vA, wA, vB, wB), with n = a x b / |a x b|
-// K = n (IA^-1 + IB^-1) n
-// Axes that are parallel, either way, have no n of their own: it is a direction at right angles to a, by definition.
-readonly struct SwingLimitJoint : IJoint<TwoBodies, SwingLimitWide, SwingLimitGeometry, Rows1, Rows1>
+readonly struct SwingLimitJoint : IJacobianJoint<TwoBodies, SwingLimitWide, AxesRow, Rows1, Rows1>
 {
-    // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
-    const float ParallelSine = 1e-6f;
-
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Prepare(in TwoBodies bodies, in SwingLimitWide prestep, out SwingLimitGeometry geometry)
-    {
-        var axisA = bodies.A.Orientation * prestep.AxisLocalA;
-        var axisB = bodies.B.Orientation * prestep.AxisLocalB;
-        var cross = Vector3Wide.Cross(axisA, axisB);
-        geometry.Sine = cross.Length();
-        geometry.Cosine = Vector3Wide.Dot(axisA, axisB);
-        Vector3Wide.BuildOrthonormalBasis(axisA, out var perpendicular, out _);
-        var isParallel = Vector.LessThan(geometry.Sine, new Vector<float>(ParallelSine));
-        geometry.Axis = Vector3Wide.Select(isParallel, perpendicular, cross * (Vector<float>.One / geometry.Sine));
-    }
+    public static void Prepare(in TwoBodies bodies, in SwingLimitWide prestep, out AxesRow geometry) =>
+        AxesRow.Prepare(bodies, prestep.AxisLocalA, prestep.AxisLocalB, out geometry);
 
     /// <inheritdoc/>
     // The difference of two angles by one arc tangent: of its sine and its cosine, from those of the two.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PositionError(in TwoBodies bodies, in SwingLimitWide prestep, in SwingLimitGeometry geometry, out Rows1 error)
+    public static void PositionError(in TwoBodies bodies, in SwingLimitWide prestep, in AxesRow geometry, out Rows1 error)
     {
         var limitSine = Wide.SquareRootOrZero((Vector<float>.One - prestep.MinimumDot) * (Vector<float>.One + prestep.MinimumDot));
         error.X = Wide.Atan2(
             limitSine * geometry.Cosine - prestep.MinimumDot * geometry.Sine,
             prestep.MinimumDot * geometry.Cosine + limitSine * geometry.Sine);
     }
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void RelativeVelocity(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = AngularRow.RelativeVelocity(geometry.Axis, bodies);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in SwingLimitGeometry geometry, ref TwoBodies bodies, in Rows1 impulse) =>
-        AngularRow.ApplyImpulse(geometry.Axis, ref bodies, impulse.X);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in SwingLimitGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = AngularRow.InverseEffectiveMass(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

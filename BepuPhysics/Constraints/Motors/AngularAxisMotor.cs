@@ -19,7 +19,7 @@ public struct AngularAxisMotor : ITwoBodyConstraintDescription<AngularAxisMotor>
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         TwoBodies, AngularAxisMotorWide, Rows1,
-        JointConstraint<TwoBodies, AngularAxisMotorWide, AngularAxisMotorGeometry, Rows1, Rows1, AngularAxisMotorJoint>>();
+        JointConstraint<TwoBodies, AngularAxisMotorWide, AngularRow, Rows1, Rows1, AngularAxisMotorJoint>>();
     /// <inheritdoc/>
     public static void Validate(in AngularAxisMotor description)
     {
@@ -40,43 +40,20 @@ struct AngularAxisMotorWide : IWide<AngularAxisMotor>
     public MotorSettingsWide Settings;
 }
 
-/// <summary>The axis of a motor in world axes.</summary>
-struct AngularAxisMotorGeometry
-{
-    /// <summary>Unit vector, fixed to A.</summary>
-    public Vector3Wide Axis;
-}
-
 /// <summary>Row of <see cref="AngularAxisMotor"/>.</summary>
 // J v = a (wA - wB) = target, a the axis of A in the world
-// J = [ 0, a^T, 0, -a^T ]   over (vA, wA, vB, wB)
-// K = a (IA^-1 + IB^-1) a
-readonly struct AngularAxisMotorJoint : IMotor<TwoBodies, AngularAxisMotorWide, AngularAxisMotorGeometry, Rows1, Rows1>
+readonly struct AngularAxisMotorJoint :
+    IMotor<TwoBodies, AngularAxisMotorWide, AngularRow, Rows1, Rows1>, IJacobianJoint<TwoBodies, AngularAxisMotorWide, AngularRow, Rows1, Rows1>
 {
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Prepare(in TwoBodies bodies, in AngularAxisMotorWide prestep, out AngularAxisMotorGeometry geometry) =>
-        geometry.Axis = bodies.A.Orientation * prestep.LocalAxisA;
+    public static void Prepare(in TwoBodies bodies, in AngularAxisMotorWide prestep, out AngularRow geometry) =>
+        geometry = new() { Axis = bodies.A.Orientation * prestep.LocalAxisA };
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void TargetVelocity(in TwoBodies bodies, in AngularAxisMotorWide prestep, in AngularAxisMotorGeometry geometry, out Rows1 velocity) =>
+    public static void TargetVelocity(in TwoBodies bodies, in AngularAxisMotorWide prestep, in AngularRow geometry, out Rows1 velocity) =>
         velocity.X = prestep.TargetVelocity;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void RelativeVelocity(in AngularAxisMotorGeometry geometry, in TwoBodies bodies, out Rows1 velocity) =>
-        velocity.X = AngularRow.RelativeVelocity(geometry.Axis, bodies);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in AngularAxisMotorGeometry geometry, ref TwoBodies bodies, in Rows1 impulse) =>
-        AngularRow.ApplyImpulse(geometry.Axis, ref bodies, impulse.X);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in AngularAxisMotorGeometry geometry, in TwoBodies bodies, out Rows1 inverseMass) =>
-        inverseMass.X = AngularRow.InverseEffectiveMass(geometry.Axis, bodies);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -17,7 +17,7 @@ public struct OneBodyAngularMotor : IOneBodyConstraintDescription<OneBodyAngular
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         OneBody, OneBodyAngularMotorWide, Rows3,
-        JointConstraint<OneBody, OneBodyAngularMotorWide, OneBodyAngularMotorGeometry, Rows3, RowMatrix3, OneBodyAngularMotorJoint>>();
+        JointConstraint<OneBody, OneBodyAngularMotorWide, OneBodyAngularRows, Rows3, RowMatrix3, OneBodyAngularMotorJoint>>();
     /// <inheritdoc/>
     public static void Validate(in OneBodyAngularMotor description)
     {
@@ -35,38 +35,20 @@ struct OneBodyAngularMotorWide : IWide<OneBodyAngularMotor>
     public MotorSettingsWide Settings;
 }
 
-/// <summary>Nothing: the rows are the axes of the world.</summary>
-struct OneBodyAngularMotorGeometry;
-
 /// <summary>Rows of <see cref="OneBodyAngularMotor"/>.</summary>
 // J v = w = target
-// J = [ 0, I ]   over (v, w)
-// K = I^-1, the inverse inertia
-readonly struct OneBodyAngularMotorJoint : IMotor<OneBody, OneBodyAngularMotorWide, OneBodyAngularMotorGeometry, Rows3, RowMatrix3>
+readonly struct OneBodyAngularMotorJoint :
+    IMotor<OneBody, OneBodyAngularMotorWide, OneBodyAngularRows, Rows3, RowMatrix3>,
+    IJacobianJoint<OneBody, OneBodyAngularMotorWide, OneBodyAngularRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Prepare(in OneBody bodies, in OneBodyAngularMotorWide prestep, out OneBodyAngularMotorGeometry geometry) => geometry = default;
+    public static void Prepare(in OneBody bodies, in OneBodyAngularMotorWide prestep, out OneBodyAngularRows geometry) => geometry = default;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void TargetVelocity(in OneBody bodies, in OneBodyAngularMotorWide prestep, in OneBodyAngularMotorGeometry geometry, out Rows3 velocity) =>
+    public static void TargetVelocity(in OneBody bodies, in OneBodyAngularMotorWide prestep, in OneBodyAngularRows geometry, out Rows3 velocity) =>
         velocity.V = prestep.TargetVelocity;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void RelativeVelocity(in OneBodyAngularMotorGeometry geometry, in OneBody bodies, out Rows3 velocity) =>
-        velocity.V = bodies.A.Angular;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in OneBodyAngularMotorGeometry geometry, ref OneBody bodies, in Rows3 impulse) =>
-        bodies.A.Angular += bodies.A.InverseInertia * impulse.V;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in OneBodyAngularMotorGeometry geometry, in OneBody bodies, out RowMatrix3 inverseMass) =>
-        inverseMass.M = bodies.A.InverseInertia;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -21,7 +21,7 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
     /// <inheritdoc/>
     public static TypeProcessor CreateTypeProcessor() => new TypeProcessor<
         OneBody, OneBodyLinearServoWide, Rows3,
-        JointConstraint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3, OneBodyLinearServoJoint>>();
+        JointConstraint<OneBody, OneBodyLinearServoWide, OneBodyPointRows, Rows3, RowMatrix3, OneBodyLinearServoJoint>>();
     /// <inheritdoc/>
     public static void Validate(in OneBodyLinearServo description)
     {
@@ -45,50 +45,23 @@ struct OneBodyLinearServoWide : IWide<OneBodyLinearServo>
     public ServoSettingsWide ServoSettings;
 }
 
-/// <summary>Lever arm of a pulled point in world axes.</summary>
-struct OneBodyLinearServoGeometry
-{
-    /// <summary>From the centre of the body to the point.</summary>
-    public Vector3Wide Offset;
-}
-
 /// <summary>Rows of <see cref="OneBodyLinearServo"/>.</summary>
 // C = (x + r) - target
-// J = [ I, -skew(r) ]   over (v, w), with skew(r) w = r x w
-// K = 1/m I + skew(r) I^-1 skew(r)^T
-readonly struct OneBodyLinearServoJoint : IJoint<OneBody, OneBodyLinearServoWide, OneBodyLinearServoGeometry, Rows3, RowMatrix3>
+readonly struct OneBodyLinearServoJoint : IJacobianJoint<OneBody, OneBodyLinearServoWide, OneBodyPointRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Prepare(in OneBody bodies, in OneBodyLinearServoWide prestep, out OneBodyLinearServoGeometry geometry) =>
+    public static void Prepare(in OneBody bodies, in OneBodyLinearServoWide prestep, out OneBodyPointRows geometry) =>
         geometry.Offset = bodies.A.Orientation * prestep.LocalOffset;
 
     /// <inheritdoc/>
     // Position and target are subtracted first: far from the origin their difference is still exact.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void PositionError(in OneBody bodies, in OneBodyLinearServoWide prestep, in OneBodyLinearServoGeometry geometry, out Rows3 error) =>
+    public static void PositionError(in OneBody bodies, in OneBodyLinearServoWide prestep, in OneBodyPointRows geometry, out Rows3 error) =>
         error.V = (bodies.A.Position - prestep.Target) + geometry.Offset;
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void RelativeVelocity(in OneBodyLinearServoGeometry geometry, in OneBody bodies, out Rows3 velocity) =>
-        velocity.V = bodies.A.Linear + Vector3Wide.Cross(bodies.A.Angular, geometry.Offset);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ApplyImpulse(in OneBodyLinearServoGeometry geometry, ref OneBody bodies, in Rows3 impulse)
-    {
-        bodies.A.Linear += impulse.V * bodies.A.InverseMass;
-        bodies.A.Angular += bodies.A.InverseInertia * Vector3Wide.Cross(geometry.Offset, impulse.V);
-    }
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in OneBodyLinearServoGeometry geometry, in OneBody bodies, out RowMatrix3 inverseMass) =>
-        inverseMass.M = Symmetric3x3Wide.AddDiagonal(Symmetric3x3Wide.SkewSandwich(geometry.Offset, bodies.A.InverseInertia), bodies.A.InverseMass);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,0 +1,50 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>A row about the angle between an axis a of A and an axis b of B.</summary>
+// J = [ 0, n^T, 0, -n^T ]   over (vA, wA, vB, wB), with n = a x b / |a x b|: what the angle loses
+// Axes that are parallel, either way, have no n of their own: it is a direction at right angles to a, by definition.
+struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
+{
+    // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
+    const float ParallelSine = 1e-6f;
+
+    /// <summary>Axis of A crossed with axis of B, made a unit vector.</summary>
+    public Vector3Wide Axis;
+    /// <summary>Sine of the angle between the axes; not negative.</summary>
+    public Vector<float> Sine;
+    /// <summary>Cosine of the angle between the axes.</summary>
+    public Vector<float> Cosine;
+
+    /// <summary>The row for two axes in the bodies' frames.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static void Prepare(in TwoBodies bodies, in Vector3Wide localAxisA, in Vector3Wide localAxisB, out AxesRow row)
+    {
+        var axisA = bodies.A.Orientation * localAxisA;
+        var axisB = bodies.B.Orientation * localAxisB;
+        var cross = Vector3Wide.Cross(axisA, axisB);
+        row.Sine = cross.Length();
+        row.Cosine = Vector3Wide.Dot(axisA, axisB);
+        Vector3Wide.BuildOrthonormalBasis(axisA, out var perpendicular, out _);
+        var isParallel = Vector.LessThan(row.Sine, new Vector<float>(ParallelSine));
+        row.Axis = Vector3Wide.Select(isParallel, perpendicular, cross * (Vector<float>.One / row.Sine));
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void RelativeVelocity(in AxesRow row, in TwoBodies bodies, out Rows1 velocity) =>
+        velocity.X = AngularRow.RelativeVelocity(row.Axis, bodies);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void ApplyImpulse(in AxesRow row, ref TwoBodies bodies, in Rows1 impulse) =>
+        AngularRow.ApplyImpulse(row.Axis, ref bodies, impulse.X);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void InverseEffectiveMass(in AxesRow row, in TwoBodies bodies, out Rows1 inverseMass) =>
+        inverseMass.X = AngularRow.InverseEffectiveMass(row.Axis, bodies);
+}
