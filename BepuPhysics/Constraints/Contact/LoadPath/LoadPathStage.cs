@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
