@@ -18,12 +18,8 @@ public struct CenterDistanceLimit : ITwoBodyConstraintDescription<CenterDistance
     /// <param name="minimumDistance">Least distance, m; not negative.</param>
     /// <param name="maximumDistance">Greatest distance, m; not below the least.</param>
     /// <param name="springSettings">Stiffness of the limits.</param>
-    public CenterDistanceLimit(float minimumDistance, float maximumDistance, in SpringSettings springSettings)
-    {
-        MinimumDistance = minimumDistance;
-        MaximumDistance = maximumDistance;
-        SpringSettings = springSettings;
-    }
+    public CenterDistanceLimit(float minimumDistance, float maximumDistance, in SpringSettings springSettings) =>
+        (MinimumDistance, MaximumDistance, SpringSettings) = (minimumDistance, maximumDistance, springSettings);
 
     /// <inheritdoc/>
     public static int ConstraintTypeId => ConstraintTypeIds.CenterDistanceLimit;

@@ -18,6 +18,16 @@ public struct DistanceServo : ITwoBodyConstraintDescription<DistanceServo>
     /// <summary>Stiffness of the connection; the default is rigid.</summary>
     public SpringSettings SpringSettings;
 
+    /// <summary>Describes a distance without limits of speed and force.</summary>
+    /// <param name="localOffsetA">Anchor in A's frame, m.</param>
+    /// <param name="localOffsetB">Anchor in B's frame, m.</param>
+    /// <param name="targetDistance">Distance between the anchors, m; not negative.</param>
+    /// <param name="springSettings">Stiffness of the connection.</param>
+    public DistanceServo(Vector3 localOffsetA, Vector3 localOffsetB, float targetDistance, in SpringSettings springSettings) :
+        this(localOffsetA, localOffsetB, targetDistance, springSettings, ServoSettings.Default)
+    {
+    }
+
     /// <summary>Describes a distance with limits of speed and force.</summary>
     /// <param name="localOffsetA">Anchor in A's frame, m.</param>
     /// <param name="localOffsetB">Anchor in B's frame, m.</param>
@@ -27,21 +37,8 @@ public struct DistanceServo : ITwoBodyConstraintDescription<DistanceServo>
     public DistanceServo(
         Vector3 localOffsetA, Vector3 localOffsetB, float targetDistance, in SpringSettings springSettings, in ServoSettings servoSettings)
     {
-        LocalOffsetA = localOffsetA;
-        LocalOffsetB = localOffsetB;
-        TargetDistance = targetDistance;
-        SpringSettings = springSettings;
-        ServoSettings = servoSettings;
-    }
-
-    /// <summary>Describes a distance without limits of speed and force.</summary>
-    /// <param name="localOffsetA">Anchor in A's frame, m.</param>
-    /// <param name="localOffsetB">Anchor in B's frame, m.</param>
-    /// <param name="targetDistance">Distance between the anchors, m; not negative.</param>
-    /// <param name="springSettings">Stiffness of the connection.</param>
-    public DistanceServo(Vector3 localOffsetA, Vector3 localOffsetB, float targetDistance, in SpringSettings springSettings) :
-        this(localOffsetA, localOffsetB, targetDistance, springSettings, ServoSettings.Default)
-    {
+        (LocalOffsetA, LocalOffsetB, TargetDistance) = (localOffsetA, localOffsetB, targetDistance);
+        (ServoSettings, SpringSettings) = (servoSettings, springSettings);
     }
 
     /// <inheritdoc/>
