@@ -219,16 +219,19 @@ unsafe readonly struct ContactConstraint
                 break;
             }
         }
-        for (int i = 0; i < contactCount; ++i)
+        if (received != (1 << contactCount) - 1)
         {
-            if ((received & 1 << i) != 0)
-                continue;
             old.GetArms(out var arms);
-            var nearest = arms.FindNearest(given, Unsafe.Add(ref contact, i).Offset);
-            if (nearest < 0)
-                continue;
-            normals[i] = old.Normals[nearest];
-            given |= 1 << nearest;
+            for (int i = 0; i < contactCount; ++i)
+            {
+                if ((received & 1 << i) != 0)
+                    continue;
+                var nearest = arms.FindNearest(given, Unsafe.Add(ref contact, i).Offset);
+                if (nearest < 0)
+                    continue;
+                normals[i] = old.Normals[nearest];
+                given |= 1 << nearest;
+            }
         }
         float left = 0;
         for (int j = 0; j < old.Count; ++j)

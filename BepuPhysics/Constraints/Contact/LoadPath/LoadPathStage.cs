@@ -177,7 +177,6 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     void Transfer(int island)
     {
-        ref var set = ref bodies.Awake;
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
         if (!HasLoads(start, end))
