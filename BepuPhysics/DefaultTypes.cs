@@ -24,7 +24,24 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Box, BoxWide, Triangle, TriangleWide, Few4<ContactWide>, BoxTriangleTester>());
         registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>, TriangleTriangleTester>());
         RegisterSearches(registry);
+        RegisterHalfSpaces(registry);
         return registry;
+    }
+
+    static void RegisterHalfSpaces(CollisionTaskRegistry registry)
+    {
+        registry.Register(new ConvexCollisionTask<Sphere, SphereWide, HalfSpace, HalfSpaceWide, Few1<ContactWide>,
+            HalfSpaceTester<SphereWide, SphereFeature, Few1<ContactWide>>>());
+        registry.Register(new ConvexCollisionTask<Capsule, CapsuleWide, HalfSpace, HalfSpaceWide, Few2<ContactWide>,
+            HalfSpaceTester<CapsuleWide, CapsuleFeature, Few2<ContactWide>>>());
+        registry.Register(new ConvexCollisionTask<Box, BoxWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
+            HalfSpaceTester<BoxWide, BoxFeature, Few4<ContactWide>>>());
+        registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, HalfSpace, HalfSpaceWide, Few3<ContactWide>,
+            HalfSpaceTester<TriangleWide, TriangleFeature, Few3<ContactWide>>>());
+        registry.Register(new SearchCollisionTask<Cylinder, CylinderWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
+            HalfSpaceFaceTester<CylinderWide, CylinderSupport, CylinderFeature>>());
+        registry.Register(new SearchCollisionTask<ConvexHull, ConvexHullWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
+            HalfSpaceFaceTester<ConvexHullWide, ConvexHullSupport, ConvexHullFeature>>());
     }
 
     // The pairs for which no closed form is cheaper than the search.

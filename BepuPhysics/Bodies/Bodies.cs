@@ -228,8 +228,11 @@ public sealed unsafe partial class Bodies
 
     internal void CheckShape(TypedIndex shape)
     {
-        if (shape.Exists)
-            shapes.CheckExists(shape, nameof(shape));
+        if (!shape.Exists)
+            return;
+        shapes.CheckExists(shape, nameof(shape));
+        if (shapes.GetBatch(shape.Type).IsForStaticsOnly)
+            throw new ArgumentException($"{shape} has no end: it is for statics, and no body can have it.", nameof(shape));
     }
 
     void Validate(in BodyDescription description)

@@ -15,8 +15,9 @@ static class Floors
     public const string Back = "back of a two-sided triangle";
     public const string Pair = "two triangles";
     public const string Boxes = "two boxes";
+    public const string Plane = "half-space";
 
-    public static readonly string[] Flat = [Box, Hull, Triangle, TwoSided, Back, Pair];
+    public static readonly string[] Flat = [Box, Hull, Triangle, TwoSided, Back, Pair, Plane];
 
     /// <summary>Adds a floor of at least this size.</summary>
     /// <param name="solids">Owner of the floor's hull, if it has one.</param>
@@ -63,6 +64,9 @@ static class Floors
                 var second = new Vector3(to, 0, halfWidth);
                 world.AddStatic(new Triangle(first, second, new(from, 0, halfWidth)), surface);
                 world.AddStatic(new Triangle(first, new(to, 0, -halfWidth), second), surface);
+                break;
+            case Plane:
+                world.AddStatic(new HalfSpace(Vector3.UnitY), surface);
                 break;
             case Boxes:
                 // Side by side; they meet under the X axis.

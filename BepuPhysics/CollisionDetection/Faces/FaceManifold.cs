@@ -56,7 +56,7 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         manifold.Contacts[3].Exists = Vector<int>.Zero;
         if (Vector.EqualsAll(exists, Vector<int>.Zero))
             return;
-        if (TFeatureA.MaximumVertexCount == 1 || TFeatureB.MaximumVertexCount == 1)
+        if (TFeatureA.MaximumVertexCount == 1 || (TFeatureB.MaximumVertexCount == 1 && !TFeatureB.IsPlane))
         {
             manifold.Normal = Matrix3x3Wide.TransposeTimes(orientationA, normal);
             ref var contact = ref manifold.Contacts[0];
@@ -82,17 +82,24 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         overlap.A.List.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
         Project<TFeatureA, TShapeWideA>(a, points, frameA, -1, ref overlap.A);
 
-        ref var frameB = ref scratch.FrameB;
-        frameB.X = localOrientationB * frameA.X;
-        frameB.Y = localOrientationB * frameA.Y;
-        frameB.Outwards = normalB;
-        frameB.Origin = localOrientationB * (pointOnA - localOffsetB);
-        TFeatureB.Find(b, frameB.Outwards, ~exists, ref *points, out overlap.B.Feature);
-        overlap.B.List.First = scratch.VerticesB;
-        overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
-        Project<TFeatureB, TShapeWideB>(b, points, frameB, 1, ref overlap.B);
+        if (TFeatureB.IsPlane)
+        {
+            overlap.TakeAllOfA(exists);
+        }
+        else
+        {
+            ref var frameB = ref scratch.FrameB;
+            frameB.X = localOrientationB * frameA.X;
+            frameB.Y = localOrientationB * frameA.Y;
+            frameB.Outwards = normalB;
+            frameB.Origin = localOrientationB * (pointOnA - localOffsetB);
+            TFeatureB.Find(b, frameB.Outwards, ~exists, ref *points, out overlap.B.Feature);
+            overlap.B.List.First = scratch.VerticesB;
+            overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
+            Project<TFeatureB, TShapeWideB>(b, points, frameB, 1, ref overlap.B);
 
-        overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
+            overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
+        }
         FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref remembered, ref manifold);
     }
 

@@ -71,6 +71,31 @@ unsafe struct FaceOverlap
             ClipSegments(segments);
     }
 
+    /// <summary>Takes the vertices of A's feature over a plane, which has no border.</summary>
+    /// <param name="near">All bits set where the pair may have contacts.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void TakeAllOfA(Vector<int> near)
+    {
+        CandidateCount = 0;
+        Border = A.Extent * new Vector<float>(BorderTolerance) + A.Feature.Size * new Vector<float>(BorderRounding);
+        // Level, as deep as the pair below the witness, and larger than any shape.
+        B.Feature.Id = Vector<int>.Zero;
+        B.Feature.Size = new Vector<float>(float.MaxValue);
+        B.Highest = PairDepth;
+        for (int i = 0; i < A.Count; ++i)
+        {
+            ref var vertex = ref A.Vertices[i];
+            var exists = near & A.IsPolygon & Vector.LessThan(new Vector<int>(i), A.Feature.VertexCount);
+            Add(vertex.X, vertex.Y, vertex.Height + PairDepth, exists, i);
+        }
+        var segments = near & A.IsSegment;
+        if (Vector.EqualsAll(segments, Vector<int>.Zero))
+            return;
+        ref var edge = ref A.Vertices[0];
+        Add(edge.X, edge.Y, edge.Height + PairDepth, segments, SegmentName);
+        Add(edge.X + edge.EdgeX, edge.Y + edge.EdgeY, edge.Height + edge.EdgeHeight + PairDepth, segments, SegmentName + 1);
+    }
+
     [MethodImpl(MethodImplOptions.NoInlining)]
     void ClipPolygons(Vector<int> mask, bool aIsDisc, bool bIsDisc)
     {

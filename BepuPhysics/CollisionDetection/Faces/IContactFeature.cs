@@ -20,6 +20,11 @@ public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
     /// </summary>
     static virtual bool IsDisc => false;
 
+    /// <summary>
+    /// Whether the shape is a plane without a border, which holds all of the other's feature. Of such a B no feature is asked for.
+    /// </summary>
+    static virtual bool IsPlane => false;
+
     /// <summary>Radius of the shapes' discs, m.</summary>
     /// <param name="shape">Shapes.</param>
     static virtual Vector<float> DiscRadius(in TShapeWide shape) => Vector<float>.Zero;
