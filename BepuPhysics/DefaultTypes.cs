@@ -25,7 +25,18 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>, TriangleTriangleTester>());
         RegisterSearches(registry);
         RegisterHalfSpaces(registry);
+        RegisterHeightFields(registry);
         return registry;
+    }
+
+    static void RegisterHeightFields(CollisionTaskRegistry registry)
+    {
+        registry.Register(new ConvexContainerTask<Sphere, SphereWide, HeightField>());
+        registry.Register(new ConvexContainerTask<Capsule, CapsuleWide, HeightField>());
+        registry.Register(new ConvexContainerTask<Box, BoxWide, HeightField>());
+        registry.Register(new ConvexContainerTask<Triangle, TriangleWide, HeightField>());
+        registry.Register(new ConvexContainerTask<Cylinder, CylinderWide, HeightField>());
+        registry.Register(new ConvexContainerTask<ConvexHull, ConvexHullWide, HeightField>());
     }
 
     static void RegisterHalfSpaces(CollisionTaskRegistry registry)

@@ -232,7 +232,7 @@ public sealed unsafe partial class Bodies
             return;
         shapes.CheckExists(shape, nameof(shape));
         if (shapes.GetBatch(shape.Type).IsForStaticsOnly)
-            throw new ArgumentException($"{shape} has no end: it is for statics, and no body can have it.", nameof(shape));
+            throw new ArgumentException($"{shape} is for statics: no body can have it.", nameof(shape));
     }
 
     void Validate(in BodyDescription description)

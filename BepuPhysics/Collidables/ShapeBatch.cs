@@ -46,7 +46,7 @@ public abstract unsafe class ShapeBatch
     /// <summary>Whether the shapes are made of children.</summary>
     public virtual bool Compound => false;
 
-    /// <summary>Whether the shapes are without an end, so that no body has one.</summary>
+    /// <summary>Whether the shapes are for statics, and no body has one.</summary>
     internal virtual bool IsForStaticsOnly => false;
 
     /// <summary>Number of shapes that fit without taking more memory.</summary>
