@@ -101,6 +101,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             shapeB = setB.Collidables[locationB.Index].Shape;
             margin += setB.Collidables[locationB.Index].SpeculativeMargin;
             poseB = ref setB.MotionStates[locationB.Index].Pose;
+            if (Simulation.Solver.HasApart && Simulation.Solver.KeepsApart(locationA, locationB))
+                return;
         }
         var ownMargin = margin;
         if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))

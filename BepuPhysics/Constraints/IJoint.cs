@@ -1,3 +1,5 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
@@ -34,6 +36,9 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 {
     /// <summary>How the rows are held.</summary>
     static virtual RowKind Kind => RowKind.Equality;
+
+    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes. All, unless a joint says otherwise.</summary>
+    static virtual int LinearRowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
 
     /// <summary>Lever arms and axes for the current poses.</summary>
     static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);

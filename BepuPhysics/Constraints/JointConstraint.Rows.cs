@@ -20,24 +20,45 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     {
         if (TJoint.Kind == RowKind.Servo)
             return Vector<float>.Zero;
-        TJoint.Prepare(bodies, prestep, out var geometry);
-        TJoint.PositionError(bodies, prestep, geometry, out var error);
-        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
-        if (TJoint.HoldsPoints)
-        {
-            TJoint.PointLoad(geometry, error, out var apart, out _, out _);
-            return Wide.Mask(isRigid, apart.Length());
-        }
-        var greatest = Vector<float>.Zero;
-        if (TJoint.Kind == RowKind.Inequality)
-        {
-            for (int i = 0; i < Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>(); ++i)
-                greatest = Wide.Max(greatest, -Row(ref error, i));
-        }
-        return Wide.Mask(isRigid, greatest);
+        if (!TJoint.HoldsPoints && TJoint.Kind != RowKind.Inequality)
+            return Vector<float>.Zero;
+        ReadSeparation(bodies, prestep, out var linear, out _);
+        return Wide.Mask(Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero), linear);
     }
 
-    static int IConstraint<TBodies, TPrestep, TRows>.RowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+    static bool IConstraint<TBodies, TPrestep, TRows>.HasSeparation => true;
+
+    static void IConstraint<TBodies, TPrestep, TRows>.Separation(
+        in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular) =>
+        ReadSeparation(bodies, prestep, out linear, out angular);
+
+    // Lengths of what the rows of a kind are off by together; of limits only what is violated. A motor holds no place.
+    static void ReadSeparation(in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular)
+    {
+        linear = angular = Vector<float>.Zero;
+        if (TJoint.Kind == RowKind.Motor)
+            return;
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.PositionError(bodies, prestep, geometry, out var error);
+        for (int i = 0; i < RowCount; ++i)
+        {
+            var row = Row(ref error, i);
+            if (TJoint.Kind == RowKind.Inequality)
+                row = Wide.Min(row, Vector<float>.Zero);
+            if (i < TJoint.LinearRowCount)
+                linear += row * row;
+            else
+                angular += row * row;
+        }
+        linear = Vector.SquareRoot(linear);
+        angular = Vector.SquareRoot(angular);
+    }
+
+    static int RowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+
+    static int IConstraint<TBodies, TPrestep, TRows>.RowCount => RowCount;
+
+    static int IConstraint<TBodies, TPrestep, TRows>.LinearRowCount => TJoint.LinearRowCount;
 
     static RowLimit IConstraint<TBodies, TPrestep, TRows>.LimitOf(int row) =>
         TJoint.Kind == RowKind.Inequality ? RowLimit.Positive : IsLimited ? RowLimit.Length : RowLimit.None;

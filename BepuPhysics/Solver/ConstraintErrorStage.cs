@@ -40,7 +40,7 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
         for (int i = 0; i < batches.Count; ++i)
         {
             for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
-                bundleCount += Bundles(ref batches[i].TypeBatches[j]);
+                bundleCount += Bundles(batches[i], j);
         }
         blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
         return blockCount;
@@ -62,7 +62,7 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
             for (int j = 0; j < batches[i].TypeBatches.Count && first < end; ++j)
             {
                 ref var batch = ref batches[i].TypeBatches[j];
-                var count = Bundles(ref batch);
+                var count = Bundles(batches[i], j);
                 var from = Math.Max(start - first, 0);
                 var to = Math.Min(end - first, count);
                 if (from < to)
@@ -73,5 +73,6 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
         errors[block] = greatest;
     }
 
-    int Bundles(ref TypeBatch batch) => solver.Processor(batch.TypeId).HasError ? batch.BundleCount : 0;
+    int Bundles(in ConstraintBatch batch, int typeBatch) =>
+        batch.Kind != BatchKind.Disabled && solver.Processor(batch.TypeBatches[typeBatch].TypeId).HasError ? batch.TypeBatches[typeBatch].BundleCount : 0;
 }

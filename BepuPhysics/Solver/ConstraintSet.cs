@@ -28,6 +28,8 @@ public enum BatchKind
     Fallback,
     /// <summary>Not in the sweeps, but by a stage that was asked to: a body may occur any number of times.</summary>
     Direct,
+    /// <summary>Not at all, until they are enabled again: a body may occur any number of times.</summary>
+    Disabled,
 }
 
 /// <summary>Constraints that can be solved at the same time: no dynamic body occurs in two of them, unless the batch is of another kind.</summary>
@@ -105,14 +107,29 @@ public struct ConstraintSet
 [DebuggerDisplay("{IndexInTypeBatch}")]
 public unsafe readonly struct ConstraintReference
 {
+    readonly Solver solver;
+    readonly ConstraintHandle handle;
     internal readonly TypeBatch* TypeBatchPointer;
     /// <summary>Index of the constraint in its type batch.</summary>
     public readonly int IndexInTypeBatch;
 
-    internal ConstraintReference(TypeBatch* typeBatch, int indexInTypeBatch)
+    internal ConstraintReference(Solver solver, ConstraintHandle handle, TypeBatch* typeBatch, int indexInTypeBatch)
     {
+        this.solver = solver;
+        this.handle = handle;
         TypeBatchPointer = typeBatch;
         IndexInTypeBatch = indexInTypeBatch;
+    }
+
+    /// <summary>
+    /// Whether the constraint is solved. Written, it is <see cref="Solver.SetEnabled"/>, after which the constraint is in another type batch: get
+    /// another reference.
+    /// </summary>
+    /// <exception cref="System.ArgumentException">The constraint does not exist any more, or is a contact.</exception>
+    public bool Enabled
+    {
+        get => solver.IsEnabled(handle);
+        set => solver.SetEnabled(handle, value);
     }
 
     /// <summary>The type batch that holds the constraint; valid until constraints are added or removed.</summary>

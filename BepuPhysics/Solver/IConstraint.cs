@@ -50,8 +50,16 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
 
     internal static virtual Vector<float> Error(in TBodies bodies, in TPrestep prestep) => Vector<float>.Zero;
 
+    // What a game reads: how far the bodies are from where they are held, along directions and about axes; zero for what holds no place.
+    internal static virtual bool HasSeparation => false;
+
+    internal static virtual void Separation(in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular) =>
+        linear = angular = Vector<float>.Zero;
+
     // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
     internal static virtual int RowCount => 0;
+
+    internal static virtual int LinearRowCount => 0;
 
     internal static virtual RowLimit LimitOf(int row) => RowLimit.None;
 

@@ -76,6 +76,8 @@ readonly unsafe struct Islands
         ref var batches = ref solver.ActiveSet.Batches;
         for (int i = 0; i < batches.Count; ++i)
         {
+            if (batches[i].Kind == BatchKind.Disabled)
+                continue;
             for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
             {
                 ref var typeBatch = ref batches[i].TypeBatches[j];

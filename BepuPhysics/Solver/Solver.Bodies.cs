@@ -46,7 +46,7 @@ public sealed unsafe partial class Solver
         {
             var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
             Edges.Remove(ref bodies.Sets[location.SetIndex].Constraints[reference], Edges.EdgeOf(handle.Slot, slot));
-            if (processor.MakesHubs)
+            if (processor.MakesHubs && KindOf(location) != BatchKind.Disabled)
                 ChangeJointCount(reference, -1);
         }
     }
@@ -65,30 +65,29 @@ public sealed unsafe partial class Solver
             // From the last to the first; those that follow stay where they are when one is removed.
             edge = Edges.Previous(edge);
             var handle = ReferenceOf(edge).ConnectingConstraintHandle;
-            if (!TryMove(handle, IsSwept(handle)))
+            var kind = KindOf(Locations[handle.Slot]);
+            if (!TryMove(handle, kind == BatchKind.Fallback ? BatchKind.Coloured : kind))
                 RemoveConstraint(handle);
         }
     }
 
     /// <summary>Whether a constraint that exists is solved by the sweeps.</summary>
-    internal bool IsSwept(ConstraintHandle handle)
-    {
-        ref var location = ref Locations[handle.Slot];
-        return Sets[location.SetIndex].Batches[location.BatchIndex].Kind != BatchKind.Direct;
-    }
+    internal bool IsSwept(ConstraintHandle handle) => KindOf(Locations[handle.Slot]) is BatchKind.Coloured or BatchKind.Fallback;
+
+    BatchKind KindOf(in ConstraintLocation location) => Sets[location.SetIndex].Batches[location.BatchIndex].Kind;
 
     /// <summary>
-    /// Leaves a constraint that exists out of the sweeps, or takes it in again. Whoever leaves it out solves it, by its rows
+    /// Leaves a constraint that exists and is enabled out of the sweeps, or takes it in again. Whoever leaves it out solves it, by its rows
     /// (<see cref="TypeProcessor.ReadRows(ref TypeBatch, in SolverBodies, in Substep, int, Span{ConstraintRow})"/>). Impulses stay.
     /// </summary>
     internal void SetSwept(ConstraintHandle handle, bool isSwept)
     {
         if (IsSwept(handle) != isSwept)
-            TryMove(handle, isSwept);
+            TryMove(handle, isSwept ? BatchKind.Coloured : BatchKind.Direct);
     }
 
-    // Puts a constraint into a batch anew, for the kinds that its bodies have now; false where none of them is dynamic.
-    bool TryMove(ConstraintHandle handle, bool isSwept)
+    // Puts a constraint into a batch anew, for what its bodies are now; false where none of them is dynamic.
+    bool TryMove(ConstraintHandle handle, BatchKind kind)
     {
         Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
@@ -107,7 +106,7 @@ public sealed unsafe partial class Solver
             return false;
         processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
         RemoveFromBatch(old);
-        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, isSwept);
+        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, kind);
         Locations[handle.Slot] = location;
         processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
         if (processor.MakesHubs)

@@ -70,6 +70,7 @@ public sealed unsafe partial class Solver
     /// <summary>Removes a constraint that exists and tells nobody.</summary>
     internal void RemoveWithoutNotice(ConstraintHandle handle)
     {
+        ForgetOptions(handle.Slot);
         RemoveFromBodies(handle);
         RemoveFromBatch(Locations[handle.Slot]);
         Locations[handle.Slot].SetIndex = -1;
@@ -155,7 +156,8 @@ public sealed unsafe partial class Solver
         return handle;
     }
 
-    ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId, bool isSwept = true)
+    // Coloured stands for both kinds that are swept over.
+    ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId, BatchKind kind = BatchKind.Coloured)
     {
         Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
         Span<int> dynamics = stackalloc int[MaximumBodiesPerConstraint];
@@ -167,7 +169,7 @@ public sealed unsafe partial class Solver
             if (!kinematic)
                 dynamics[dynamicCount++] = bodyHandles[i].Slot;
         }
-        var batchIndex = isSwept ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(BatchKind.Direct);
+        var batchIndex = kind == BatchKind.Coloured ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(kind);
         ref var batch = ref ActiveSet.Batches[batchIndex];
         if (batch.Kind == BatchKind.Coloured)
         {

@@ -65,10 +65,11 @@ public sealed unsafe partial class Solver
     void MarkHubs(in ConstraintLocation location)
     {
         var processor = Processor(location.TypeId);
+        var isEnabled = KindOf(location) != BatchKind.Disabled;
         for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
         {
             ref var reference = ref processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot);
-            var isHub = Degree(reference & EncodedBody.IndexMask) >= JointsOfHub;
+            var isHub = isEnabled && Degree(reference & EncodedBody.IndexMask) >= JointsOfHub;
             reference = isHub ? reference | EncodedBody.HubFlag : reference & ~EncodedBody.HubFlag;
         }
     }

@@ -89,6 +89,7 @@ public sealed unsafe partial class Solver
     {
         ref var set = ref bodies.Awake;
         endsWithVelocities = false;
+        BeginBreaking();
         if (set.Count == 0)
         {
             shuffleState = 0;
@@ -115,6 +116,7 @@ public sealed unsafe partial class Solver
             integrator.Prepare(substepDt);
             StagedWork.Run(ref work, dispatcher);
             ReadError();
+            BreakOverloaded();
         }
         finally
         {
@@ -159,7 +161,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < batches.Count; ++i)
         {
             var start = work.Blocks.Count;
-            if (batches[i].Kind == BatchKind.Direct)
+            if (batches[i].Kind is BatchKind.Direct or BatchKind.Disabled)
             {
                 work.BlocksOfBatch.Add(default, pool);
                 continue;

@@ -27,6 +27,7 @@ public sealed partial class Solver
         // No edge is in a list twice or in two lists, so none is missing either.
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
         ValidateHubs();
+        ValidateOptions();
         Invariant.Ids(HandlePool, Locations.Length, "constraints", id => Locations[id].SetIndex >= 0);
         for (int slot = 0; slot < owners.Capacity; ++slot)
             Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);
@@ -65,12 +66,13 @@ public sealed partial class Solver
     // As many coloured batches as there may be, and one of each other kind.
     void ValidateKinds(in QuickList<ConstraintBatch> batches)
     {
-        Span<int> counts = stackalloc int[3];
+        Span<int> counts = stackalloc int[4];
         counts.Clear();
         for (int i = 0; i < batches.Count; ++i)
             ++counts[(int)batches[i].Kind];
         Invariant.Require(counts[(int)BatchKind.Coloured] <= FallbackBatchThreshold, "number of batches", batches.Count);
-        Invariant.Require(counts[(int)BatchKind.Fallback] <= 1 && counts[(int)BatchKind.Direct] <= 1, "number of batches of a kind", batches.Count);
+        Invariant.Require(counts[(int)BatchKind.Fallback] <= 1 && counts[(int)BatchKind.Direct] <= 1 &&
+            counts[(int)BatchKind.Disabled] <= 1, "number of batches of a kind", batches.Count);
     }
 
     void ValidateCapacity(ref TypeBatch typeBatch, int batchIndex)
@@ -151,7 +153,7 @@ public sealed partial class Solver
                 ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
                 var reference = Processor(location.TypeId).BodyReference(
                     ref TypeBatchAt(location), location.IndexInTypeBatch, constraint.BodyIndexInConstraint);
-                var makesHubs = Processor(location.TypeId).MakesHubs;
+                var makesHubs = Processor(location.TypeId).MakesHubs && KindOf(location) != BatchKind.Disabled;
                 joints += makesHubs ? 1 : 0;
                 var isHub = makesHubs && Degree(i) >= JointsOfHub;
                 Invariant.Require((reference & EncodedBody.HubFlag) != 0 == isHub, "flag of a hub of body", i, location.TypeId);

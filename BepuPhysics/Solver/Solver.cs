@@ -159,6 +159,7 @@ public sealed unsafe partial class Solver
         governor = description.Governor;
         errorStage = new ConstraintErrorStage(this, bodies);
         OptionalStages.Add(errorStage);
+        OptionalStages.Add(new BreakStage(this));
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(1, out Sets);
@@ -190,7 +191,7 @@ public sealed unsafe partial class Solver
     {
         CheckHandle(handle);
         ref var location = ref Locations[handle.Slot];
-        return new((TypeBatch*)Unsafe.AsPointer(ref TypeBatchAt(location)), location.IndexInTypeBatch);
+        return new(this, handle, (TypeBatch*)Unsafe.AsPointer(ref TypeBatchAt(location)), location.IndexInTypeBatch);
     }
 
     internal ref TypeBatch TypeBatchAt(in ConstraintLocation location)
@@ -232,6 +233,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < Locations.Length; ++i)
             Locations[i].SetIndex = -1;
         owners.ReleaseAll();
+        ForgetOptions();
         HandlePool.Clear();
         ForgetStepLengths();
         shuffleState = 0;
@@ -256,6 +258,7 @@ public sealed unsafe partial class Solver
         pool.Return(ref Sets);
         pool.Return(ref Locations);
         Edges.Dispose(pool);
+        DisposeOptions();
         owners.Dispose(pool);
         HandlePool.Dispose(pool);
     }
@@ -266,6 +269,7 @@ public sealed unsafe partial class Solver
         Sets = default;
         Locations = default;
         Edges = default;
+        AbandonOptions();
         owners = default;
         HandlePool = default;
     }

@@ -10,6 +10,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override int RowCount => TConstraint.RowCount;
 
     /// <inheritdoc/>
+    internal override int LinearRowCount => TConstraint.LinearRowCount;
+
+    /// <inheritdoc/>
     internal override RowLimit LimitOf(int row) => TConstraint.LimitOf(row);
 
     /// <inheritdoc/>
@@ -41,6 +44,19 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         for (int lane = 0; lane < Vector<float>.Count; ++lane)
             most = MathHelper.Max(most, greatest[lane]);
         return most;
+    }
+
+    /// <inheritdoc/>
+    internal override bool HasSeparation => TConstraint.HasSeparation;
+
+    /// <inheritdoc/>
+    internal override ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, int index)
+    {
+        var bundle = index / Vector<float>.Count;
+        var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
+        Gather(references, PlaceMask, bodies, BodyAccess.Pose, new Substep(0, 1), out _, out var slots);
+        TConstraint.Separation(slots, ((TPrestep*)batch.Prestep.Memory)[bundle], out var linear, out var angular);
+        return new() { Linear = linear[index % Vector<float>.Count], Angular = angular[index % Vector<float>.Count] };
     }
 
     /// <inheritdoc/>

@@ -10,6 +10,9 @@ public abstract partial class TypeProcessor
     /// <summary>Number of rows of a constraint; 0 where the type is a game's own that does not tell them, and can only be swept over.</summary>
     internal abstract int RowCount { get; }
 
+    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes.</summary>
+    internal abstract int LinearRowCount { get; }
+
     /// <summary>What bounds the impulse of a row.</summary>
     internal abstract RowLimit LimitOf(int row);
 
@@ -26,6 +29,12 @@ public abstract partial class TypeProcessor
 
     /// <summary>Greatest distance by which a rigid constraint of some bundles is not met, m; what is no number does not count.</summary>
     internal abstract float GreatestError(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
+
+    /// <summary>Whether constraints of the type say how far their bodies are from where they hold them.</summary>
+    internal abstract bool HasSeparation { get; }
+
+    /// <summary>How far the bodies of a constraint are from where it holds them.</summary>
+    internal abstract ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, int index);
 
     /// <summary>Replaces the accumulated impulses of some constraints of a bundle; the velocities of the bodies are the caller's to change.</summary>
     /// <param name="batch">Where the constraints are.</param>

@@ -175,6 +175,17 @@ static class BadSolverInput
     {
         var ballSocket = new BallSocket { LocalOffsetA = Vector3.UnitX, LocalOffsetB = -Vector3.UnitX, SpringSettings = new(30, 1) };
         var weld = new Weld { LocalOffset = Vector3.UnitX, LocalOrientation = Quaternion.Identity, SpringSettings = new(30, 1) };
+        Use("SetEnabled", static (w, h) => w.Solver.SetEnabled(h, false));
+        Use("IsEnabled", static (w, h) => w.Solver.IsEnabled(h));
+        Use("SetCollideConnected", static (w, h) => w.Solver.SetCollideConnected(h, false));
+        Use("GetCollideConnected", static (w, h) => w.Solver.GetCollideConnected(h));
+        Use("SetBreakThreshold", static (w, h) => w.Solver.SetBreakThreshold(h, new(1)));
+        Use("GetBreakThreshold", static (w, h) => w.Solver.GetBreakThreshold(h));
+        Use("GetSeparation", static (w, h) => w.Solver.GetSeparation(h));
+        list.Add("Solver.SetBreakThreshold, impulse", ["threshold"], [float.NaN, 0, -1, float.NegativeInfinity], static (w, v) =>
+            w.Solver.SetBreakThreshold(w.Joint<BallSocket>(), new(v)));
+        list.Add("Solver.SetBreakThreshold, angular impulse", ["threshold"], [float.NaN, 0, -1, float.NegativeInfinity], static (w, v) =>
+            w.Solver.SetBreakThreshold(w.Joint<BallSocket>(), new(1, v)));
         Use("Remove", static (w, h) => w.Solver.Remove(h));
         Use("GetDescription", static (w, h) => w.Solver.GetDescription<BallSocket>(h, out _));
         Use("ApplyDescription", (w, h) => w.Solver.ApplyDescription(h, ballSocket));

@@ -87,6 +87,9 @@ static class LockOperations
         Change("Solver.Add", w => w.Simulation.Solver.Add(
             w.Body, w.Spare, new Weld { LocalOffset = new Vector3(3, 0, 0), LocalOrientation = Quaternion.Identity }));
         Change("Solver.Remove", w => w.Simulation.Solver.Remove(w.Joint));
+        Change("Solver.SetEnabled", w => w.Simulation.Solver.SetEnabled(w.Joint, false));
+        Change("Solver.SetCollideConnected", w => w.Simulation.Solver.SetCollideConnected(w.Joint, false));
+        Change("Solver.SetBreakThreshold", w => w.Simulation.Solver.SetBreakThreshold(w.Joint, new(1000, 1000)));
         Change("Solver.Register", w => w.Simulation.Solver.Register<Weld>());
         Change("Solver.SubstepCount", w => w.Simulation.Solver.SubstepCount = 3);
         Change("Solver.VelocityIterationCount", w => w.Simulation.Solver.VelocityIterationCount = 2);
@@ -96,6 +99,10 @@ static class LockOperations
         Change("Solver.MinimumCapacityPerTypeBatch", w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = 128);
         list.Add("Solver.ApplyDescription", (OperationKind.Write, w => w.Simulation.Solver.ApplyDescription(
             w.Joint, new BallSocket { LocalOffsetA = new Vector3(1, 0, 0), LocalOffsetB = new Vector3(-2, 0, 0) })));
+        list.Add("Solver.GetSeparation", (OperationKind.Query, w => w.Simulation.Solver.GetSeparation(w.Joint)));
+        list.Add("Solver.IsEnabled", (OperationKind.Query, w => w.Simulation.Solver.IsEnabled(w.Joint)));
+        list.Add("Solver.GetCollideConnected", (OperationKind.Query, w => w.Simulation.Solver.GetCollideConnected(w.Joint)));
+        list.Add("Solver.GetBreakThreshold", (OperationKind.Query, w => w.Simulation.Solver.GetBreakThreshold(w.Joint)));
         list.Add("EnumerateAccumulatedImpulses", (OperationKind.Query, w => w.Simulation.Solver.GetAccumulatedImpulseMagnitude(w.Joint)));
 
         void Change(string name, Action<LockedWorld> act) => list.Add(name, (OperationKind.Change, act));

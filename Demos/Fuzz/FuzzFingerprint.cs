@@ -66,6 +66,9 @@ static class FuzzFingerprint
                 ref TypeBatch batch = ref typeBatches[j];
                 hash.Add(batch.TypeId);
                 hash.Add(batch.ConstraintCount);
+                hash.Add((int)set.Batches[i].Kind);
+                for (int k = 0; k < batch.ConstraintCount; ++k)
+                    AddOptions(ref hash, solver, batch.IndexToHandle[k]);
                 TypeProcessor processor = solver.TypeProcessors[batch.TypeId]!;
                 int bundleLength = batch.BundleCount * Vector<float>.Count;
                 Add(ref hash, batch.IndexToHandle, batch.ConstraintCount);
@@ -84,6 +87,14 @@ static class FuzzFingerprint
         hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);
         hash.Add(solver.Governor.GetValueOrDefault().GreatestSubstepCount);
         hash.Add(solver.MinimumCapacityPerTypeBatch);
+    }
+
+    static void AddOptions(ref StateHash hash, Solver solver, ConstraintHandle handle)
+    {
+        var threshold = solver.GetBreakThreshold(handle);
+        hash.Add(threshold.Impulse);
+        hash.Add(threshold.AngularImpulse);
+        hash.Add(solver.GetCollideConnected(handle) ? 1 : 0);
     }
 
     static void AddTree(ref StateHash hash, in Tree tree)

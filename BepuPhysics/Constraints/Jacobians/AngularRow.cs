@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // K = a (IA^-1 + IB^-1) a
 struct AngularRow : IJacobian<AngularRow, TwoBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     /// <summary>Angular Jacobian of A; of B it is the opposite. A unit vector where nothing else is said.</summary>
     public Vector3Wide Axis;
     /// <summary>What the row measures, radians; what that is, the joint says.</summary>

@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // K = IA^-1 + IB^-1
 struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     /// <summary>Axis times angle of a rotation, the shorter way, at most half a turn.</summary>
     // The arc tangent needs no unit length and is exact for small angles, where the arc cosine of W would have lost all digits.
     // At exactly half a turn both ways are equally long, and the axis is that of the quaternion with W = +0.
@@ -47,6 +50,9 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 // K = I^-1, the inverse inertia
 struct OneBodyAngularRows : IJacobian<OneBodyAngularRows, OneBody, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in OneBodyAngularRows rows, in OneBody bodies, out Rows3 velocity) => velocity.V = bodies.A.Angular;

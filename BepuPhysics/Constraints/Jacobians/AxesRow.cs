@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // Axes that are parallel, either way, have no n of their own: it is a direction at right angles to a, by definition.
 struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
     const float ParallelSine = 1e-6f;
 

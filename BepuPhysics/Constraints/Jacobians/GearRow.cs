@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 // Unless s is 1 the torques do not cancel: the rest is what the housing of a gear would bear.
 struct GearRow : IJacobian<GearRow, TwoBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     /// <summary>The axis; a unit vector.</summary>
     public Vector3Wide Axis;
     /// <summary>Angular velocity of B in parts of A's.</summary>

@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
 
@@ -12,6 +13,9 @@ interface IJacobian<TJacobian, TBodies, TRows, TMass>
     where TJacobian : unmanaged, IJacobian<TJacobian, TBodies, TRows, TMass> where TBodies : unmanaged, IBodySlots
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
 {
+    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes.</summary>
+    static virtual int LinearRowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+
     /// <summary>J v.</summary>
     static abstract void RelativeVelocity(in TJacobian jacobian, in TBodies bodies, out TRows velocity);
 
@@ -38,6 +42,8 @@ interface IJacobianJoint<TBodies, TPrestep, TJacobian, TRows, TMass> : IJoint<TB
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TJacobian : unmanaged, IJacobian<TJacobian, TBodies, TRows, TMass>
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
 {
+    static int IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.LinearRowCount => TJacobian.LinearRowCount;
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.RelativeVelocity(in TJacobian geometry, in TBodies bodies, out TRows velocity) =>
         TJacobian.RelativeVelocity(geometry, bodies, out velocity);

@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // K = [ KL, -skew(rA) IA^-1 - skew(rB) IB^-1 ; the transpose, IA^-1 + IB^-1 ],  KL as for a point
 struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows6, RowMatrix6>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 3;
+
     /// <inheritdoc cref="PointRows.OffsetA"/>
     public Vector3Wide OffsetA;
     /// <inheritdoc cref="PointRows.OffsetB"/>

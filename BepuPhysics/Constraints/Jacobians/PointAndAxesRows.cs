@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // K = [ KL, kC ; kC^T, kA ],  KL as for a point,  kC = (IA^-1 n) x rA + (IB^-1 n) x rB,  kA = n (IA^-1 + IB^-1) n
 struct PointAndAxesRows : IPointJacobian<PointAndAxesRows, TwoBodies, Rows4, RowMatrix4>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 3;
+
     /// <inheritdoc cref="PointRows.OffsetA"/>
     public Vector3Wide OffsetA;
     /// <inheritdoc cref="PointRows.OffsetB"/>

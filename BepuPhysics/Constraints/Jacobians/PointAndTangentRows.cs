@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 //     KA = T (IA^-1 + IB^-1) T^T with the rows tx, ty in T
 struct PointAndTangentRows : IPointJacobian<PointAndTangentRows, TwoBodies, Rows5, RowMatrix5>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 3;
+
     /// <inheritdoc cref="PointRows.OffsetA"/>
     public Vector3Wide OffsetA;
     /// <inheritdoc cref="PointRows.OffsetB"/>

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 // K = T (IA^-1 + IB^-1) T^T with the rows tx, ty in T
 struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowMatrix2>
 {
+    /// <inheritdoc/>
+    public static int LinearRowCount => 0;
+
     /// <summary>A direction fixed to A, at right angles to the axis.</summary>
     public Vector3Wide TangentX;
     /// <summary>The direction fixed to A that completes the first and the axis to a right-handed frame.</summary>

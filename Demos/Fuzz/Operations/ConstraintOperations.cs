@@ -1,3 +1,4 @@
+using BepuPhysics;
 using BepuUtilities;
 
 namespace Demos.Fuzz.Operations;
@@ -18,6 +19,14 @@ static class ConstraintOperations
             w.Simulation.Solver.EnumerateAccumulatedImpulses(w.AnyConstraint(), ref sum);
         }),
         new("Solver.GetConstraintReference", 2, w => w.Simulation.Solver.GetConstraintReference(w.AnyConstraint())),
+        new("Solver.IsEnabled", 1, w => w.Simulation.Solver.IsEnabled(w.AnyConstraint())),
+        new("Solver.SetEnabled", 8, w => w.Simulation.Solver.SetEnabled(w.AnyConstraint(), w.Random.Percent(50))),
+        new("Solver.GetCollideConnected", 1, w => w.Simulation.Solver.GetCollideConnected(w.AnyConstraint())),
+        new("Solver.SetCollideConnected", 6, w => w.Simulation.Solver.SetCollideConnected(w.AnyConstraint(), w.Random.Percent(50))),
+        new("Solver.GetBreakThreshold", 1, w => w.Simulation.Solver.GetBreakThreshold(w.AnyConstraint())),
+        new("Solver.SetBreakThreshold", 6, w => w.Simulation.Solver.SetBreakThreshold(w.AnyConstraint(), w.Random.Spoil(
+            w.Random.Percent(20) ? BreakThreshold.Unbreakable : new BreakThreshold(w.Random.Magnitude(0.01f, 1000), w.Random.Magnitude(0.01f, 1000)), 10))),
+        new("Solver.GetSeparation", 2, w => w.Simulation.Solver.GetSeparation(w.AnyConstraint())),
         new("Solver.CountConstraints", 1, w => w.Simulation.Solver.CountConstraints()),
     ];
 
