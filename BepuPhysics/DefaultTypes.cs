@@ -25,6 +25,7 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>, TriangleTriangleTester>());
         RegisterSearches(registry);
         RegisterHalfSpaces(registry);
+        RegisterContainers(registry);
         RegisterHeightFields(registry);
         return registry;
     }
