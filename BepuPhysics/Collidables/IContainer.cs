@@ -1,0 +1,60 @@
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>A convex child of a container, and where it is.</summary>
+unsafe struct ContainerChild
+{
+    /// <summary>Type id of the child.</summary>
+    public int TypeId;
+    /// <summary>The child: a shape of a batch, or in the scratch memory that the container was given.</summary>
+    public void* Shape;
+    /// <summary>By what histories know the child; none for a child that is only known as a part of its container.</summary>
+    public TypedIndex Name;
+    /// <summary>Pose of the child's centre in the frame of the container.</summary>
+    public RigidPose Pose;
+}
+
+/// <summary>A shape made of convex children, numbered from zero, in a tree or in a list.</summary>
+/// <remarks>
+/// Children are found by boxes in the container's own frame. Everything that is found may be wider than it need be, never narrower. It must
+/// depend on nothing but container and box: not on the width of vectors, nor on how often or by whom it was asked.
+/// </remarks>
+unsafe interface IContainer : IShape
+{
+    /// <summary>Size of the scratch memory that a child may be written to, bytes.</summary>
+    const int ScratchByteCount = 128;
+
+    /// <summary>Greatest number of nodes that <see cref="Open"/> writes.</summary>
+    int MaximumFanOut { get; }
+
+    /// <summary>Writes the nodes below a node. Number 0 is the root, whether there is a tree or not: a list has all children below it.</summary>
+    /// <param name="node">Index of the node.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="below">
+    /// Receives boxes in the container's frame. As in a <see cref="Tree"/>, an index is that of a node below or, for a child, its
+    /// complement; a leaf count tells which of two nodes is the larger one.
+    /// </param>
+    /// <returns>Number of nodes that were written; zero for a container without children.</returns>
+    int Open(int node, Shapes shapes, NodeChild* below);
+
+    /// <summary>Finds the children whose boxes overlap or touch a box, each once, in any fixed order.</summary>
+    /// <param name="min">Lower corner in the container's frame, m.</param>
+    /// <param name="max">Upper corner, nowhere below the lower.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
+    /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
+    void FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool);
+
+    /// <summary>Gets a child.</summary>
+    /// <param name="index">Number of the child.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="scratch">
+    /// <see cref="ScratchByteCount"/> bytes, aligned to 16, for a child that is made on the way. It stays until the next is asked for.
+    /// </param>
+    /// <param name="child">The child.</param>
+    void GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child);
+}

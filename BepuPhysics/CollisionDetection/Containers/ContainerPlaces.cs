@@ -1,0 +1,42 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Puts children where their containers are.</summary>
+static unsafe class ContainerPlaces
+{
+    /// <summary>Two shapes without children, which are to be replaced by children.</summary>
+    public static ChildShapes Parents(in ParentPair pair) =>
+        new() { OffsetB = pair.OffsetB, OrientationA = pair.OrientationA, OrientationB = pair.OrientationB, NameA = pair.NameA, NameB = pair.NameB };
+
+    /// <summary>Replaces A, which is a container, by a child of it.</summary>
+    public static void SetA<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
+        where TContainer : unmanaged, IContainer
+    {
+        Find(container, index, shapes, scratch, children.OrientationA, ref children.NameA, out children.TypeA, out children.ShapeA, out var pose);
+        children.OffsetA = pose.Position;
+        children.OrientationA = pose.Orientation;
+    }
+
+    /// <summary>Replaces B, which is a container, by a child of it.</summary>
+    public static void SetB<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
+        where TContainer : unmanaged, IContainer
+    {
+        Find(container, index, shapes, scratch, children.OrientationB, ref children.NameB, out children.TypeB, out children.ShapeB, out var pose);
+        children.OffsetB += pose.Position;
+        children.OrientationB = pose.Orientation;
+    }
+
+    static void Find<TContainer>(in TContainer container, int index, Shapes shapes, void* scratch, in Quaternion orientation, ref TypedIndex name,
+        out int typeId, out void* shape, out RigidPose pose) where TContainer : unmanaged, IContainer
+    {
+        container.GetChild(index, shapes, scratch, out var child);
+        typeId = child.TypeId;
+        shape = child.Shape;
+        if (child.Name.Exists)
+            name = child.Name;
+        pose = new(Exact.Rotate(child.Pose.Position, orientation), Exact.Concatenate(child.Pose.Orientation, orientation));
+    }
+}

@@ -1,0 +1,77 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Expands a convex shape and a container into pairs of the shape and each child that it may touch.</summary>
+/// <typeparam name="TConvex">The convex shape.</typeparam>
+/// <typeparam name="TConvexWide">Wide form of the convex shape.</typeparam>
+/// <typeparam name="TContainer">The shape made of children; its type id is greater than that of the convex shape.</typeparam>
+sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : ExpandingTask<TConvex, TContainer>
+    where TConvex : unmanaged, IConvexShape where TConvexWide : unmanaged, IShapeWide<TConvex> where TContainer : unmanaged, IContainer
+{
+    const int InitialCapacity = 64;
+
+    // Behind the pairs is room for a child that is made on the way.
+    internal override int BatchByteCount => ScratchStart + IContainer.ScratchByteCount;
+
+    int ScratchStart => (base.BatchByteCount + 15) & ~15;
+
+    internal override void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        var entries = Entries(batch);
+        var children = new QuickList<int>(InitialCapacity, pool);
+        for (int start = 0; start < batch.Count; start += Vector<float>.Count)
+        {
+            var count = Math.Min(Vector<float>.Count, batch.Count - start);
+            FindBoxes(entries + start, count, dt, out var min, out var max);
+            for (int i = 0; i < count; ++i)
+            {
+                ref var entry = ref entries[start + i];
+                children.Count = 0;
+                entry.B.FindOverlaps(Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), shapes, ref children, pool);
+                for (int j = 0; j < children.Count; ++j)
+                    found.Add(new(start + i, entry.Pair.Flipped ? new(children[j], 0) : new(0, children[j])), pool);
+            }
+        }
+        children.Dispose(pool);
+    }
+
+    static void FindBoxes(Entry* entries, int count, float dt, out Vector3Wide min, out Vector3Wide max)
+    {
+        var parents = default(ParentMotionWide);
+        var convex = default(TConvexWide);
+        for (int i = 0; i < count; ++i)
+        {
+            parents.Write(entries[i].Pair, moverIsA: !entries[i].Pair.Flipped, i);
+            Lanes.Write(entries[i].A, ref convex, i);
+        }
+        var motion = new RelativeMotionWide(parents, dt);
+        convex.GetBounds(motion.Orientation, out var maximumRadius, out var maximumAngularExpansion, out min, out max);
+        motion.Widen(maximumRadius, maximumAngularExpansion, ref min, ref max);
+    }
+
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    {
+        ref var entry = ref Entries(batch)[found.Parent];
+        var scratch = batch.Bundles.Memory + ScratchStart;
+        children = ContainerPlaces.Parents(entry.Pair);
+        if (entry.Pair.Flipped)
+        {
+            ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);
+            children.TypeB = TConvex.TypeId;
+            children.ShapeB = Unsafe.AsPointer(ref entry.A);
+        }
+        else
+        {
+            ContainerPlaces.SetB(ref children, entry.B, found.Children.B, shapes, scratch);
+            children.TypeA = TConvex.TypeId;
+            children.ShapeA = Unsafe.AsPointer(ref entry.A);
+        }
+    }
+}
