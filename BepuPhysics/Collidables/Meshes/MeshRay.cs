@@ -98,7 +98,7 @@ unsafe struct MeshRay
         if (!Exists)
             return;
         var stack = stackalloc Entry[StackSize];
-        stack[0] = default;
+        stack[0] = new() { Begin = float.NegativeInfinity };
         for (var stackCount = 1; stackCount > 0;)
         {
             ref var entry = ref stack[--stackCount];

@@ -109,17 +109,7 @@ static unsafe class MeshTree
         var count = pair[1].LeafCount == 0 ? 1 : 2;
         while (count < MeshNode.Width)
         {
-            var best = -1;
-            var bestArea = -1f;
-            for (int i = 0; i < count; ++i)
-            {
-                var area = BoxMath.HalfArea(chosen[i]);
-                // Where sizes are beyond the range of floats areas may be no numbers: any choice is good.
-                if (chosen[i]->LeafCount <= MeshNode.LeafSize || (best >= 0 && !(area > bestArea)))
-                    continue;
-                best = i;
-                bestArea = area;
-            }
+            var best = ChooseNext(chosen, count);
             if (best < 0)
                 break;
             var children = tree.Children + 2 * chosen[best]->Index;
@@ -132,6 +122,30 @@ static unsafe class MeshTree
         return count;
     }
 
+    // The one to give way: the largest, but one that would be a node of few children before that.
+    static int ChooseNext(NodeChild** chosen, int count)
+    {
+        var best = -1;
+        var bestArea = -1f;
+        var bestIsSmall = false;
+        for (int i = 0; i < count; ++i)
+        {
+            var leafCount = chosen[i]->LeafCount;
+            if (leafCount <= MeshNode.LeafSize)
+                continue;
+            // Two leaves take one place more here, and a whole node of their own otherwise.
+            var isSmall = leafCount <= 2 * MeshNode.LeafSize;
+            var area = BoxMath.HalfArea(chosen[i]);
+            // Where sizes are beyond the range of floats areas may be no numbers: any choice is good.
+            if (best >= 0 && (bestIsSmall == isSmall ? !(area > bestArea) : bestIsSmall))
+                continue;
+            best = i;
+            bestArea = area;
+            bestIsSmall = isSmall;
+        }
+        return best;
+    }
+
     static void Place(in Tree tree, NodeChild* child, int* triangles, int* order, ref int places)
     {
         if (child->Index < 0)
@@ -142,6 +156,16 @@ static unsafe class MeshTree
         var children = tree.Children + 2 * child->Index;
         Place(tree, children, triangles, order, ref places);
         Place(tree, children + 1, triangles, order, ref places);
+    }
+
+    /// <summary>Number of triangles below a node.</summary>
+    // Those of a node's leaves come first, then those below its nodes one after the other: the last ones end where those below it end.
+    public static int CountTriangles(MeshNode* nodes, int node)
+    {
+        var last = nodes + node;
+        while (last->NodeMask != 0)
+            last = nodes + last->FirstNode + BitOperations.PopCount((uint)last->NodeMask) - 1;
+        return last->FirstPlace + last->TotalTriangleCount - nodes[node].FirstPlace;
     }
 
     /// <summary>Writes the boxes of all nodes around the vertices as they are.</summary>
