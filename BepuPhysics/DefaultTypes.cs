@@ -24,6 +24,7 @@ public static partial class DefaultTypes
         registry.Register(new ConvexCollisionTask<Box, BoxWide, Triangle, TriangleWide, Few4<ContactWide>, BoxTriangleTester>());
         registry.Register(new ConvexCollisionTask<Triangle, TriangleWide, Triangle, TriangleWide, Few4<ContactWide>, TriangleTriangleTester>());
         RegisterSearches(registry);
+        RegisterContainers(registry);
         return registry;
     }
 

@@ -13,7 +13,7 @@ struct MassIntegrals
     // Products of inertia below this part of the moments are roundings of the sums: a hull that is symmetric has none.
     const double NoProduct = 1e-12;
     // Of the rounded inverse, relative: a percent, less what the sums and the rounding of the vertices add.
-    const double GreatestError = 8e-3;
+    internal const double GreatestError = 8e-3;
 
     /// <summary>Volume, m3, or area, m2.</summary>
     public double Measure;

@@ -49,10 +49,15 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
         // A copy, because the argument may be a slot of this batch that is about to move.
         var copy = shape;
         copy.Validate();
+        CheckParts(copy);
         var index = TakeSlot();
         shapes[index] = copy;
+        OnAdded(index);
         return index;
     }
+
+    /// <summary>Refuses a shape whose children are none.</summary>
+    private protected virtual void CheckParts(in TShape shape) { }
 
     private protected sealed override void ReturnShapes() => pool.Return(ref shapes);
 
@@ -64,7 +69,7 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
         return ref shapes.Memory[shapeIndex];
     }
 
-    private protected sealed override void* GetPointer(int shapeIndex) => shapes.Memory + shapeIndex;
+    internal sealed override void* GetPointer(int shapeIndex) => shapes.Memory + shapeIndex;
 
     private protected sealed override void ResizeShapes(int shapeCapacity)
     {

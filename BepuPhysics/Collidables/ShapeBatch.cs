@@ -26,6 +26,8 @@ public abstract unsafe class ShapeBatch
     int lastGeneration;
     // Number of bodies and statics of each slot's shape.
     Buffer<int> uses;
+    // Number of children of compounds that are each slot's shape.
+    Buffer<int> parts;
     // The collection that the batch belongs to; null for one that stands alone.
     Shapes? owner;
 
@@ -119,7 +121,7 @@ public abstract unsafe class ShapeBatch
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Index of the shape.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void Remove(int shapeIndex)
     {
         using var change = BeginChange("ShapeBatch.Remove");
@@ -129,6 +131,7 @@ public abstract unsafe class ShapeBatch
     internal void RemoveUnlocked(int shapeIndex)
     {
         CheckUnused(shapeIndex);
+        OnRemoved(shapeIndex);
         ids.Return(shapeIndex, pool);
         taken[shapeIndex] = 0;
         --Count;
@@ -138,7 +141,7 @@ public abstract unsafe class ShapeBatch
     /// <param name="shapeIndex">Index of the shape.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RemoveAndDispose(int shapeIndex, BufferPool pool)
     {
         using var change = BeginChange("ShapeBatch.RemoveAndDispose");
@@ -158,7 +161,7 @@ public abstract unsafe class ShapeBatch
     /// <param name="shapes">Collection that holds the children.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RecursivelyRemoveAndDispose(int shapeIndex, Shapes shapes, BufferPool pool)
     {
         using var change = BeginChange("ShapeBatch.RecursivelyRemoveAndDispose");
@@ -175,16 +178,21 @@ public abstract unsafe class ShapeBatch
     }
 
     /// <summary>Removes all shapes; what they own themselves stays their owners'.</summary>
-    /// <exception cref="InvalidOperationException">A body or static uses one of them; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses one of them; nothing was changed.</exception>
     public void Clear()
     {
         using var change = BeginChange("ShapeBatch.Clear");
-        CheckAllUnused();
+        CheckAllUnused(andNoParts: true);
         ClearUnlocked();
     }
 
     internal void ClearUnlocked()
     {
+        for (int i = 0; i < UsedSlotCount; ++i)
+        {
+            if (Exists(i))
+                OnRemoved(i);
+        }
         ids.Clear();
         taken.Clear(0, taken.Length);
         Count = 0;
@@ -239,10 +247,12 @@ public abstract unsafe class ShapeBatch
     {
         if (!taken.Allocated)
             return;
+        OnMemoryReturned();
         ReturnShapes();
         pool.Return(ref taken);
         pool.Return(ref generations);
         pool.Return(ref uses);
+        pool.Return(ref parts);
         ids.Dispose(pool);
         Count = 0;
     }
@@ -264,23 +274,59 @@ public abstract unsafe class ShapeBatch
         Check.That(left >= 0);
     }
 
+    /// <summary>Counts a child of a compound that is this shape. Only while the collection changes.</summary>
+    internal void BeginPart(int shapeIndex) => ++parts[shapeIndex];
+
+    internal void EndPart(int shapeIndex)
+    {
+        --parts[shapeIndex];
+        Check.That(parts[shapeIndex] >= 0);
+    }
+
     /// <summary>Refuses a shape that does not exist, or that something uses.</summary>
     internal void CheckUnused(int shapeIndex)
     {
         CheckExists(shapeIndex);
+        CheckNoUser(shapeIndex);
+        CheckNoPart(shapeIndex);
+    }
+
+    void CheckNoUser(int shapeIndex)
+    {
         if (uses[shapeIndex] != 0)
             throw new InvalidOperationException(
                 $"Shape {shapeIndex} of type {TypeId} is in use by {uses[shapeIndex]} bodies and statics: remove these first, or give them another shape.");
     }
 
-    internal void CheckAllUnused()
+    void CheckNoPart(int shapeIndex)
+    {
+        if (parts[shapeIndex] != 0)
+            throw new InvalidOperationException(
+                $"Shape {shapeIndex} of type {TypeId} is a child of a compound, {parts[shapeIndex]} times: remove the compound first.");
+    }
+
+    /// <summary>Refuses if anything uses one of the shapes.</summary>
+    /// <param name="andNoParts">Whether compounds count too, because they stay.</param>
+    internal void CheckAllUnused(bool andNoParts)
     {
         for (int i = 0; i < UsedSlotCount; ++i)
         {
-            if (Exists(i))
-                CheckUnused(i);
+            if (!Exists(i))
+                continue;
+            CheckNoUser(i);
+            if (andNoParts)
+                CheckNoPart(i);
         }
     }
+
+    /// <summary>Called when a shape was added.</summary>
+    private protected virtual void OnAdded(int shapeIndex) { }
+
+    /// <summary>Called before a shape is removed.</summary>
+    private protected virtual void OnRemoved(int shapeIndex) { }
+
+    /// <summary>Called before the memory of the batch is returned.</summary>
+    private protected virtual void OnMemoryReturned() { }
 
     /// <summary>Returns the memory that a shape owns.</summary>
     private protected virtual void DisposeShape(int shapeIndex, BufferPool pool) { }
@@ -291,7 +337,8 @@ public abstract unsafe class ShapeBatch
     /// <summary>Changes the number of slots; at least those in use remain.</summary>
     private protected abstract void ResizeShapes(int shapeCapacity);
 
-    private protected abstract void* GetPointer(int shapeIndex);
+    /// <summary>Memory of a shape that is known to exist, for inner loops.</summary>
+    internal abstract void* GetPointer(int shapeIndex);
 
     /// <summary>Bounds of a bundle of shapes, as <see cref="IShapeWide{TShape}.GetBounds"/>.</summary>
     /// <param name="shapeIndices">
@@ -324,6 +371,7 @@ public abstract unsafe class ShapeBatch
     {
         pool.ResizeToAtLeast(ref generations, slotCapacity, UsedSlotCount);
         pool.ResizeToAtLeast(ref uses, slotCapacity, UsedSlotCount);
+        pool.ResizeToAtLeast(ref parts, slotCapacity, UsedSlotCount);
         // It tells the capacity, so it comes last, should the system refuse memory in between.
         pool.ResizeToAtLeast(ref taken, slotCapacity, UsedSlotCount);
         taken.Clear(UsedSlotCount, taken.Length - UsedSlotCount);
@@ -347,6 +395,7 @@ public abstract unsafe class ShapeBatch
         taken[index] = 1;
         generations[index] = ++lastGeneration;
         uses[index] = 0;
+        parts[index] = 0;
         ++Count;
         return index;
     }

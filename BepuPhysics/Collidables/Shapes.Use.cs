@@ -95,7 +95,7 @@ public sealed partial class Shapes : IBufferPoolUser
     void CheckAllUnused()
     {
         foreach (var batch in batches)
-            batch?.CheckAllUnused();
+            batch?.CheckAllUnused(andNoParts: false);
     }
 
     /// <summary>Ends a change.</summary>

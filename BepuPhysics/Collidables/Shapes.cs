@@ -61,6 +61,8 @@ public sealed partial class Shapes
     {
         // Before a batch is made for the type, so that a refused shape leaves no trace.
         shape.Validate();
+        if (shape is ICompoundShape compound)
+            CompoundChildren.CheckShapes(compound, this);
         using var change = Change("Shapes.Add");
         return new(TShape.TypeId, GetOrCreateBatch<TShape>().AddUnlocked(shape));
     }
@@ -85,7 +87,7 @@ public sealed partial class Shapes
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void Remove(TypedIndex shapeIndex)
     {
         using var change = Change("Shapes.Remove");
@@ -96,7 +98,7 @@ public sealed partial class Shapes
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
     {
         using var change = Change("Shapes.RemoveAndDispose");
@@ -107,7 +109,7 @@ public sealed partial class Shapes
     /// <param name="shapeIndex">Name of the shape.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body or static uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RecursivelyRemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
     {
         using var change = Change("Shapes.RecursivelyRemoveAndDispose");

@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
 using Demos.Running;
 using Demos.Scenes;
 
@@ -10,7 +11,9 @@ namespace Demos.Engine;
 /// <summary>Makes the library's shapes out of the scene's: those that it has.</summary>
 sealed class ShapeFactory(Simulation simulation)
 {
-    public static bool SupportsCompounds => false;
+    const int BigCompoundChildCount = 16;
+
+    public static bool SupportsCompounds => true;
 
     public static bool Supports(SceneShapeKind kind) => kind != SceneShapeKind.Mesh;
 
@@ -31,9 +34,36 @@ sealed class ShapeFactory(Simulation simulation)
         };
     }
 
-    /// <summary>Never called while <see cref="SupportsCompounds"/> is false.</summary>
-    public BuiltShape BuildCompound(ReadOnlySpan<(BuiltShape Shape, SceneChild Child)> children, bool solid) =>
-        throw new NotSupportedException("This library has no compounds yet.");
+    /// <summary>Adds a shape made of others.</summary>
+    /// <param name="children">The parts and where they are in the body's frame.</param>
+    /// <param name="solid">Whether the body has mass: then the centre of mass becomes the shape's origin.</param>
+    public BuiltShape BuildCompound(ReadOnlySpan<(BuiltShape Shape, SceneChild Child)> children, bool solid)
+    {
+        double volume = 0;
+        foreach ((BuiltShape shape, SceneChild _) in children)
+            volume += shape.Volume;
+        using var builder = new CompoundBuilder(simulation.BufferPool, simulation.Shapes, children.Length);
+        foreach ((BuiltShape shape, SceneChild child) in children)
+        {
+            var pose = new RigidPose(child.Position + SceneMath.Rotate(shape.Center, child.Orientation), child.Orientation);
+            builder.Add(shape.Index, pose, shape.Inertia((float)(shape.Volume / volume)));
+        }
+        Buffer<CompoundChild> parts;
+        Vector3 center = default;
+        BodyInertia unitInertia = default;
+        if (solid)
+            builder.BuildDynamicCompound(out parts, out unitInertia, out center);
+        else
+            builder.BuildKinematicCompound(out parts);
+        TypedIndex index = parts.Length >= BigCompoundChildCount
+            ? simulation.Shapes.Add(new BigCompound(parts, simulation.Shapes, simulation.BufferPool))
+            : simulation.Shapes.Add(new Compound(parts));
+        return new BuiltShape(index, center, volume, mass => new BodyInertia
+        {
+            InverseMass = unitInertia.InverseMass / mass,
+            InverseInertiaTensor = unitInertia.InverseInertiaTensor * (1 / mass),
+        });
+    }
 
     BuiltShape Hull(SceneShape shape)
     {

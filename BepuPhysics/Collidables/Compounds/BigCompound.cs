@@ -1,0 +1,167 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>A shape made of many convex shapes, with a tree over them.</summary>
+/// <remarks>
+/// <inheritdoc cref="Compound" path="/remarks"/> Leaves of the tree have the numbers of the children; whoever changes a child's shape or pose
+/// gives its leaf new bounds.
+/// </remarks>
+public unsafe struct BigCompound : ICompoundShape, IContainer
+{
+    /// <summary>Type id of big compounds.</summary>
+    public const int Id = 7;
+
+    /// <summary>Boxes of the children in the frame of the compound.</summary>
+    public Tree Tree;
+    /// <inheritdoc cref="Compound.Children"/>
+    public Buffer<CompoundChild> Children;
+
+    /// <summary>Makes a compound of children.</summary>
+    /// <param name="children">Memory with the children, and no more; the compound keeps it.</param>
+    /// <param name="shapes">Shapes that the children refer to.</param>
+    /// <param name="pool">Source of the tree's memory.</param>
+    /// <param name="dispatcher">Not used: the tree is built by the calling thread. Kept for callers.</param>
+    /// <exception cref="ArgumentException">A child's shape does not exist or is not convex, or a pose is not valid.</exception>
+    public BigCompound(Buffer<CompoundChild> children, Shapes shapes, BufferPool pool, IThreadDispatcher? dispatcher = null)
+    {
+        ArgumentNullException.ThrowIfNull(shapes);
+        ArgumentNullException.ThrowIfNull(pool);
+        CompoundChildren.Validate(children);
+        CompoundChildren.CheckShapes(children, shapes);
+        Children = children;
+        pool.TakeAtLeast(children.Length, out Buffer<NodeChild> nodes);
+        pool.TakeAtLeast(children.Length, out Buffer<BoundingBox> boxes);
+        CompoundChildren.WriteBoxes(children, shapes, nodes.Memory);
+        for (int i = 0; i < children.Length; ++i)
+            boxes[i] = new(nodes[i].Min, nodes[i].Max);
+        Tree = new Tree(pool, children.Length);
+        Tree.BinnedBuild(new ReadOnlySpan<BoundingBox>(boxes.Memory, children.Length), pool);
+        pool.Return(ref boxes);
+        pool.Return(ref nodes);
+    }
+
+    /// <inheritdoc/>
+    public static int TypeId => Id;
+
+    /// <inheritdoc/>
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        new CompoundShapeBatch<BigCompound>(pool, initialCapacity, shapes);
+
+    /// <inheritdoc/>
+    public readonly int ChildCount => Children.Length;
+
+    /// <inheritdoc/>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such child.</exception>
+    public readonly ref CompoundChild GetChild(int compoundChildIndex) => ref CompoundChildren.Get(Children, compoundChildIndex);
+
+    /// <inheritdoc/>
+    public readonly void Validate()
+    {
+        CompoundChildren.Validate(Children);
+        if (Tree.LeafCount != Children.Length)
+            throw new ArgumentException($"The tree of a compound of {Children.Length} children has {Tree.LeafCount} leaves.", nameof(Tree));
+    }
+
+    /// <summary>Adds a child at the end. The centre of mass of a body may then be another one.</summary>
+    /// <param name="child">The child.</param>
+    /// <param name="pool">Pool that the compound's memory was taken from.</param>
+    /// <param name="shapes">Shapes that the children refer to.</param>
+    /// <exception cref="ArgumentException">The child's shape does not exist or is not convex, or its pose is not valid.</exception>
+    public void Add(CompoundChild child, BufferPool pool, Shapes shapes)
+    {
+        ArgumentNullException.ThrowIfNull(shapes);
+        CompoundChildren.Validate(child, Children.Length);
+        CompoundChildren.CheckShape(child, Children.Length, shapes);
+        CompoundChildren.Add(ref Children, child, pool);
+        shapes.UpdateBounds(child.AsPose(), child.ShapeIndex, out var bounds);
+        Tree.Add(bounds, pool);
+    }
+
+    /// <inheritdoc cref="Compound.RemoveAt"/>
+    public void RemoveAt(int childIndex, BufferPool pool)
+    {
+        CompoundChildren.RemoveAt(ref Children, childIndex, pool);
+        Tree.RemoveAt(childIndex);
+    }
+
+    /// <inheritdoc/>
+    public readonly void ComputeBounds(Quaternion orientation, Shapes shapeBatches, out Vector3 min, out Vector3 max)
+    {
+        var extent = CompoundChildren.Measure(Children, orientation, shapeBatches);
+        min = extent.Min;
+        max = extent.Max;
+    }
+
+    /// <inheritdoc cref="CompoundBuilder.ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)"/>
+    public readonly BodyInertia ComputeInertia(Span<float> childMasses, Shapes shapes) =>
+        CompoundBuilder.ComputeInertia(CompoundChildren.Span(Children), childMasses, shapes);
+
+    /// <inheritdoc cref="CompoundBuilder.ComputeInertia(Span{CompoundChild}, Span{float}, Shapes, out Vector3)"/>
+    public readonly BodyInertia ComputeInertia(Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass)
+    {
+        var inertia = CompoundBuilder.ComputeInertia(CompoundChildren.Span(Children), childMasses, shapes, out centerOfMass);
+        for (int i = 0; i < Children.Length; ++i)
+        {
+            shapes.UpdateBounds(Children[i].AsPose(), Children[i].ShapeIndex, out var bounds);
+            Tree.UpdateBounds(i, bounds);
+        }
+        return inertia;
+    }
+
+    /// <inheritdoc/>
+    public readonly void RayTest<TRayHitHandler>(in RigidPose pose, in RayData ray, ref float maximumT, Shapes shapeBatches, BufferPool pool,
+        ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler
+    {
+        var tester = new ChildRayTester<TRayHitHandler>(Children, pose, ray, shapeBatches, hitHandler);
+        RigidPose.TransformByInverse(ray.Origin, pose, out var origin);
+        Tree.RayCast(origin, Exact.RotateByInverse(ray.Direction, pose.Orientation), ref maximumT, pool, ref tester);
+        hitHandler = tester.Handler;
+    }
+
+    /// <inheritdoc/>
+    public void Dispose(BufferPool pool)
+    {
+        CompoundChildren.Dispose(ref Children, pool);
+        Tree.Dispose(pool);
+    }
+
+    readonly int IContainer.MaximumFanOut => 2;
+
+    readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
+    {
+        // The second side of a tree with a single leaf is nothing.
+        var count = Math.Min(2, Tree.LeafCount);
+        for (int i = 0; i < count; ++i)
+            below[i] = Tree.Children[2 * node + i];
+        return count;
+    }
+
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool)
+    {
+        var collector = new Collector { Found = found, Pool = pool };
+        Tree.GetOverlaps(min, max, pool, ref collector);
+        found = collector.Found;
+    }
+
+    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
+        CompoundChildren.Get(Children, index, shapes, out child);
+
+    struct Collector : IBreakableForEach<int>
+    {
+        public QuickList<int> Found;
+        public BufferPool Pool;
+
+        public bool LoopBody(int i)
+        {
+            Found.Add(i, Pool);
+            return true;
+        }
+    }
+}

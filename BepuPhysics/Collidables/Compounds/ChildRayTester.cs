@@ -1,0 +1,44 @@
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>Tests a ray against children of a compound, and tells the compound's handler about the hits with the number of the child.</summary>
+unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in RigidPose pose, in RayData ray, Shapes shapes, in TRayHitHandler handler)
+    : IRayLeafTester where TRayHitHandler : struct, IShapeRayHitHandler
+{
+    readonly Buffer<CompoundChild> children = children;
+    readonly RigidPose pose = pose;
+    readonly RayData ray = ray;
+    readonly Shapes shapes = shapes;
+    ChildHits hits = new() { Handler = handler };
+
+    public readonly TRayHitHandler Handler => hits.Handler;
+
+    public void Test(int index, ref float maximumT, BufferPool pool)
+    {
+        if (!hits.Handler.AllowTest(index))
+            return;
+        ref var child = ref children[index];
+        var place = new RigidPose(
+            pose.Position + Exact.Rotate(child.LocalPosition, pose.Orientation), Exact.Concatenate(child.LocalOrientation, pose.Orientation));
+        hits.Child = index;
+        shapes.GetBatch(child.ShapeIndex.Type).RayTest(child.ShapeIndex.Index, place, ray, ref maximumT, pool, ref hits);
+    }
+
+    // The tree's ray is the same one in the frame of the compound.
+    void IRayLeafTester.TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) => Test(leafIndex, ref *maximumT, pool);
+
+    struct ChildHits : IShapeRayHitHandler
+    {
+        public TRayHitHandler Handler;
+        public int Child;
+
+        public bool AllowTest(int childIndex) => true;
+
+        public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, int childIndex) =>
+            Handler.OnRayHit(ray, ref maximumT, t, normal, Child);
+    }
+}

@@ -1,0 +1,113 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>A shape made of a few convex shapes in a list. For more than about ten <see cref="BigCompound"/> is faster.</summary>
+/// <remarks>
+/// Any convex shapes may be children, the same one in several places too; a compound or a mesh may not. A body turns around the origin of the
+/// compound, which must be its centre of mass: <see cref="CompoundBuilder"/> sees to that. While the compound is among the
+/// <see cref="Shapes"/>, the shapes that its children had when it was added cannot be removed.
+/// </remarks>
+public unsafe struct Compound : ICompoundShape, IContainer
+{
+    /// <summary>Type id of compounds.</summary>
+    public const int Id = 6;
+
+    /// <summary>The children. This memory is that which the compound was made with; <see cref="Dispose"/> returns it.</summary>
+    public Buffer<CompoundChild> Children;
+
+    /// <summary>Makes a compound of children.</summary>
+    /// <param name="children">Memory with the children, and no more; the compound keeps it. They are checked when the compound is added.</param>
+    public Compound(Buffer<CompoundChild> children) => Children = children;
+
+    /// <inheritdoc/>
+    public static int TypeId => Id;
+
+    /// <inheritdoc/>
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        new CompoundShapeBatch<Compound>(pool, initialCapacity, shapes);
+
+    /// <inheritdoc/>
+    public readonly int ChildCount => Children.Length;
+
+    /// <inheritdoc/>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such child.</exception>
+    public readonly ref CompoundChild GetChild(int compoundChildIndex) => ref CompoundChildren.Get(Children, compoundChildIndex);
+
+    /// <inheritdoc/>
+    public readonly void Validate() => CompoundChildren.Validate(Children);
+
+    /// <summary>Adds a child at the end. The centre of mass of a body may then be another one.</summary>
+    /// <param name="child">The child; its shape is not checked to exist.</param>
+    /// <param name="pool">Pool that the children's memory was taken from.</param>
+    /// <exception cref="ArgumentException">The child's pose or shape type is not valid.</exception>
+    public void Add(CompoundChild child, BufferPool pool)
+    {
+        CompoundChildren.Validate(child, Children.Length);
+        CompoundChildren.Add(ref Children, child, pool);
+    }
+
+    /// <summary>Removes a child; the last one gets its number.</summary>
+    /// <param name="childIndex">Number of the child.</param>
+    /// <param name="pool">Pool that the children's memory was taken from.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such child.</exception>
+    /// <exception cref="InvalidOperationException">It is the only child.</exception>
+    public void RemoveAt(int childIndex, BufferPool pool) => CompoundChildren.RemoveAt(ref Children, childIndex, pool);
+
+    /// <inheritdoc/>
+    public readonly void ComputeBounds(Quaternion orientation, Shapes shapeBatches, out Vector3 min, out Vector3 max)
+    {
+        var extent = CompoundChildren.Measure(Children, orientation, shapeBatches);
+        min = extent.Min;
+        max = extent.Max;
+    }
+
+    /// <inheritdoc cref="CompoundBuilder.ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)"/>
+    public readonly BodyInertia ComputeInertia(Span<float> childMasses, Shapes shapes) =>
+        CompoundBuilder.ComputeInertia(CompoundChildren.Span(Children), childMasses, shapes);
+
+    /// <inheritdoc cref="CompoundBuilder.ComputeInertia(Span{CompoundChild}, Span{float}, Shapes, out Vector3)"/>
+    public readonly BodyInertia ComputeInertia(Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass) =>
+        CompoundBuilder.ComputeInertia(CompoundChildren.Span(Children), childMasses, shapes, out centerOfMass);
+
+    /// <inheritdoc/>
+    public readonly void RayTest<TRayHitHandler>(in RigidPose pose, in RayData ray, ref float maximumT, Shapes shapeBatches, BufferPool pool,
+        ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler
+    {
+        var tester = new ChildRayTester<TRayHitHandler>(Children, pose, ray, shapeBatches, hitHandler);
+        for (int i = 0; i < Children.Length; ++i)
+            tester.Test(i, ref maximumT, pool);
+        hitHandler = tester.Handler;
+    }
+
+    /// <inheritdoc/>
+    public void Dispose(BufferPool pool) => CompoundChildren.Dispose(ref Children, pool);
+
+    readonly int IContainer.MaximumFanOut => Children.Length;
+
+    readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
+    {
+        CompoundChildren.WriteBoxes(Children, shapes, below);
+        return Children.Length;
+    }
+
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool)
+    {
+        pool.TakeAtLeast(Math.Max(1, Children.Length), out Buffer<NodeChild> boxes);
+        CompoundChildren.WriteBoxes(Children, shapes, boxes.Memory);
+        for (int i = 0; i < Children.Length; ++i)
+        {
+            if (BoundingBox.IntersectsUnsafe(min, max, boxes[i].Min, boxes[i].Max))
+                found.Add(i, pool);
+        }
+        pool.Return(ref boxes);
+    }
+
+    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
+        CompoundChildren.Get(Children, index, shapes, out child);
+}

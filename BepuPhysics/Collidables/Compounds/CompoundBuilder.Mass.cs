@@ -1,0 +1,140 @@
+using System;
+using System.Numerics;
+using System.Runtime.InteropServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Collidables;
+
+// Masses and inertias of children, without a builder.
+public partial struct CompoundBuilder
+{
+    /// <summary>Inertia of a mass in a point around the origin.</summary>
+    /// <param name="offset">Position of the point, m.</param>
+    /// <param name="mass">The mass, kg.</param>
+    /// <param name="contribution">Inertia, kg m2.</param>
+    public static void GetOffsetInertiaContribution(Vector3 offset, float mass, out Symmetric3x3 contribution) =>
+        contribution = ComputeInertiaForChild(offset, default, mass);
+
+    /// <summary>Inertia of a child around the origin of its compound, kg m2, not inverted.</summary>
+    /// <param name="pose">Pose of the child.</param>
+    /// <param name="inverseLocalInertia">Inverse inertia of the child around its own centre; zero for a mass in a point.</param>
+    /// <param name="mass">Mass of the child, kg.</param>
+    public static Symmetric3x3 ComputeInertiaForChild(in RigidPose pose, Symmetric3x3 inverseLocalInertia, float mass)
+    {
+        var sum = default(CompoundMass);
+        sum.AddInertia(pose, inverseLocalInertia, mass);
+        return sum.Inertia;
+    }
+
+    /// <summary>Centre of mass of children; the origin where there is no mass.</summary>
+    /// <param name="childPoses">Poses of the children.</param>
+    /// <param name="childMasses">Masses of the children, kg.</param>
+    /// <param name="inverseMass">One by the mass of all children, 1/kg; zero where there is no mass.</param>
+    /// <exception cref="ArgumentException">There are not as many masses as children, or a mass is out of range.</exception>
+    public static Vector3 ComputeCenterOfMass(Span<RigidPose> childPoses, Span<float> childMasses, out float inverseMass)
+    {
+        CheckMasses(childPoses.Length, childMasses);
+        var sum = default(CompoundMass);
+        for (int i = 0; i < childPoses.Length; ++i)
+            sum.AddCenter(childPoses[i].Position, childMasses[i]);
+        inverseMass = sum.Mass > 0 ? (float)(1 / sum.Mass) : 0;
+        return sum.Center;
+    }
+
+    /// <inheritdoc cref="ComputeCenterOfMass(Span{RigidPose}, Span{float}, out float)"/>
+    public static Vector3 ComputeCenterOfMass(Span<CompoundChild> children, Span<float> childMasses, out float inverseMass) =>
+        ComputeCenterOfMass(Poses(children), childMasses, out inverseMass);
+
+    /// <inheritdoc cref="ComputeCenterOfMass(Span{RigidPose}, Span{float}, out float)"/>
+    public static Vector3 ComputeCenterOfMass(Span<RigidPose> childPoses, Span<float> childMasses) => ComputeCenterOfMass(childPoses, childMasses, out _);
+
+    /// <inheritdoc cref="ComputeCenterOfMass(Span{RigidPose}, Span{float}, out float)"/>
+    public static Vector3 ComputeCenterOfMass(Span<CompoundChild> children, Span<float> childMasses) => ComputeCenterOfMass(children, childMasses, out _);
+
+    /// <summary>Inverse mass and inertia of children around the origin of their frame.</summary>
+    /// <param name="childPoses">Poses of the children.</param>
+    /// <param name="inverseLocalInertias">Inverse inertias of the children around their own centres; zero for a mass in a point.</param>
+    /// <param name="childMasses">Masses of the children, kg.</param>
+    /// <exception cref="ArgumentException">There are not as many of each, a mass is out of range, or floats cannot hold the inverse inertia.</exception>
+    public static BodyInertia ComputeInverseInertia(Span<RigidPose> childPoses, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses) =>
+        SumUp(childPoses, inverseLocalInertias, childMasses, default);
+
+    /// <inheritdoc cref="ComputeInverseInertia(Span{RigidPose}, Span{Symmetric3x3}, Span{float})"/>
+    public static BodyInertia ComputeInverseInertia(Span<CompoundChild> children, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses) =>
+        ComputeInverseInertia(Poses(children), inverseLocalInertias, childMasses);
+
+    /// <summary>Inverse mass and inertia of children around their centre of mass, which becomes the origin of their poses.</summary>
+    /// <inheritdoc cref="ComputeInverseInertia(Span{RigidPose}, Span{Symmetric3x3}, Span{float})"/>
+    /// <param name="centerOfMass">Centre of mass in the frame that the poses were in.</param>
+    public static BodyInertia ComputeInverseInertia(
+        Span<RigidPose> childPoses, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses, out Vector3 centerOfMass)
+    {
+        var center = ComputeCenterOfMass(childPoses, childMasses, out _);
+        var inertia = SumUp(childPoses, inverseLocalInertias, childMasses, center);
+        foreach (ref var pose in childPoses)
+            pose.Position -= center;
+        centerOfMass = center;
+        return inertia;
+    }
+
+    static BodyInertia SumUp(Span<RigidPose> poses, Span<Symmetric3x3> inverseInertias, Span<float> masses, Vector3 center)
+    {
+        CheckMasses(poses.Length, masses);
+        if (inverseInertias.Length != poses.Length)
+            throw new ArgumentException($"There are {poses.Length} children and {inverseInertias.Length} inertias.", nameof(inverseInertias));
+        var sum = default(CompoundMass);
+        for (int i = 0; i < poses.Length; ++i)
+        {
+            CheckInertia(inverseInertias[i]);
+            var pose = new RigidPose(poses[i].Position - center, poses[i].Orientation);
+            sum.AddCenter(pose.Position, masses[i]);
+            sum.AddInertia(pose, inverseInertias[i], masses[i]);
+        }
+        return sum.ToInverse();
+    }
+
+    /// <inheritdoc cref="ComputeInverseInertia(Span{RigidPose}, Span{Symmetric3x3}, Span{float}, out Vector3)"/>
+    public static BodyInertia ComputeInverseInertia(
+        Span<CompoundChild> children, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses, out Vector3 centerOfMass) =>
+        ComputeInverseInertia(Poses(children), inverseLocalInertias, childMasses, out centerOfMass);
+
+    /// <summary>Inverse mass and inertia of convex children around the origin of their compound, each filled uniformly.</summary>
+    /// <param name="children">The children.</param>
+    /// <param name="childMasses">Masses of the children, kg; more than zero.</param>
+    /// <param name="shapes">Shapes that the children refer to.</param>
+    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist, or floats cannot
+    /// hold the inverse inertia.</exception>
+    public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes) =>
+        ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses);
+
+    /// <summary>Inverse mass and inertia of convex children around their centre of mass, which becomes the origin of their poses.</summary>
+    /// <inheritdoc cref="ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)"/>
+    /// <param name="centerOfMass">Centre of mass in the frame that the children were in.</param>
+    public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass) =>
+        ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses, out centerOfMass);
+
+    static Symmetric3x3[] LocalInertias(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes)
+    {
+        ArgumentNullException.ThrowIfNull(shapes);
+        CheckMasses(children.Length, childMasses);
+        var inertias = new Symmetric3x3[children.Length];
+        for (int i = 0; i < children.Length; ++i)
+        {
+            var name = children[i].ShapeIndex;
+            CompoundChildren.CheckShape(children[i], i, shapes);
+            inertias[i] = ((IConvexShapeBatch)shapes.GetBatch(name.Type)).ComputeInertia(name.Index, childMasses[i]).InverseInertiaTensor;
+        }
+        return inertias;
+    }
+
+    // A child begins with its pose.
+    static Span<RigidPose> Poses(Span<CompoundChild> children) => MemoryMarshal.Cast<CompoundChild, RigidPose>(children);
+
+    static void CheckMasses(int childCount, Span<float> masses)
+    {
+        if (masses.Length != childCount)
+            throw new ArgumentException($"There are {childCount} children and {masses.Length} masses.", nameof(masses));
+        foreach (var mass in masses)
+            CheckWeight(mass);
+    }
+}

@@ -1,0 +1,137 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>Compounds of one kind. It notes which shapes the children of each had when it was added: these cannot be removed meanwhile.</summary>
+/// <remarks>What is noted does not change with a compound that is changed in place, so that what was counted is what is counted back.</remarks>
+sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initialCapacity, Shapes all) : ShapeBatch<TCompound>(source, initialCapacity)
+    where TCompound : unmanaged, ICompoundShape
+{
+    // By slot; none for a slot without a shape.
+    Buffer<Buffer<TypedIndex>> childNames;
+
+    public override bool Compound => true;
+
+    public override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max) =>
+        this[shapeIndex].ComputeBounds(orientation, all, out min, out max);
+
+    public override void RayTest<TRayHitHandler>(
+        int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler) =>
+        this[shapeIndex].RayTest(pose, ray, ref maximumT, all, pool, ref hitHandler);
+
+    internal override float MaximumRadius(int shapeIndex) => Measure(shapeIndex, Quaternion.Identity).MaximumRadius;
+
+    CompoundExtent Measure(int shapeIndex, in Quaternion orientation)
+    {
+        ref var compound = ref Get(shapeIndex);
+        return CompoundChildren.Measure(ChildrenOf(ref compound), orientation, all);
+    }
+
+    static Buffer<CompoundChild> ChildrenOf(ref TCompound compound) =>
+        compound.ChildCount == 0 ? default : new(Unsafe.AsPointer(ref compound.GetChild(0)), compound.ChildCount);
+
+    internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
+        out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
+    {
+        maximumRadius = maximumAngularExpansion = default;
+        min = max = default;
+        var turns = orientations;
+        for (int lane = 0; lane < shapeIndices.Length; ++lane)
+        {
+            if (shapeIndices[lane] < 0)
+                continue;
+            var extent = Measure(shapeIndices[lane], Lanes.Read<Quaternion, QuaternionWide>(ref turns, lane));
+            GatherScatter.Get(ref maximumRadius, lane) = extent.MaximumRadius;
+            GatherScatter.Get(ref maximumAngularExpansion, lane) = extent.MaximumAngularExpansion;
+            Lanes.Write(extent.Min, ref min, lane);
+            Lanes.Write(extent.Max, ref max, lane);
+        }
+    }
+
+    private protected override void CheckParts(in TCompound shape)
+    {
+        var copy = shape;
+        CompoundChildren.CheckShapes(ChildrenOf(ref copy), all);
+    }
+
+    private protected override void OnAdded(int shapeIndex)
+    {
+        if (shapeIndex >= childNames.Length)
+        {
+            var known = childNames.Length;
+            pool.ResizeToAtLeast(ref childNames, Capacity, known);
+            childNames.Clear(known, childNames.Length - known);
+        }
+        var children = ChildrenOf(ref Get(shapeIndex));
+        pool.Take(children.Length, out Buffer<TypedIndex> names);
+        for (int i = 0; i < children.Length; ++i)
+            names[i] = children[i].ShapeIndex;
+        childNames[shapeIndex] = names;
+        BeginUses(names);
+    }
+
+    private protected override void OnRemoved(int shapeIndex)
+    {
+        ref var names = ref childNames[shapeIndex];
+        if (!names.Allocated)
+            return;
+        EndUses(names);
+        pool.Return(ref names);
+        names = default;
+    }
+
+    private protected override void OnMemoryReturned()
+    {
+        for (int i = 0; i < childNames.Length; ++i)
+        {
+            if (childNames[i].Allocated)
+                pool.Return(ref childNames[i]);
+        }
+        if (childNames.Allocated)
+            pool.Return(ref childNames);
+        childNames = default;
+    }
+
+    private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
+
+    private protected override void RemoveAndDisposeChildren(int shapeIndex, Shapes shapes, BufferPool pool)
+    {
+        var names = childNames[shapeIndex];
+        EndUses(names);
+        try
+        {
+            foreach (var name in new ReadOnlySpan<TypedIndex>(names.Memory, names.Length))
+                all.GetBatch(name.Type).CheckUnused(name.Index);
+        }
+        catch
+        {
+            BeginUses(names);
+            throw;
+        }
+        // A shape may be that of several children.
+        foreach (var name in new ReadOnlySpan<TypedIndex>(names.Memory, names.Length))
+        {
+            if (all.Exists(name))
+                all.GetBatch(name.Type).RemoveAndDisposeUnlocked(name.Index, pool);
+        }
+        base.pool.Return(ref childNames[shapeIndex]);
+        childNames[shapeIndex] = default;
+    }
+
+    void BeginUses(Buffer<TypedIndex> names)
+    {
+        for (int i = 0; i < names.Length; ++i)
+            all.GetBatch(names[i].Type).BeginPart(names[i].Index);
+    }
+
+    void EndUses(Buffer<TypedIndex> names)
+    {
+        for (int i = 0; i < names.Length; ++i)
+            all.GetBatch(names[i].Type).EndPart(names[i].Index);
+    }
+}
