@@ -64,6 +64,10 @@ struct CenteredRayWide
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly Vector3Wide At(Vector<float> distance) => Closest + Direction * distance;
 
+    /// <summary>Signed distance from the closest point, of a place in units of the given direction.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly Vector<float> Place(Vector<float> t) => Start + t * lengthScale * scaledLength;
+
     /// <summary>
     /// From the interval of the line that is inside the shape to the hit of the ray: where it enters, or at its start if that is inside.
     /// </summary>

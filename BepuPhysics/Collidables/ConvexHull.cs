@@ -166,7 +166,7 @@ public unsafe struct ConvexHull : IConvexShape, IDisposableShape
     public readonly BodyInertia ComputeInertia(float mass)
     {
         Validate();
-        return ConvexHullMass.ComputeInertia(Header, mass);
+        return MassIntegrals.ComputeInertia(Header, mass);
     }
 
     /// <inheritdoc/>

@@ -59,16 +59,30 @@ public struct Triangle(Vector3 a, Vector3 b, Vector3 c) : IConvexShape
         // In doubles, where neither the smallest nor the largest squares leave the range.
         double abX = (double)B.X - A.X, abY = (double)B.Y - A.Y, abZ = (double)B.Z - A.Z;
         double acX = (double)C.X - A.X, acY = (double)C.Y - A.Y, acZ = (double)C.Z - A.Z;
-        double bcX = acX - abX, bcY = acY - abY, bcZ = acZ - abZ;
-        double x = abY * acZ - abZ * acY, y = abZ * acX - abX * acZ, z = abX * acY - abY * acX;
-        var longest = Math.Sqrt(Math.Max(
-            abX * abX + abY * abY + abZ * abZ, Math.Max(acX * acX + acY * acY + acZ * acZ, bcX * bcX + bcY * bcY + bcZ * bcZ)));
-        var height = longest > 0 ? Math.Sqrt(x * x + y * y + z * z) / longest : 0;
-        if (height < ShapeLimits.MinimumSize || height < longest * MinimumThickness)
+        if (IsThin(abX, abY, abZ, acX, acY, acZ, out var longest, out var height))
         {
             throw new ArgumentException($"The corners {A}, {B}, {C} of a triangle make it {longest} m long and {height} m thick; " +
                 $"the least thickness is {ShapeLimits.MinimumSize} m and {MinimumThickness} of the length.");
         }
+    }
+
+    /// <summary>Whether a triangle is too thin to have a normal.</summary>
+    /// <param name="abX">From corner A to B.</param>
+    /// <param name="abY">From corner A to B.</param>
+    /// <param name="abZ">From corner A to B.</param>
+    /// <param name="acX">From corner A to C.</param>
+    /// <param name="acY">From corner A to C.</param>
+    /// <param name="acZ">From corner A to C.</param>
+    /// <param name="longest">Length of the longest edge, m.</param>
+    /// <param name="height">Height over it, m.</param>
+    internal static bool IsThin(double abX, double abY, double abZ, double acX, double acY, double acZ, out double longest, out double height)
+    {
+        double bcX = acX - abX, bcY = acY - abY, bcZ = acZ - abZ;
+        double x = abY * acZ - abZ * acY, y = abZ * acX - abX * acZ, z = abX * acY - abY * acX;
+        longest = Math.Sqrt(Math.Max(
+            abX * abX + abY * abY + abZ * abZ, Math.Max(acX * acX + acY * acY + acZ * acZ, bcX * bcX + bcY * bcY + bcZ * bcZ)));
+        height = longest > 0 ? Math.Sqrt(x * x + y * y + z * z) / longest : 0;
+        return height < ShapeLimits.MinimumSize || height < longest * MinimumThickness;
     }
 
     static void CheckCorner(Vector3 corner, string field)
@@ -180,6 +194,24 @@ public struct TriangleWide : IShapeWide<Triangle>
         var line = new CenteredRayWide(ray, pose.Position);
         line.ToLocal(axes);
         Vector3Wide.BuildOrthonormalBasis(line.Direction, out var x, out var y);
+        Meet(line, x, y, out var front, out var back, out var place);
+        var meets = front | back;
+        line.Resolve(place, Wide.Select(meets, place, new Vector<float>(float.NaN)), out hitMask, out _, out t);
+        var faceNormal = GetNormal();
+        normal = Vector3Wide.Mask(hitMask, Matrix3x3Wide.TransposeTimes(axes, Vector3Wide.Select(back, -faceNormal, faceNormal)));
+    }
+
+    /// <summary>Where lines pass through the planes of the triangles, and whether inside of these.</summary>
+    /// <param name="line">Lines in the frames of the triangles.</param>
+    /// <param name="x">First axis across the line.</param>
+    /// <param name="y">Second axis across the line.</param>
+    /// <param name="front">All bits set where the line enters by the front.</param>
+    /// <param name="back">All bits set where it enters by the back and that is a side.</param>
+    /// <param name="place">Distance along the line, if it meets the triangle.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly void Meet(in CenteredRayWide line, in Vector3Wide x, in Vector3Wide y,
+        out Vector<int> front, out Vector<int> back, out Vector<float> place)
+    {
         var a = A - line.Closest;
         var b = B - line.Closest;
         var c = C - line.Closest;
@@ -188,16 +220,12 @@ public struct TriangleWide : IShapeWide<Triangle>
         var areaC = SignedArea(x, y, a, b);
         var sum = areaA + areaB + areaC;
         var zero = Vector<float>.Zero;
-        var front = Vector.GreaterThanOrEqual(areaA, zero) & Vector.GreaterThanOrEqual(areaB, zero) & Vector.GreaterThanOrEqual(areaC, zero) &
+        front = Vector.GreaterThanOrEqual(areaA, zero) & Vector.GreaterThanOrEqual(areaB, zero) & Vector.GreaterThanOrEqual(areaC, zero) &
             Vector.GreaterThan(sum, zero);
-        var back = Vector.LessThanOrEqual(areaA, zero) & Vector.LessThanOrEqual(areaB, zero) & Vector.LessThanOrEqual(areaC, zero) &
+        back = Vector.LessThanOrEqual(areaA, zero) & Vector.LessThanOrEqual(areaB, zero) & Vector.LessThanOrEqual(areaC, zero) &
             Vector.LessThan(sum, zero) & TwoSidedMask;
-        var place = (Vector3Wide.Dot(a, line.Direction) * areaA + Vector3Wide.Dot(b, line.Direction) * areaB +
+        place = (Vector3Wide.Dot(a, line.Direction) * areaA + Vector3Wide.Dot(b, line.Direction) * areaB +
             Vector3Wide.Dot(c, line.Direction) * areaC) / sum;
-        var meets = front | back;
-        line.Resolve(place, Wide.Select(meets, place, new Vector<float>(float.NaN)), out hitMask, out _, out t);
-        var faceNormal = GetNormal();
-        normal = Vector3Wide.Mask(hitMask, Matrix3x3Wide.TransposeTimes(axes, Vector3Wide.Select(back, -faceNormal, faceNormal)));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

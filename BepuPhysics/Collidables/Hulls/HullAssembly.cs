@@ -123,7 +123,7 @@ static unsafe class HullAssembly
         for (int i = 0; i < data.OriginalVertexMapping.Length; ++i)
             size = Math.Max(size, HullPoint.Length(Position(points, data.OriginalVertexMapping[i]) - origin));
         var scale = 1 / size;
-        var mass = default(ConvexHullMass);
+        var mass = default(MassIntegrals);
         for (int face = 0; face < data.FaceStartIndices.Length; ++face)
         {
             data.GetFace(face, out var corners);
@@ -132,7 +132,7 @@ static unsafe class HullAssembly
             for (int i = 2; i < corners.Length; ++i)
             {
                 var c = Corner(points, data, corners[i]);
-                mass.Add(a, b, c);
+                mass.AddTetrahedron(a, b, c);
                 b = c;
             }
         }

@@ -2,38 +2,52 @@ using System;
 
 namespace BepuPhysics.Collidables;
 
-/// <summary>Integrals over the inside of a closed surface of triangles, in double precision.</summary>
+/// <summary>Integrals over the inside of a closed surface of triangles, or over the surface itself, in double precision.</summary>
 /// <remarks>
 /// The inside is the sum of the tetrahedra from one point to the triangles, with signs. Over a tetrahedron from the origin to a, b, c with
 /// d = a . (b x c): volume d / 6, integral of x is d / 24 (a + b + c), integral of x x^T is d / 120 (a a^T + b b^T + c c^T + s s^T)
-/// with s = a + b + c.
+/// with s = a + b + c. Over a triangle of area w: integral of x is w / 3 s, that of x x^T is w / 12 (a a^T + b b^T + c c^T + s s^T).
 /// </remarks>
-struct ConvexHullMass
+struct MassIntegrals
 {
     // Products of inertia below this part of the moments are roundings of the sums: a hull that is symmetric has none.
     const double NoProduct = 1e-12;
     // Of the rounded inverse, relative: a percent, less what the sums and the rounding of the vertices add.
     internal const double GreatestError = 8e-3;
 
-    /// <summary>Volume, m3.</summary>
-    public double Volume;
+    /// <summary>Volume, m3, or area, m2.</summary>
+    public double Measure;
     double firstX, firstY, firstZ;
     double secondXX, secondYX, secondYY, secondZX, secondZY, secondZZ;
 
     /// <summary>Centre of mass, m.</summary>
-    public readonly (double X, double Y, double Z) Center => (firstX / Volume, firstY / Volume, firstZ / Volume);
+    public readonly (double X, double Y, double Z) Center => (firstX / Measure, firstY / Measure, firstZ / Measure);
 
     /// <summary>Adds the tetrahedron from the origin to a triangle, which is counterclockwise seen from outside.</summary>
-    public void Add((double X, double Y, double Z) a, (double X, double Y, double Z) b, (double X, double Y, double Z) c)
+    public void AddTetrahedron((double X, double Y, double Z) a, (double X, double Y, double Z) b, (double X, double Y, double Z) c)
     {
         var determinant = a.X * (b.Y * c.Z - b.Z * c.Y) + a.Y * (b.Z * c.X - b.X * c.Z) + a.Z * (b.X * c.Y - b.Y * c.X);
+        Add(determinant, 1.0 / 6, 1.0 / 24, 1.0 / 120, a, b, c);
+    }
+
+    /// <summary>Adds a triangle of a thin sheet.</summary>
+    public void AddTriangle((double X, double Y, double Z) a, (double X, double Y, double Z) b, (double X, double Y, double Z) c)
+    {
+        double abX = b.X - a.X, abY = b.Y - a.Y, abZ = b.Z - a.Z, acX = c.X - a.X, acY = c.Y - a.Y, acZ = c.Z - a.Z;
+        double x = abY * acZ - abZ * acY, y = abZ * acX - abX * acZ, z = abX * acY - abY * acX;
+        Add(Math.Sqrt(x * x + y * y + z * z), 1.0 / 2, 1.0 / 6, 1.0 / 24, a, b, c);
+    }
+
+    void Add(double weight, double zeroth, double first, double second,
+        in (double X, double Y, double Z) a, in (double X, double Y, double Z) b, in (double X, double Y, double Z) c)
+    {
         double x = a.X + b.X + c.X, y = a.Y + b.Y + c.Y, z = a.Z + b.Z + c.Z;
-        Volume += determinant * (1.0 / 6);
-        var first = determinant * (1.0 / 24);
+        Measure += weight * zeroth;
+        first *= weight;
         firstX += first * x;
         firstY += first * y;
         firstZ += first * z;
-        var second = determinant * (1.0 / 120);
+        second *= weight;
         secondXX += second * (a.X * a.X + b.X * b.X + c.X * c.X + x * x);
         secondYX += second * (a.Y * a.X + b.Y * b.X + c.Y * c.X + y * x);
         secondYY += second * (a.Y * a.Y + b.Y * b.Y + c.Y * c.Y + y * y);
@@ -45,7 +59,7 @@ struct ConvexHullMass
     /// <summary>Inverse mass and inertia around the centre of mass of a hull filled uniformly.</summary>
     public static unsafe BodyInertia ComputeInertia(HullHeader* hull, float mass)
     {
-        var integrals = default(ConvexHullMass);
+        var integrals = default(MassIntegrals);
         // In units of the hull's radius, so that no power of a size leaves the range even of a double's precision.
         var scale = 1.0 / hull->OuterRadius;
         for (int face = 0; face < hull->FaceCount; ++face)
@@ -56,11 +70,11 @@ struct ConvexHullMass
             for (int i = start + 2; i < end; ++i)
             {
                 var c = Scaled(hull, i, scale);
-                integrals.Add(a, b, c);
+                integrals.AddTetrahedron(a, b, c);
                 b = c;
             }
         }
-        return integrals.Invert(mass, 1 / scale);
+        return integrals.Invert(mass, 1 / scale, aroundCenter: true);
     }
 
     static unsafe (double X, double Y, double Z) Scaled(HullHeader* hull, int faceVertex, double scale)
@@ -69,14 +83,26 @@ struct ConvexHullMass
         return (point.X * scale, point.Y * scale, point.Z * scale);
     }
 
-    readonly BodyInertia Invert(float mass, double size)
+    /// <summary>Moments and products of inertia per mass, around the centre of mass or around the origin.</summary>
+    public readonly void GetMoments(bool aroundCenter, out double xx, out double yx, out double yy, out double zx, out double zy, out double zz)
     {
-        var (x, y, z) = Center;
-        double sumXX = secondXX / Volume - x * x, sumYY = secondYY / Volume - y * y, sumZZ = secondZZ / Volume - z * z;
-        double xx = sumYY + sumZZ, yy = sumXX + sumZZ, zz = sumXX + sumYY;
-        var yx = ProductOrZero(secondYX / Volume - y * x, xx, yy);
-        var zx = ProductOrZero(secondZX / Volume - z * x, xx, zz);
-        var zy = ProductOrZero(secondZY / Volume - z * y, yy, zz);
+        var (x, y, z) = aroundCenter ? Center : default;
+        double sumXX = secondXX / Measure - x * x, sumYY = secondYY / Measure - y * y, sumZZ = secondZZ / Measure - z * z;
+        xx = sumYY + sumZZ;
+        yy = sumXX + sumZZ;
+        zz = sumXX + sumYY;
+        yx = ProductOrZero(secondYX / Measure - y * x, xx, yy);
+        zx = ProductOrZero(secondZX / Measure - z * x, xx, zz);
+        zy = ProductOrZero(secondZY / Measure - z * y, yy, zz);
+    }
+
+    /// <summary>Inverse mass and inertia, around the centre of mass or around the origin.</summary>
+    /// <param name="mass">Mass, kg.</param>
+    /// <param name="size">Unit in which coordinates were added, m.</param>
+    /// <param name="aroundCenter">Whether around the centre of mass.</param>
+    public readonly BodyInertia Invert(float mass, double size, bool aroundCenter)
+    {
+        GetMoments(aroundCenter, out var xx, out var yx, out var yy, out var zx, out var zy, out var zz);
         // Inverse by cofactors.
         double cofactorXX = yy * zz - zy * zy, cofactorYX = zx * zy - yx * zz, cofactorZX = yx * zy - zx * yy;
         var inverse = 1 / (xx * cofactorXX + yx * cofactorYX + zx * cofactorZX) / (mass * size * size);
@@ -93,7 +119,7 @@ struct ConvexHullMass
         if (!(error <= GreatestError))
         {
             throw new ArgumentException(
-                "The hull is so much longer than thick that floats cannot hold its inverse inertia in axes at an angle to it. " +
+                "The shape is so much longer than thick that floats cannot hold its inverse inertia in axes at an angle to it. " +
                 "Turn its points so that its length is along an axis, and its bodies the other way.");
         }
         return inertia;

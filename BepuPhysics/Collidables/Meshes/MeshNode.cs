@@ -1,0 +1,209 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Trees;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>Up to eight children of a mesh's tree, with their boxes in bytes.</summary>
+/// <remarks>
+/// On each axis the boxes are rounded outward to a grid whose step is a power of two and whose lines are floats: from
+/// <see cref="Origin"/> on, 256 of them. So rounding to the grid is exact, a box of bytes stands for one of floats, and which boxes a query
+/// meets is decided by integers: the same on every CPU.
+/// <para>Children are nodes or leaves of one to four triangles. The nodes among them have successive numbers, the triangles of the leaves
+/// successive places; both in the order of the children.</para>
+/// </remarks>
+[StructLayout(LayoutKind.Sequential, Pack = 4, Size = ByteCount)]
+unsafe struct MeshNode
+{
+    /// <summary>Size of a node.</summary>
+    public const int ByteCount = 80;
+    /// <summary>Greatest number of children.</summary>
+    public const int Width = 8;
+    /// <summary>Greatest number of triangles of a leaf.</summary>
+    public const int LeafSize = 4;
+
+    const int Lines = 255;
+    // Bits of a float's mantissa, and of its exponent for 1.
+    const int MantissaBits = 23, Bias = 127;
+    const int LineOffset = 24;
+    const ulong EachByte = 0x0101010101010101;
+
+    /// <summary>Least corner of the grid.</summary>
+    public Vector3 Origin;
+    // Exponents of the steps, as floats have them, and in the last byte a bit for each child that is a node.
+    uint exponents;
+    /// <summary>Number of the first child that is a node.</summary>
+    public int FirstNode;
+    /// <summary>Place of the first triangle of a child that is a leaf.</summary>
+    public int FirstPlace;
+    // For each axis least lines of eight children, then 255 less greatest lines: all are at most what a query reaches to.
+    fixed byte lines[3 * 2 * Width];
+    // Numbers of triangles of the children that are leaves, a byte each; zero for nodes, and where there is no child.
+    ulong counts;
+
+    /// <summary>A bit for each child that is a node.</summary>
+    public readonly int NodeMask
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (int)(exponents >> 24);
+    }
+
+    /// <summary>Number of triangles of a child; zero for a node, and where there is no child.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly int TriangleCount(int child) => (int)(counts >> (8 * child)) & 255;
+
+    /// <summary>Number of triangles of all leaves.</summary>
+    public readonly int TotalTriangleCount => (int)(counts * EachByte >> 56);
+
+    /// <summary>Whether every leaf has a number of triangles that a leaf can have, and no node has any.</summary>
+    public readonly bool HasValidCounts
+    {
+        get
+        {
+            for (int child = 0; child < Width; ++child)
+            {
+                if (TriangleCount(child) > ((NodeMask >> child & 1) != 0 ? 0 : LeafSize))
+                    return false;
+            }
+            return true;
+        }
+    }
+
+    /// <summary>Place of the first triangle of a leaf.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // The product's highest byte but the child's own: the sum of the counts before it.
+    public readonly int Place(int child) => FirstPlace + ((int)((counts * EachByte << 8) >> (8 * child)) & 255);
+
+    /// <summary>Number of the node that a child is.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly int Node(int child) => FirstNode + BitOperations.PopCount((uint)(NodeMask & ((1 << child) - 1)));
+
+    /// <summary>Whether the grid is one of floats. Only a damaged node's is not.</summary>
+    public readonly bool HasValidGrid
+    {
+        get
+        {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                var last = Origin[axis] + (double)Lines * Step(axis);
+                if ((exponents >> (8 * axis) & 255) is 0 or > 2 * Bias - 1 || !float.IsFinite(Origin[axis]) || (float)last != last || !float.IsFinite((float)last))
+                    return false;
+            }
+            return true;
+        }
+    }
+
+    /// <summary>Says what the children are; the boxes are to be written.</summary>
+    public void SetChildren(int nodeMask, ulong triangleCounts)
+    {
+        exponents = exponents & 0xFFFFFF | (uint)nodeMask << 24;
+        counts = triangleCounts;
+    }
+
+    readonly float Step(int axis) => BitConverter.UInt32BitsToSingle((exponents >> (8 * axis) & 255) << MantissaBits);
+
+    /// <summary>Box of a child as it is kept.</summary>
+    public readonly void GetBounds(int child, out Vector3 min, out Vector3 max)
+    {
+        min = default;
+        max = default;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            min[axis] = Origin[axis] + lines[2 * Width * axis + child] * Step(axis);
+            max[axis] = Origin[axis] + (Lines - lines[2 * Width * axis + Width + child]) * Step(axis);
+        }
+    }
+
+    /// <summary>Least and greatest coordinates of all children along an axis; exact.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly void GetSides(int axis, out Vector256<float> least, out Vector256<float> greatest)
+    {
+        var origin = Vector256.Create(Origin[axis]);
+        var step = Vector256.Create(Step(axis));
+        var bytes = Vector128.LoadUnsafe(ref Unsafe.AsRef(in lines[2 * Width * axis]));
+        var (low, high) = Vector128.Widen(bytes);
+        least = origin + Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(low), Vector128.WidenUpper(low)).AsInt32()) * step;
+        greatest = origin +
+            (Vector256.Create((float)Lines) - Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(high), Vector128.WidenUpper(high)).AsInt32())) * step;
+    }
+
+    /// <summary>Makes the grid of boxes and writes them; where there is no child the box is to be empty, least above greatest.</summary>
+    public void SetBounds(ReadOnlySpan<Vector3> mins, ReadOnlySpan<Vector3> maxes)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            var low = float.MaxValue;
+            var high = -float.MaxValue;
+            for (int child = 0; child < mins.Length; ++child)
+            {
+                low = mins[child][axis] < low ? mins[child][axis] : low;
+                high = maxes[child][axis] > high ? maxes[child][axis] : high;
+            }
+            var exponent = FindExponent(low, high);
+            exponents = exponents & ~(255u << (8 * axis)) | (uint)exponent << (8 * axis);
+            var inverseStep = Math.ScaleB(1.0, Bias - exponent);
+            var first = Math.Floor(low * inverseStep);
+            Origin[axis] = (float)(first / inverseStep);
+            for (int child = 0; child < Width; ++child)
+            {
+                var exists = child < mins.Length;
+                lines[2 * Width * axis + child] = exists ? (byte)(Math.Floor(mins[child][axis] * inverseStep) - first) : (byte)Lines;
+                lines[2 * Width * axis + Width + child] = exists ? (byte)(Lines - (Math.Ceiling(maxes[child][axis] * inverseStep) - first)) : (byte)Lines;
+            }
+        }
+    }
+
+    // The least step with which the lines reach from one end to the other and are floats: multiples of the step below 2^24 of them are.
+    static int FindExponent(float low, float high)
+    {
+        var largest = Math.Max(Math.Abs((double)low), Math.Abs((double)high));
+        var exponent = Math.Max(1, Math.Max(Exponent(((double)high - low) / Lines), Exponent(largest) - MantissaBits + 1));
+        while (true)
+        {
+            var inverseStep = Math.ScaleB(1.0, Bias - exponent);
+            if (Math.Ceiling(high * inverseStep) - Math.Floor(low * inverseStep) <= Lines)
+                return exponent;
+            ++exponent;
+        }
+    }
+
+    // Of the greatest power of two that is not above a value, as floats have it; zero for less than the least normal float.
+    static int Exponent(double value) => Math.Max(0, (int)(BitConverter.DoubleToInt64Bits(value) >> 52) - 1023 + Bias);
+
+    /// <summary>Which children's boxes a box meets, a bit for each. Boxes that only touch do.</summary>
+    /// <remarks>
+    /// The box is turned into lines of the grid, its least corner rounded up and its greatest down: between two lines there is no side of a
+    /// child. Subtracting the origin may round; what rounds to a line was beyond it or on it, so nothing is lost.
+    /// </remarks>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static int FindOverlaps(MeshNode* node, Vector128<float> min, Vector128<float> max)
+    {
+        var origin = Vector128.Load((float*)node);
+        // The exponent of one over the step. What the fourth lane gets from the mask of nodes is left out at the end.
+        var bits = Vector128.WidenLower(Vector128.WidenLower(Vector128.CreateScalarUnsafe(node->exponents).AsByte()));
+        var inverseStep = Vector128.ShiftLeft(Vector128.Create(2u * Bias) - bits, MantissaBits).AsSingle();
+        var low = Vector128.Ceiling(Clamp((min - origin) * inverseStep));
+        var high = Vector128.Floor(Clamp((max - origin) * inverseStep));
+        var outside = Vector128.GreaterThan(low, Vector128.Create((float)Lines)) | Vector128.LessThan(high, Vector128<float>.Zero);
+        if ((outside.ExtractMostSignificantBits() & 7) != 0)
+            return 0;
+        var least = Vector128.Create(Lines) - Vector128.ConvertToInt32(BoxMath.Max(low, Vector128<float>.Zero));
+        var words = Vector128.Narrow(Vector128.ConvertToInt32(BoxMath.Min(high, Vector128.Create((float)Lines))), least);
+        var reach = Vector128.Narrow(words, words).AsByte();
+        var lines = (byte*)node + LineOffset;
+        // Greatest lines are bytes 0 to 2 of it, least ones 4 to 6. Written out: only what is known to the compiler is one instruction.
+        var met = Vector128.LessThanOrEqual(Vector128.Load(lines), Vector128.Shuffle(reach, Vector128.Create((byte)0, 0, 0, 0, 0, 0, 0, 0, 4, 4, 4, 4, 4, 4, 4, 4))) &
+            Vector128.LessThanOrEqual(Vector128.Load(lines + 2 * Width), Vector128.Shuffle(reach, Vector128.Create((byte)1, 1, 1, 1, 1, 1, 1, 1, 5, 5, 5, 5, 5, 5, 5, 5))) &
+            Vector128.LessThanOrEqual(Vector128.Load(lines + 4 * Width), Vector128.Shuffle(reach, Vector128.Create((byte)2, 2, 2, 2, 2, 2, 2, 2, 6, 6, 6, 6, 6, 6, 6, 6)));
+        var sides = met.ExtractMostSignificantBits();
+        return (int)(sides & sides >> 8 & 255);
+    }
+
+    // Beyond the grid all is alike, and integers have no room for more.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Clamp(Vector128<float> line) =>
+        BoxMath.Min(BoxMath.Max(line, Vector128.Create(-1f)), Vector128.Create(Lines + 1f));
+}

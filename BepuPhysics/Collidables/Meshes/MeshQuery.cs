@@ -1,0 +1,85 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>Finds the triangles of a mesh whose boxes meet a box.</summary>
+static unsafe class MeshQuery
+{
+    /// <summary>Children of a node that are still to be looked at.</summary>
+    struct Entry
+    {
+        public int Node;
+        public int Mask;
+    }
+
+    /// <summary>Appends the triangles, in the order of the tree.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="min">Least corner of the box, before scaling.</param>
+    /// <param name="max">Greatest corner of the box, before scaling.</param>
+    /// <param name="found">Receives the numbers of the triangles.</param>
+    /// <param name="pool">Source of the list's memory.</param>
+    public static void FindTriangles(MeshHeader* mesh, Vector3 min, Vector3 max, ref QuickList<int> found, BufferPool pool)
+    {
+        var stack = stackalloc Entry[MeshTree.MaximumHeight];
+        var low = min.AsVector128();
+        var high = max.AsVector128();
+        var nodes = mesh->Nodes;
+        var stackCount = 0;
+        var nodeIndex = 0;
+        while (true)
+        {
+            var node = nodes + nodeIndex;
+            var mask = MeshNode.FindOverlaps(node, low, high);
+            for (var leaves = mask & ~node->NodeMask; leaves != 0; leaves &= leaves - 1)
+            {
+                var leaf = BitOperations.TrailingZeroCount(leaves);
+                var count = node->TriangleCount(leaf);
+                found.EnsureCapacity(found.Count + MeshNode.LeafSize, pool);
+                FindInLeaf(mesh, node->Place(leaf), count, low, high, ref found);
+            }
+            mask &= node->NodeMask;
+            if (mask != 0)
+            {
+                Check.That(stackCount < MeshTree.MaximumHeight);
+                stack[stackCount++] = new() { Node = nodeIndex, Mask = mask };
+            }
+            if (stackCount == 0)
+                return;
+            ref var top = ref stack[stackCount - 1];
+            nodeIndex = nodes[top.Node].Node(BitOperations.TrailingZeroCount(top.Mask));
+            top.Mask &= top.Mask - 1;
+            if (top.Mask == 0)
+                --stackCount;
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void FindInLeaf(MeshHeader* mesh, int place, int count, Vector128<float> low, Vector128<float> high, ref QuickList<int> found)
+    {
+        var order = mesh->Order + place;
+        var indices = mesh->Indices;
+        var vertices = (float*)mesh->Vertices;
+        var target = found.Span.Memory + found.Count;
+        for (int i = 0; i < count; ++i)
+        {
+            var triangle = order[i];
+            var corners = indices + 3 * triangle;
+            var a = Vector128.Load(vertices + 3 * corners[0]);
+            var b = Vector128.Load(vertices + 3 * corners[1]);
+            var c = Vector128.Load(vertices + 3 * corners[2]);
+            // Apart on an axis where all three corners are on one side.
+            var separate = (Vector128.GreaterThan(a, high) & Vector128.GreaterThan(b, high) & Vector128.GreaterThan(c, high)) |
+                (Vector128.LessThan(a, low) & Vector128.LessThan(b, low) & Vector128.LessThan(c, low));
+            // Written in any case and counted if it is one: whether it is is a coin toss to the branch predictor.
+            *target = triangle;
+            target += (separate.ExtractMostSignificantBits() & 7) == 0 ? 1 : 0;
+        }
+        found.Count = (int)(target - found.Span.Memory);
+    }
+}
