@@ -135,7 +135,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             RemoveConstraints(index);
             Pairs.Empty(ref cached, ofChildren, Pool);
         }
-        ref var manifold = ref ofChildren ? ref Pairs.FindOrAdd(ref cached, pending.Children, Pool) : ref cached.Single;
+        ref var manifold = ref cached.Single;
+        if (ofChildren)
+        {
+            ref var record = ref Pairs.FindOrAdd(ref cached, pending.Children, Pool);
+            manifold = ref record.Manifold;
+            if (pending.Children.IsPatch)
+                record.Patch.Write(pending.Manifold);
+        }
         if (pending.KeepsHistory && manifold.History < 0)
             manifold.History = Pairs.Histories.Take(Pool);
         if (manifold.HasConstraint)

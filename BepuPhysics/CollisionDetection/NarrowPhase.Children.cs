@@ -5,8 +5,8 @@ using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
-// Pairs of which one shape at least is made of children. Each two children have a manifold of their own; the pair's list of these and what a
-// step finds are both in the order of children, so that the two are gone through side by side.
+// Pairs of which one shape at least is made of children. What these touch at is joined to patches, which have a constraint each; children have
+// histories. The pair's list of both and what a step finds are in one order, so that the two are gone through side by side.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
     // A manifold whose children do not touch any more, and have no history.
@@ -74,6 +74,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return false;
     }
 
+    /// <summary>Finds the patches that a pair had in the last step.</summary>
+    void RecallPatches(int workerIndex, int pairId, out KnownPatches known)
+    {
+        known = default;
+        for (int i = FirstManifold(workers[workerIndex].TestedPairs[pairId]); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
+        {
+            ref var manifold = ref Pairs.Manifolds.Memory[i];
+            if (!manifold.Children.IsPatch)
+                return;
+            known.Add(manifold.Children.B, manifold.Patch);
+        }
+    }
+
     bool AllowsChildren(int workerIndex, int pairId, int childA, int childB) =>
         Callbacks.AllowContactGeneration(workerIndex, workers[workerIndex].TestedPairs[pairId].Pair, childA, childB);
 
@@ -108,7 +121,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
                 if (TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
+                {
+                    if (result.Children.IsPatch)
+                        record->Patch.Write(result.Manifold);
                     continue;
+                }
             }
             Note(ref worker.Pending, new(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material }, worker.Pool);
         }
@@ -179,7 +196,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var gone = ref workers[order[i].Worker].Gone[order[i].Index];
             var index = Pairs.Pairs.IndexOf(gone.Pair);
             ref var cached = ref Pairs.Pairs.Values[index];
-            ref var manifold = ref Pairs.FindOrAdd(ref cached, gone.Children, Pool);
+            ref var manifold = ref Pairs.FindOrAdd(ref cached, gone.Children, Pool).Manifold;
             if (manifold.HasConstraint)
                 RemoveConstraint(ref cached, ref manifold);
             Pairs.Remove(index, gone.Children, Pool);

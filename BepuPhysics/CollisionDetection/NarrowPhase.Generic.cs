@@ -65,6 +65,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             return self.NarrowPhase.Recall(self.WorkerIndex, ids, children, speculativeMargin, out history, ref manifold);
         }
 
+        static void ICollisionCallbacks.RecallPatches<T>(ref T callbacks, int pairId, out KnownPatches known)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            self.NarrowPhase.RecallPatches(self.WorkerIndex, pairId, out known);
+        }
+
         static void ICollisionCallbacks.OnChildrenCompleted<T>(ref T callbacks, int pairId, Vector3 offsetB, Span<ChildResult> results)
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);

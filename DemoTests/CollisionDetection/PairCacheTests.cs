@@ -21,7 +21,7 @@ public class PairCacheTests
     public void Records_have_the_sizes_that_the_decision_says()
     {
         Assert.Equal(32, Unsafe.SizeOf<CachedPair>());
-        Assert.Equal(40, Unsafe.SizeOf<ChildManifold>());
+        Assert.Equal(60, Unsafe.SizeOf<ChildManifold>());
         Assert.Equal(256, Unsafe.SizeOf<PairHistory>());
     }
 
@@ -42,7 +42,7 @@ public class PairCacheTests
             {
                 case < 10:
                     index = cache.FindOrAdd(Pair(name, name + 1), ofChildren: true, pool);
-                    ref var manifold = ref cache.FindOrAdd(ref cache.Pairs.Values[index], children, pool);
+                    ref var manifold = ref cache.FindOrAdd(ref cache.Pairs.Values[index], children, pool).Manifold;
                     if (!expected.ContainsKey(name))
                         expected.Add(name, []);
                     if (expected[name].TryAdd((children.A, children.B), step))
@@ -97,7 +97,7 @@ public class PairCacheTests
         cache.Empty(ref cache.Pairs.Values[index], ofChildren: true, pool);
         Assert.True(cache.Pairs.Values[index].IsOfChildren);
         Assert.Equal(0, cache.Histories.Count);
-        cache.FindOrAdd(ref cache.Pairs.Values[index], new ChildIds(0, 3), pool).History = cache.Histories.Take(pool);
+        cache.FindOrAdd(ref cache.Pairs.Values[index], new ChildIds(0, 3), pool).Manifold.History = cache.Histories.Take(pool);
         cache.Empty(ref cache.Pairs.Values[index], ofChildren: false, pool);
         Assert.Equal((0, 0, false), (cache.Histories.Count, cache.Manifolds.Count, cache.Pairs.Values[index].IsOfChildren));
         cache.Dispose(pool);

@@ -16,6 +16,24 @@ struct ChildResult
     public Vector3 OffsetA;
     /// <summary>The contacts: as the test found them until they are complete, then in the frame of A.</summary>
     public ConvexContactManifold Manifold;
+
+    /// <summary>Brings contacts of the two children, as a test has found them, to the frame of A.</summary>
+    public void MoveToParent(Vector3 offsetB)
+    {
+        // Adding nothing would change the sign of zero.
+        for (int i = 0; i < Manifold.Count && OffsetA != default; ++i)
+            ConvexContactManifold.GetConvexContactReference(ref Manifold, i).Offset += OffsetA;
+        Manifold.OffsetB = offsetB;
+    }
+
+    /// <summary>Takes the contacts along another normal.</summary>
+    public void Replace(in DirectedPair pair)
+    {
+        var offsetB = Manifold.OffsetB;
+        Manifold = pair.Manifold;
+        Manifold.Normal = pair.Normal;
+        MoveToParent(offsetB);
+    }
 }
 
 /// <summary>The pairs of children of one batcher that wait to be tested, and the slots that their results are written to.</summary>
@@ -31,6 +49,8 @@ unsafe struct ChildPairs(BufferPool pool)
     public QuickList<FoundChild> Found = new(InitialCapacity, pool);
     /// <summary>Ids of the children that the last batch has tested.</summary>
     public QuickList<int> Tested = new(PairBatch.Capacity, pool);
+    /// <summary>What parents are joined with.</summary>
+    public SeamMemory Seams = new(pool);
     WaitingList<WaitingChild> waiting = new(InitialCapacity, pool);
     WaitingList<OpenParent> parents = new(InitialCapacity, pool);
 
@@ -41,8 +61,13 @@ unsafe struct ChildPairs(BufferPool pool)
 
     struct OpenParent
     {
+        // Room for patches, then the children.
         public Buffer<ChildResult> Slots;
+        // Where the children are; only of parents that are joined.
+        public Buffer<PlacedChildren> Placed;
         public Vector3 OffsetB;
+        public float SpeculativeMargin;
+        public bool MoverIsB;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -69,18 +94,30 @@ unsafe struct ChildPairs(BufferPool pool)
     }
 
     /// <summary>Opens a parent with room for a number of children. It stays open until <see cref="Release"/> has said that it is complete.</summary>
-    public int Open(in ParentPair pair, int capacity, BufferPool pool)
+    public int Open(in ParentPair pair, int capacity, bool joins, BufferPool pool)
     {
-        var parent = new OpenParent { OffsetB = pair.OffsetB, PairId = pair.PairId, WaitCount = 1 };
-        pool.TakeAtLeast(Math.Max(1, capacity), out parent.Slots);
+        var parent = new OpenParent
+        {
+            OffsetB = pair.OffsetB,
+            SpeculativeMargin = pair.SpeculativeMargin,
+            // The shape of the lower type: a convex one before a container. Of two of one type it is the caller's A, the body where B is a static.
+            MoverIsB = pair.Flipped,
+            PairId = pair.PairId,
+            WaitCount = 1,
+        };
+        pool.TakeAtLeast(PatchSet.Capacity + capacity, out parent.Slots);
+        if (joins)
+            pool.TakeAtLeast(Math.Max(1, capacity), out parent.Placed);
         return parents.Add(parent, pool);
     }
 
     /// <summary>Gives a child the next slot of its parent.</summary>
-    public readonly WaitingChild TakeSlot(int parent, in ChildResult child)
+    public readonly WaitingChild TakeSlot(int parent, in ChildResult child, in ChildShapes shapes)
     {
         ref var target = ref parents[parent];
-        target.Slots[target.SlotCount] = child;
+        target.Slots[PatchSet.Capacity + target.SlotCount] = child;
+        if (target.Placed.Allocated)
+            target.Placed[target.SlotCount].Write(shapes, target.MoverIsB);
         ++target.WaitCount;
         return new(parent, target.SlotCount++);
     }
@@ -96,10 +133,32 @@ unsafe struct ChildPairs(BufferPool pool)
     public readonly ref ChildResult Slot(int id) => ref Slot(waiting[id]);
 
     /// <summary>The slot of a child.</summary>
-    public readonly ref ChildResult Slot(WaitingChild child) => ref parents[child.Parent].Slots[child.Slot];
+    public readonly ref ChildResult Slot(WaitingChild child) => ref parents[child.Parent].Slots[PatchSet.Capacity + child.Slot];
 
-    /// <summary>The results of a parent, in the order of children.</summary>
-    public readonly Span<ChildResult> Results(int parent) => new(parents[parent].Slots.Memory, parents[parent].SlotCount);
+    /// <summary>The results of a parent: its patches, if children are joined, then the children in their order.</summary>
+    public readonly Span<ChildResult> Results(int parent, int patchCount) =>
+        new(parents[parent].Slots.Memory + PatchSet.Capacity - patchCount, patchCount + parents[parent].SlotCount);
+
+    /// <summary>Whether children of a parent become patches.</summary>
+    public readonly bool Joins(int parent) => parents[parent].Placed.Allocated;
+
+    /// <summary>Makes patches of what was found for the children of a parent, which is complete.</summary>
+    /// <param name="parent">The parent.</param>
+    /// <param name="known">Patches of the last step.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <returns>Number of patches.</returns>
+    public int Join(int parent, in KnownPatches known, BufferPool pool)
+    {
+        ref var open = ref parents[parent];
+        var results = Results(parent, 0);
+        var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
+        if (!Seams.Rank(results, pool))
+            return 0;
+        TriangleNeighbours.Apply(ref Seams, results, placed, open.SpeculativeMargin, pool);
+        Seams.Sort(results);
+        ChildAgreement.Run(ref Seams, results, placed, open.SpeculativeMargin, pool);
+        return PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+    }
 
     /// <summary>Id that a parent was added with.</summary>
     public readonly int PairId(int parent) => parents[parent].PairId;
@@ -114,8 +173,15 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>Closes a parent.</summary>
     public void Close(int parent, BufferPool pool)
     {
-        pool.Return(ref parents[parent].Slots);
+        Return(ref parents[parent], pool);
         parents.Take(parent, pool);
+    }
+
+    static void Return(ref OpenParent parent, BufferPool pool)
+    {
+        pool.Return(ref parent.Slots);
+        if (parent.Placed.Allocated)
+            pool.Return(ref parent.Placed);
     }
 
     public void Dispose(BufferPool pool)
@@ -124,12 +190,13 @@ unsafe struct ChildPairs(BufferPool pool)
         for (int i = 0; i < parents.Span; ++i)
         {
             if (parents[i].Slots.Allocated)
-                pool.Return(ref parents[i].Slots);
+                Return(ref parents[i], pool);
         }
         parents.Dispose(pool);
         waiting.Dispose(pool);
         Tested.Dispose(pool);
         Found.Dispose(pool);
+        Seams.Dispose(pool);
         Batches.Dispose(pool);
     }
 }

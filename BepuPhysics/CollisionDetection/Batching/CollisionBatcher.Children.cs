@@ -46,7 +46,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     void Expand(ExpandingTask task, in PairBatch batch, int index, int start, int end)
     {
         ref var pair = ref task.Parent(batch, index);
-        var parent = Children->Open(pair, end - start, Pool);
+        var parent = Children->Open(pair, end - start, task.JoinsChildren, Pool);
         TCallbacks.BeginChildren(ref Callbacks, pair.PairId);
         for (int i = start; i < end; ++i)
         {
@@ -68,7 +68,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         result.Children = ids;
         result.KeepsHistory = task.KeepsHistories;
         result.OffsetA = children.OffsetA;
-        var slot = Children->TakeSlot(parent, result);
+        var slot = Children->TakeSlot(parent, result, children);
         var history = PairInput.NoHistory;
         if (task.KeepsHistories &&
             TCallbacks.Recall(ref Callbacks, pair.PairId, ids, children, pair.SpeculativeMargin, out history, ref Children->Slot(slot).Manifold))
@@ -122,12 +122,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     void CompleteChild(ChildPairs.WaitingChild child)
     {
         ref var result = ref Children->Slot(child);
-        ref var manifold = ref result.Manifold;
-        // Adding nothing would change the sign of zero.
-        for (int i = 0; i < manifold.Count && result.OffsetA != default; ++i)
-            ConvexContactManifold.GetConvexContactReference(ref manifold, i).Offset += result.OffsetA;
-        manifold.OffsetB = Children->OffsetB(child.Parent);
-        Callbacks.OnChildPairCompleted(Children->PairId(child.Parent), result.Children.A, result.Children.B, ref manifold);
+        result.MoveToParent(Children->OffsetB(child.Parent));
+        Callbacks.OnChildPairCompleted(Children->PairId(child.Parent), result.Children.A, result.Children.B, ref result.Manifold);
         Release(child.Parent);
     }
 
@@ -135,7 +131,14 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         if (!Children->Release(parent))
             return;
-        TCallbacks.OnChildrenCompleted(ref Callbacks, Children->PairId(parent), Children->OffsetB(parent), Children->Results(parent));
+        var pairId = Children->PairId(parent);
+        var patchCount = 0;
+        if (Children->Joins(parent))
+        {
+            TCallbacks.RecallPatches(ref Callbacks, pairId, out var known);
+            patchCount = Children->Join(parent, known, Pool);
+        }
+        TCallbacks.OnChildrenCompleted(ref Callbacks, pairId, Children->OffsetB(parent), Children->Results(parent, patchCount));
         Children->Close(parent, Pool);
     }
 

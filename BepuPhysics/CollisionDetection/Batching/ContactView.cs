@@ -89,8 +89,8 @@ unsafe ref struct ContactView
 
     readonly float Depth(in Origin origin) => results[origin.Result].Manifold.GetDepth(origin.Contact);
 
-    // Features of different children have different ids, as far as 32 bits can tell.
-    static int Mix(int featureId, ChildIds children) => featureId ^ CollidablePairComparer.Hash((uint)children.A, (uint)children.B);
+    // Those of patches are mixed already.
+    static int Mix(int featureId, ChildIds children) => children.IsPatch ? featureId : children.Mix(featureId);
 
     /// <summary>
     /// Takes over what was changed in a nonconvex view: places, depths, normals, and what was removed. Contacts are known by their feature

@@ -45,6 +45,8 @@ unsafe struct ChildShapes
     /// <summary>Their centres less that of the parent's A, world axes. Zero for an A without children.</summary>
     public Vector3 OffsetA, OffsetB;
     public Quaternion OrientationA, OrientationB;
+    /// <summary>What is next to a triangle of a surface; nothing for all else.</summary>
+    public TriangleCone ConeA, ConeB;
 }
 
 /// <summary>Expands pairs of which one shape at least is made of children into pairs of children, which are convex.</summary>
@@ -56,6 +58,9 @@ abstract unsafe class ExpandingTask : CollisionTask
 {
     private protected ExpandingTask(int shapeTypeIndexA, int shapeTypeIndexB, string description)
         : base(shapeTypeIndexA, shapeTypeIndexB, description, keepsHistories: false, expands: true) { }
+
+    /// <summary>Whether children agree on their normals, and their contacts become patches; each has a manifold of its own otherwise.</summary>
+    internal virtual bool JoinsChildren => true;
 
     /// <summary>A pair of a batch, to be changed.</summary>
     internal abstract ref ParentPair Parent(in PairBatch batch, int index);

@@ -51,11 +51,15 @@ public interface ICollisionCallbacks
         return false;
     }
 
+    /// <summary>Says what patches the pair had in the last step.</summary>
+    internal static virtual void RecallPatches<TCallbacks>(ref TCallbacks callbacks, int pairId, out KnownPatches known)
+        where TCallbacks : struct, ICollisionCallbacks => known = default;
+
     /// <summary>All children of a pair are complete.</summary>
     /// <param name="callbacks">The callbacks.</param>
     /// <param name="pairId">Id that the pair was added with.</param>
     /// <param name="offsetB">Position of B less that of A.</param>
-    /// <param name="results">What was found for each, in the order of children.</param>
+    /// <param name="results">The patches that were made of the contacts, then the children in their order; or these alone, with their contacts.</param>
     internal static virtual void OnChildrenCompleted<TCallbacks>(ref TCallbacks callbacks, int pairId, Vector3 offsetB, Span<ChildResult> results)
         where TCallbacks : struct, ICollisionCallbacks
     {

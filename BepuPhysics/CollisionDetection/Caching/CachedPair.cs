@@ -2,14 +2,25 @@ using System.Runtime.CompilerServices;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Which child of A touches which child of B; zero for a shape that has none.</summary>
+/// <summary>Which child of A touches which child of B, zero for a shape that has none; or a patch of several.</summary>
 readonly record struct ChildIds(int A, int B)
 {
+    const int PatchMark = -2;
+
     /// <summary>Those of two convex shapes, which have no children.</summary>
     public static ChildIds None => new(-1, -1);
 
-    /// <summary>Number by which the manifolds of a pair are in order.</summary>
-    public ulong Order => (ulong)(uint)A << 32 | (uint)B;
+    /// <summary>A patch of a pair, by a number that it keeps.</summary>
+    public static ChildIds Patch(int number) => new(PatchMark, number);
+
+    /// <summary>Whether this is a patch; <see cref="B"/> is its number.</summary>
+    public bool IsPatch => A == PatchMark;
+
+    /// <summary>Number by which the manifolds of a pair are in order: patches, then children.</summary>
+    public ulong Order => (ulong)((uint)A ^ 1u << 31) << 32 | (uint)B;
+
+    /// <summary>A feature of these children, which those of others do not have as far as 32 bits can tell.</summary>
+    public int Mix(int featureId) => featureId ^ CollidablePairComparer.Hash((uint)A, (uint)B);
 }
 
 /// <summary>Feature ids of up to four contacts.</summary>
@@ -41,13 +52,15 @@ struct CachedManifold
     public readonly bool HasConstraint => ConstraintTypeId >= 0;
 }
 
-/// <summary>One manifold of a pair of shapes of which one at least is made of children.</summary>
+/// <summary>One manifold of a pair of shapes of which one at least is made of children: a patch, or two children with their history.</summary>
 struct ChildManifold
 {
     public CachedManifold Manifold;
     public ChildIds Children;
-    /// <summary>Index of the pair's next manifold, in the order of children; <see cref="PairRecords{T}.None"/> after the last.</summary>
+    /// <summary>Index of the pair's next manifold, in their order; <see cref="PairRecords{T}.None"/> after the last.</summary>
     public int Next;
+    /// <summary>What a patch is found by in the next step.</summary>
+    public PatchMemory Patch;
 }
 
 /// <summary>What is remembered of a pair that has contacts, or a history: one manifold, or a list of them.</summary>

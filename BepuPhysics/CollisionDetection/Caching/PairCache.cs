@@ -83,17 +83,17 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         return index;
     }
 
-    /// <summary>Finds the manifold of two children, or adds it without contacts.</summary>
-    public ref CachedManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool)
+    /// <summary>Finds the manifold of two children or a patch, or adds it without contacts.</summary>
+    public ref ChildManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool)
     {
         var previous = FindPrevious(ref pair, children);
         var next = Link(ref pair, previous);
         if (next != PairRecords<ChildManifold>.None && Manifolds.Memory[next].Children == children)
-            return ref Manifolds.Memory[next].Manifold;
+            return ref Manifolds.Memory[next];
         var added = Manifolds.Take(pool);
         Manifolds.Memory[added] = new() { Manifold = CachedManifold.Empty, Children = children, Next = next };
         Link(ref pair, previous) = added;
-        return ref Manifolds.Memory[added].Manifold;
+        return ref Manifolds.Memory[added];
     }
 
     // The last manifold before that of two children.

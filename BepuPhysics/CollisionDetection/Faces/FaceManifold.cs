@@ -9,7 +9,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <typeparam name="TFeatureA">Features of A.</typeparam>
 /// <typeparam name="TShapeWideB">Wide form of B's shape.</typeparam>
 /// <typeparam name="TFeatureB">Features of B.</typeparam>
-public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>
+public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>
     where TShapeWideA : unmanaged where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
     where TShapeWideB : unmanaged where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
@@ -69,48 +69,15 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         var memory = stackalloc byte[AlignedScratch.SizeFor<Scratch>() + Scratch.ArraysByteCount];
         ref var scratch = ref AlignedScratch.Align<Scratch>(memory);
         ref var overlap = ref scratch.Overlap;
-        var points = scratch.Points;
-        overlap.Candidates = scratch.Candidates;
         overlap.PairDepth = depth;
         overlap.MinimumDepth = -speculativeMargin;
-        ref var frameA = ref scratch.FrameA;
-        Vector3Wide.BuildOrthonormalBasis(normal, out frameA.X, out frameA.Y);
-        frameA.Outwards = -normal;
-        frameA.Origin = pointOnA;
-        TFeatureA.Find(a, frameA.Outwards, ~exists, ref *points, out overlap.A.Feature);
-        overlap.A.List.First = scratch.VerticesA;
-        overlap.A.List.Count = CountVertices<TFeatureA, TShapeWideA>(overlap.A.Feature.VertexCount, exists);
-        Project<TFeatureA, TShapeWideA>(a, points, frameA, -1, ref overlap.A);
-
+        scratch.FrameA.Origin = pointOnA;
+        scratch.Project(a, b, localOffsetB, localOrientationB, normal, normalB, exists);
         if (TFeatureB.IsPlane)
-        {
             overlap.TakeAllOfA(exists);
-        }
         else
-        {
-            ref var frameB = ref scratch.FrameB;
-            frameB.X = localOrientationB * frameA.X;
-            frameB.Y = localOrientationB * frameA.Y;
-            frameB.Outwards = normalB;
-            frameB.Origin = localOrientationB * (pointOnA - localOffsetB);
-            TFeatureB.Find(b, frameB.Outwards, ~exists, ref *points, out overlap.B.Feature);
-            overlap.B.List.First = scratch.VerticesB;
-            overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(overlap.B.Feature.VertexCount, exists);
-            Project<TFeatureB, TShapeWideB>(b, points, frameB, 1, ref overlap.B);
-
             overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
-        }
-        FaceReduction.Reduce(overlap, frameA, orientationA, exists, ref remembered, ref manifold);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Project<TFeature, TShapeWide>(in TShapeWide shape, Vector3Wide* points, in FaceFrame frame, float winding, ref FacePolygon polygon)
-        where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
-    {
-        if (TFeature.IsDisc)
-            polygon.ProjectDisc(points, TFeature.DiscRadius(shape), frame);
-        else
-            polygon.Project(points, frame, winding);
+        FaceReduction.Reduce(overlap, scratch.FrameA, orientationA, exists, ref remembered, ref manifold);
     }
 
     /// <summary>What a bundle is worked on in; arrays follow it, the ones that are always used first.</summary>
@@ -151,6 +118,42 @@ public static unsafe class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFe
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
             get => (FaceCandidate*)(Points + GreatestCount);
+        }
+
+        /// <summary>Finds the features that face each other along the normal, seen from the origin of A's frame.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Project(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localOrientationB,
+            in Vector3Wide normal, in Vector3Wide normalB, Vector<int> exists)
+        {
+            var points = Points;
+            Overlap.Candidates = Candidates;
+            Vector3Wide.BuildOrthonormalBasis(normal, out FrameA.X, out FrameA.Y);
+            FrameA.Outwards = -normal;
+            TFeatureA.Find(a, FrameA.Outwards, ~exists, ref *points, out Overlap.A.Feature);
+            Overlap.A.List.First = VerticesA;
+            Overlap.A.List.Count = CountVertices<TFeatureA, TShapeWideA>(Overlap.A.Feature.VertexCount, exists);
+            Project<TFeatureA, TShapeWideA>(a, points, FrameA, -1, ref Overlap.A);
+            if (TFeatureB.IsPlane)
+                return;
+
+            FrameB.X = localOrientationB * FrameA.X;
+            FrameB.Y = localOrientationB * FrameA.Y;
+            FrameB.Outwards = normalB;
+            FrameB.Origin = localOrientationB * (FrameA.Origin - localOffsetB);
+            TFeatureB.Find(b, FrameB.Outwards, ~exists, ref *points, out Overlap.B.Feature);
+            Overlap.B.List.First = VerticesB;
+            Overlap.B.List.Count = CountVertices<TFeatureB, TShapeWideB>(Overlap.B.Feature.VertexCount, exists);
+            Project<TFeatureB, TShapeWideB>(b, points, FrameB, 1, ref Overlap.B);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        static void Project<TFeature, TShapeWide>(in TShapeWide shape, Vector3Wide* points, in FaceFrame frame, float winding, ref FacePolygon polygon)
+            where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
+        {
+            if (TFeature.IsDisc)
+                polygon.ProjectDisc(points, TFeature.DiscRadius(shape), frame);
+            else
+                polygon.Project(points, frame, winding);
         }
     }
 

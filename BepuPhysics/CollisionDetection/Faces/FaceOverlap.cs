@@ -15,8 +15,8 @@ unsafe struct FaceOverlap
 {
     // Part of the sum of the smaller feature's two extents, and of the size of the larger shape, by which a point outside of a feature still
     // counts as inside. The second is a few roundings of a coordinate.
-    const float BorderTolerance = 5e-6f;
-    const float BorderRounding = 2e-7f;
+    public const float BorderTolerance = 5e-6f;
+    public const float BorderRounding = 2e-7f;
     /// <summary>
     /// A contact may be where the other of two round segments is this part of the smaller radius to the side, or of the mean of radius and size where
     /// a capsule is the smaller: the surface is farther there by the square of it.

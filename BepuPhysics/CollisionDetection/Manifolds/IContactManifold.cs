@@ -9,7 +9,7 @@ public interface IContactManifold<TManifold> where TManifold : struct, IContactM
     /// <summary>A contact with its normal. Setting one of a convex manifold sets the normal of all.</summary>
     Contact this[int index] { get; set; }
 
-    /// <summary>Number of contacts, 0 to 4.</summary>
+    /// <summary>Number of contacts: 0 to 4 with one normal, 0 to 8 otherwise.</summary>
     int Count { get; }
 
     /// <summary>Whether all contacts share one normal.</summary>

@@ -5,7 +5,7 @@ using BepuUtilities.Diagnostics;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>The contacts of a pair of which one at least is not convex, up to four, each with its own normal.</summary>
+/// <summary>The contacts of a pair of which one at least is not convex, up to eight, each with its own normal.</summary>
 public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContactManifold>
 {
     /// <summary>Position of B less that of A, m.</summary>
@@ -20,9 +20,17 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     public Contact Contact2;
     /// <summary>Fourth contact.</summary>
     public Contact Contact3;
+    /// <summary>Fifth contact.</summary>
+    public Contact Contact4;
+    /// <summary>Sixth contact.</summary>
+    public Contact Contact5;
+    /// <summary>Seventh contact.</summary>
+    public Contact Contact6;
+    /// <summary>Eighth contact.</summary>
+    public Contact Contact7;
 
     /// <summary>Contacts that fit.</summary>
-    public const int MaximumContactCount = 4;
+    public const int MaximumContactCount = 8;
 
     readonly int IContactManifold<NonconvexContactManifold>.Count => Count;
 

@@ -126,6 +126,10 @@ sealed class ClusterRules
     public ClusterOrder Order;
     /// <summary>Children that are found; all where nothing is said.</summary>
     public Func<int, bool> Finds = _ => true;
+    /// <summary>Whether the contacts of children become patches.</summary>
+    public bool Joins = true;
+    /// <summary>What is next to a child of a static that is a triangle.</summary>
+    public Func<int, TriangleCone>? Cones;
 
     public int At(int index, int count) => Order switch
     {
@@ -139,6 +143,8 @@ sealed class ClusterRules
 /// <summary>Expands a convex shape and a cluster into pairs of the shape and each child.</summary>
 sealed unsafe class ClusterTask<TShape>(ClusterRules rules) : ExpandingTask<TShape, Cluster> where TShape : unmanaged, IConvexShape
 {
+    internal override bool JoinsChildren => rules.Joins;
+
     internal override void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool)
     {
         for (int i = 0; i < batch.Count; ++i)
@@ -169,6 +175,7 @@ sealed unsafe class ClusterTask<TShape>(ClusterRules rules) : ExpandingTask<TSha
             ClusterPose.SetB(ref children, entry.B, found.Children.B, shapes);
             (children.TypeA, children.NameA) = (TShape.TypeId, pair.NameA);
             children.ShapeA = Unsafe.AsPointer(ref entry.A);
+            children.ConeB = rules.Cones?.Invoke(found.Children.B) ?? default;
         }
     }
 }
@@ -176,6 +183,8 @@ sealed unsafe class ClusterTask<TShape>(ClusterRules rules) : ExpandingTask<TSha
 /// <summary>Expands two clusters into all pairs of their children.</summary>
 sealed class ClusterPairTask(ClusterRules rules) : ExpandingTask<Cluster, Cluster>
 {
+    internal override bool JoinsChildren => rules.Joins;
+
     internal override unsafe void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool)
     {
         for (int i = 0; i < batch.Count; ++i)

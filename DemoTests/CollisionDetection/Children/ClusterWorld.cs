@@ -15,6 +15,7 @@ namespace DemoTests.CollisionDetection.Children;
 sealed class ClusterBehaviour
 {
     public float Restitution;
+    public float Friction = .5f;
     /// <summary>Whether a child, or the static in its place, is let through to its test.</summary>
     public Func<int, bool> Allows = _ => true;
     /// <summary>Whether the contacts of a child are kept.</summary>
@@ -41,7 +42,7 @@ readonly struct ClusterCallbacks(ClusterBehaviour behaviour, bool isCluster) : I
     public bool ConfigureContactManifold<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        pairMaterial = new(.5f, 2, SpringSettings.Rigid);
+        pairMaterial = new(behaviour.Friction, 2, SpringSettings.Rigid);
         if (behaviour.Configure is { } configure && manifold.Count > 0 && configure(manifold) is TManifold changed)
             manifold = changed;
         return isCluster || pair.B.Mobility != CollidableMobility.Static || behaviour.Keeps(pair.B.StaticHandle.Slot);
@@ -57,6 +58,7 @@ sealed class ClusterWorld : IDisposable
     readonly ThreadDispatcher? dispatcher;
     readonly BufferPool pool = new();
     readonly List<Buffer<ClusterChild>> owned = [];
+    readonly List<ConvexHull> hulls = [];
     readonly bool isCluster;
 
     public ClusterWorld(bool isCluster, int threads = 1)
@@ -96,6 +98,9 @@ sealed class ClusterWorld : IDisposable
         owned.Add(buffer);
         return Simulation.Shapes.Add(new Cluster { Children = buffer });
     }
+
+    /// <summary>Returns the memory of a hull at the end.</summary>
+    public void Own(ConvexHull hull) => hulls.Add(hull);
 
     /// <summary>A static for each child, or one cluster of all.</summary>
     public void AddStatics(IReadOnlyList<ClusterChild> children)
@@ -185,6 +190,11 @@ sealed class ClusterWorld : IDisposable
         {
             var returned = buffer;
             pool.Return(ref returned);
+        }
+        foreach (var hull in hulls)
+        {
+            var returned = hull;
+            returned.Dispose(pool);
         }
         pool.AssertEmpty();
         dispatcher?.WorkerPools.AssertEmpty();

@@ -83,6 +83,7 @@ public sealed class ExpandingBatcherTests : IDisposable
         var orientation = Quaternion.Normalize(new(.1f, -.4f, .2f, 1));
         var (a, b) = clusterIsA ? (cluster, sphere) : (sphere, cluster);
         var log = new Log();
+        rules.Joins = false;
         for (int order = 0; order < 3; ++order)
         {
             rules.Order = (ClusterOrder)order;

@@ -1,0 +1,156 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Looks at pairs of two convex shape types along directions that are given.</summary>
+unsafe interface IDirectedTask
+{
+    /// <summary>Looks at all pairs of a batch, and empties it.</summary>
+    /// <param name="batch">The pairs; their ids are places in the list.</param>
+    /// <param name="pairs">Directions, and where the results go.</param>
+    void Execute(ref PairBatch batch, DirectedPair* pairs);
+
+    /// <summary>Radius of a ball that lies in a shape of the first type, m; zero for one that is flat.</summary>
+    float InnerRadiusA(void* shape);
+
+    /// <summary>Radius of a ball that lies in a shape of the second type, m; zero for one that is flat.</summary>
+    float InnerRadiusB(void* shape);
+}
+
+/// <summary>Finds depth and contacts of pairs along directions, from nothing but farthest points and features.</summary>
+/// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
+/// <typeparam name="TShapeWideA">Wide form of the first shape.</typeparam>
+/// <typeparam name="TSupportA">Farthest points of A.</typeparam>
+/// <typeparam name="TFeatureA">Features of A.</typeparam>
+/// <typeparam name="TShapeB">Second shape.</typeparam>
+/// <typeparam name="TShapeWideB">Wide form of the second shape.</typeparam>
+/// <typeparam name="TSupportB">Farthest points of B.</typeparam>
+/// <typeparam name="TFeatureB">Features of B.</typeparam>
+// A task like those that test pairs: it shares how pairs are written to lanes and contacts read from them, whichever of the two types is the caller's A.
+sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TShapeB, TShapeWideB, TSupportB, TFeatureB>()
+    : ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShapeWideB, Few4<ContactWide>>(keepsHistories: false), IDirectedTask
+    where TShapeA : unmanaged, IConvexShape where TShapeWideA : unmanaged, IShapeWide<TShapeA>
+    where TSupportA : unmanaged, ISupport<TShapeWideA> where TFeatureA : unmanaged, IContactFeature<TShapeWideA>
+    where TShapeB : unmanaged, IConvexShape where TShapeWideB : unmanaged, IShapeWide<TShapeB>
+    where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
+{
+    // Cosine of 1e-2 rad: what has moved along one of two directions has moved as far along the other, to 5e-5.
+    const float NearCosine = 1 - 5e-5f;
+
+    internal override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
+    {
+        Find(shapes, shapeIndexA, shapeIndexB, out var shapeA, out var shapeB);
+        WriteDirectly(ref batch, shapeA, shapeB, offsetB, orientationA, orientationB, pair);
+    }
+
+    internal override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
+        in Quaternion orientationB, in PairInput pair)
+    {
+        // What a lane without a pair holds must not be a hull that is gone.
+        if (batch.Count == 0)
+            Unsafe.InitBlockUnaligned(batch.Bundles.Memory, 0, (uint)BatchByteCount);
+        Write(ref batch, (TShapeA*)shapeA, (TShapeB*)shapeB, offsetB, orientationA, orientationB, pair, needsOrientationA: true, needsOrientationB: true);
+    }
+
+    internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks) =>
+        throw new System.Diagnostics.UnreachableException();
+
+    public void Execute(ref PairBatch batch, DirectedPair* pairs)
+    {
+        for (int start = 0; start < batch.Count; start += Vector<float>.Count)
+        {
+            ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
+            Execute(ref bundle, ref Manifold(batch), pairs, System.Math.Min(Vector<float>.Count, batch.Count - start));
+        }
+        batch.Count = 0;
+    }
+
+    static void Execute(ref PairBundle<TShapeWideA, TShapeWideB> bundle, ref ConvexManifoldWide<Few4<ContactWide>> wide, DirectedPair* pairs, int count)
+    {
+        var done = Vector<int>.AllBitsSet;
+        var normal = Vector3Wide.Zero;
+        var greatest = Vector<float>.Zero;
+        for (int lane = 0; lane < count; ++lane)
+        {
+            ref var pair = ref pairs[Lane(ref bundle.PairIds, lane)];
+            Lanes.Write(Lane(ref bundle.FlipMask, lane) != 0 ? -pair.Normal : pair.Normal, ref normal, lane);
+            Lane(ref greatest, lane) = pair.GreatestDepth;
+            Lane(ref done, lane) = 0;
+        }
+        bundle.Pose.GetLocal(out var axesA, out var localAxesB, out var localOffsetB);
+        var localNormal = axesA * normal;
+        DirectionalDepth<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Measure(
+            bundle.A, bundle.B, localOffsetB, localAxesB, localNormal, TakesPointOfB(bundle.A, bundle.B), done, out var depth, out var point);
+        var least = depth;
+        if (TFeatureA.MaximumVertexCount > 2)
+            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, -Facing<TShapeWideA, TFeatureA>(bundle.A, -localNormal, done), done, ref least);
+        if (TFeatureB.MaximumVertexCount > 2)
+        {
+            var facing = Facing<TShapeWideB, TFeatureB>(bundle.B, localAxesB * localNormal, done);
+            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, Matrix3x3Wide.TransposeTimes(localAxesB, facing), done, ref least);
+        }
+        var isWithin = Vector.AndNot(Vector.LessThanOrEqual(least, greatest), done);
+        FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.BuildAlong(bundle.A, bundle.B, localOffsetB, localAxesB, localNormal, depth,
+            point, isWithin, bundle.SpeculativeMargin, axesA, out wide);
+        for (int lane = 0; lane < count; ++lane)
+        {
+            ref var pair = ref pairs[Lane(ref bundle.PairIds, lane)];
+            pair.Depth = Lane(ref depth, lane);
+            pair.IsWithinDepth = Lane(ref isWithin, lane) != 0;
+            Read(ref wide, ref bundle, lane, ref pair.Manifold);
+        }
+    }
+
+    // The unit normal of the face that faces a direction; the direction itself where there is none that is nearly across it.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector3Wide Facing<TShapeWide, TFeature>(in TShapeWide shape, in Vector3Wide direction, Vector<int> done)
+        where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
+        var vertices = stackalloc Vector3Wide[TFeature.MaximumVertexCount];
+        TFeature.Find(shape, direction, done, ref *vertices, out var feature);
+        var normal = feature.PlaneNormal * (Vector<float>.One / feature.PlaneNormal.Length());
+        var isNear = Vector.GreaterThan(feature.VertexCount, new Vector<int>(2)) &
+            Vector.GreaterThan(Vector3Wide.Dot(normal, direction), new Vector<float>(NearCosine));
+        return Vector3Wide.Select(isNear, normal, direction);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void MeasureAlong(in TShapeWideA a, in TShapeWideB b, in Vector3Wide localOffsetB, in Matrix3x3Wide localAxesB,
+        in Vector3Wide direction, Vector<int> done, ref Vector<float> least)
+    {
+        DirectionalDepth<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Measure(
+            a, b, localOffsetB, localAxesB, direction, Vector<int>.Zero, done, out var depth, out _);
+        least = Wide.Min(least, depth);
+    }
+
+    // The round one's, whose lowest point no corner may show; else the smaller one's, which is nearer to the contacts.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> TakesPointOfB(in TShapeWideA a, in TShapeWideB b)
+    {
+        if (TFeatureA.IsRound)
+            return Vector<int>.Zero;
+        if (TFeatureB.IsRound)
+            return Vector<int>.AllBitsSet;
+        TSupportA.GetExtents(a, out _, out _, out var outerA);
+        TSupportB.GetExtents(b, out _, out _, out var outerB);
+        return Vector.LessThan(outerB, outerA);
+    }
+
+    public float InnerRadiusA(void* shape) => InnerRadius<TShapeA, TShapeWideA, TSupportA>((TShapeA*)shape);
+
+    public float InnerRadiusB(void* shape) => InnerRadius<TShapeB, TShapeWideB, TSupportB>((TShapeB*)shape);
+
+    static float InnerRadius<TShape, TShapeWide, TSupport>(TShape* shape)
+        where TShape : unmanaged where TShapeWide : unmanaged, IWide<TShape> where TSupport : unmanaged, ISupport<TShapeWide>
+    {
+        var wide = default(TShapeWide);
+        Lanes.Write(*shape, ref wide, 0);
+        TSupport.GetExtents(wide, out _, out var inner, out _);
+        return inner[0] + TSupport.Margin(wide)[0];
+    }
+}

@@ -1,0 +1,66 @@
+using System.Numerics;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Pairs of children that are looked at along directions, in bundles of one pair of shape types each.</summary>
+unsafe struct DirectedTests(BufferPool pool)
+{
+    PairBatches batches;
+    QuickList<DirectedPair> pairs = new(InitialCapacity, pool);
+
+    const int InitialCapacity = 32;
+
+    /// <summary>What was added since <see cref="Begin"/>.</summary>
+    public readonly int Count => pairs.Count;
+
+    /// <summary>A pair, in the order in which they were added.</summary>
+    public readonly ref DirectedPair this[int index] => ref pairs[index];
+
+    /// <summary>Forgets all pairs.</summary>
+    public void Begin() => pairs.Count = 0;
+
+    /// <summary>Adds a pair.</summary>
+    /// <param name="children">The two shapes.</param>
+    /// <param name="normal">Unit direction in world axes, from B to A.</param>
+    /// <param name="greatestDepth">Depth up to which contacts are wanted, m; less than the negated margin, if only the depth is.</param>
+    /// <param name="speculativeMargin">Greatest distance at which a contact exists, m.</param>
+    /// <param name="owner">What the pair is of.</param>
+    /// <param name="pool">Source of memory.</param>
+    public void Add(in PlacedChildren children, in Vector3 normal, float greatestDepth, float speculativeMargin, int owner, BufferPool pool)
+    {
+        var registry = DirectedTasks.Registry;
+        var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
+        if (!batches.Has(taskIndex))
+            batches.Take(task, taskIndex, registry.TaskCount, pool);
+        var input = new PairInput(speculativeMargin, pairs.Count, flipped, PairInput.NoHistory);
+        pairs.Add(new() { Normal = normal, GreatestDepth = greatestDepth, Owner = owner }, pool);
+        ref var batch = ref batches[taskIndex];
+        fixed (byte* a = children.ShapeA.Bytes, b = children.ShapeB.Bytes)
+        {
+            if (flipped)
+                task.WriteDirectly(ref batch, b, a, children.OffsetB, children.OrientationB, children.OrientationA, input);
+            else
+                task.WriteDirectly(ref batch, a, b, children.OffsetB, children.OrientationA, children.OrientationB, input);
+        }
+        if (batch.Count == PairBatch.Capacity)
+            ((IDirectedTask)task).Execute(ref batch, pairs.Span.Memory);
+    }
+
+    /// <summary>Looks at all pairs.</summary>
+    public readonly void Execute()
+    {
+        for (int i = batches.First; i < batches.End; ++i)
+        {
+            if (batches[i].Count > 0)
+                ((IDirectedTask)DirectedTasks.Registry[i]).Execute(ref batches[i], pairs.Span.Memory);
+        }
+    }
+
+    public void Dispose(BufferPool pool)
+    {
+        batches.Dispose(pool);
+        pairs.Dispose(pool);
+    }
+}

@@ -1,0 +1,144 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The choice of the contacts of patches that have more, or that several children share: all patches of a pair at once, a lane for each.</summary>
+// By the rule of FaceReduction: the deepest or, of a level patch, an end of its greatest length; the one farthest from it; the ones farthest to
+// either side. Contacts of two children at one place, where these meet, are one.
+static unsafe class PatchReduction
+{
+    // Parts of the mover's inner radius: contacts that are nearer to each other than ten of the first are one, and that is more than a sphere's two
+    // normals at a seam may differ by and be one; depths that are as good; by how much the first contact of the last step counts as deeper.
+    const float Border = 2e-4f;
+    const float LevelTolerance = 5e-5f;
+    const float DepthPreference = 8e-5f;
+    const float SpanPreference = 1.05f;
+    const float SideLean = 1e-4f;
+
+    struct Frames
+    {
+        public Vector3Wide X, Y, Origin;
+        public Vector<float> Size;
+    }
+
+    /// <summary>Chooses contacts.</summary>
+    /// <param name="memory">The children that touch, with their patches, and room for candidates.</param>
+    /// <param name="results">What was found for each child.</param>
+    /// <param name="placed">Shapes and poses of each.</param>
+    /// <param name="patches">The patches.</param>
+    /// <param name="count">Number of patches.</param>
+    /// <param name="reduces">A bit for each patch that is to be reduced.</param>
+    /// <param name="target">Where the contacts go.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void Reduce(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int count,
+        int reduces, Span<ChildResult> target, BufferPool pool)
+    {
+        var greatest = 0;
+        var normals = Vector3Wide.Zero;
+        Frames frames = default;
+        for (int i = 0; i < count; ++i)
+        {
+            greatest = Math.Max(greatest, patches[i].ContactCount);
+            Lanes.Write(patches[i].Normal, ref normals, i);
+            Lanes.Write(results[patches[i].Slot].Manifold.Contact0.Offset, ref frames.Origin, i);
+            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].AreKnown ? placed[patches[i].Slot].InnerRadius() : 0;
+        }
+        Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
+        Fill(ref memory, results, patches, reduces, greatest, frames, pool);
+        Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
+        for (int i = 0; i < count; ++i)
+        {
+            if ((reduces & 1 << i) == 0)
+                continue;
+            ref var manifold = ref PatchSet.Find(target, patches[i]).Manifold;
+            var share = patches[i].Share;
+            Add(results, deepest, i, share, ref manifold);
+            if (secondExists[i] != 0)
+                Add(results, farthest, i, share, ref manifold);
+            // The larger side first: there may be room for one.
+            for (int side = 0; side < 2; ++side)
+            {
+                if ((sides.TipIsLeft[i] != 0) == (side == 0))
+                    AddIf(sides.LeftExists | sides.BeyondMask, results, sides.Left, i, share, ref manifold);
+                else
+                    AddIf(sides.RightExists | sides.BeyondMask, results, sides.Right, i, share, ref manifold);
+            }
+        }
+    }
+
+    static void Fill(ref SeamMemory memory, Span<ChildResult> results, in PatchSet patches, int reduces, int greatest, in Frames frames, BufferPool pool)
+    {
+        ref var candidates = ref memory.Candidates;
+        candidates.Count = 0;
+        candidates.EnsureCapacity(greatest, pool);
+        FaceCandidate none = default;
+        none.Depth = new Vector<float>(IContactCandidate.None);
+        for (int i = 0; i < greatest; ++i)
+            candidates.AddUnsafely(none);
+        Span<int> counts = [0, 0, 0, 0];
+        foreach (ref var child in memory.Ranked.AsSpan())
+        {
+            var lane = child.Patch;
+            if (lane < 0 || (reduces & 1 << lane) == 0)
+                continue;
+            ref var result = ref results[child.Slot];
+            var axisX = Read(frames.X, lane);
+            var axisY = Read(frames.Y, lane);
+            var origin = Read(frames.Origin, lane);
+            ref readonly var patch = ref patches[lane];
+            for (int i = 0; i < result.Manifold.Count; ++i)
+            {
+                ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
+                ref var candidate = ref candidates[counts[lane]++];
+                var place = contact.Offset - origin;
+                var feature = result.Children.Mix(contact.FeatureId);
+                var isFirst = patch.IsKnown && feature == patch.Memory.First;
+                var isRemembered = isFirst || (patch.IsKnown && feature == patch.Memory.Second);
+                GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, axisX);
+                GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, axisY);
+                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? frames.Size[lane] * DepthPreference : 0);
+                GatherScatter.Get(ref candidate.Weight, lane) = isRemembered ? SpanPreference : 1;
+                GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
+            }
+        }
+    }
+
+    static Vector3 Read(in Vector3Wide wide, int lane) => new(wide.X[lane], wide.Y[lane], wide.Z[lane]);
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void Choose(FaceCandidate* candidates, int count, Vector<float> size, out ContactChoice deepest, out ContactChoice farthest,
+        out ContactSides sides, out Vector<int> secondExists)
+    {
+        var none = new Vector<float>(IContactCandidate.None);
+        ContactChoice best = default;
+        best.Score = best.Depth = none;
+        for (int i = 0; i < count; ++i)
+            best.Offer(candidates[i].Depth, candidates[i], i);
+        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, best, none, best, out farthest);
+        var level = best.Depth - size * new Vector<float>(LevelTolerance);
+        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, farthest, level, best, out deepest);
+        secondExists = ContactReduction<FaceCandidate>.IsFarEnough(farthest, size * new Vector<float>(Border));
+        ContactReduction<FaceCandidate>.ChooseSides(candidates, count, none, deepest, farthest, SideLean, secondExists, out sides);
+    }
+
+    static void AddIf(Vector<int> exists, Span<ChildResult> results, in ContactChoice choice, int lane, int share, ref ConvexContactManifold manifold)
+    {
+        if (exists[lane] != 0)
+            Add(results, choice, lane, share, ref manifold);
+    }
+
+    static void Add(Span<ChildResult> results, in ContactChoice choice, int lane, int share, ref ConvexContactManifold manifold)
+    {
+        if (manifold.Count == share)
+            return;
+        var name = choice.Name[lane];
+        ref var result = ref results[name / ConvexContactManifold.MaximumContactCount];
+        ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++);
+        contact = ConvexContactManifold.GetConvexContactReference(ref result.Manifold, name % ConvexContactManifold.MaximumContactCount);
+        contact.FeatureId = result.Children.Mix(contact.FeatureId);
+    }
+}

@@ -1,0 +1,204 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Contacts of children that have one normal.</summary>
+struct Patch
+{
+    /// <summary>Unit normal in world axes, from B to A: that of its deepest contact.</summary>
+    public Vector3 Normal;
+    /// <summary>Number of contacts of all its children.</summary>
+    public int ContactCount;
+    /// <summary>Number of its children.</summary>
+    public int ChildCount;
+    /// <summary>Slot of its first child.</summary>
+    public int Slot;
+    /// <summary>Contacts that it may have.</summary>
+    public int Share;
+    /// <summary>The number that it keeps while it exists.</summary>
+    public int Number;
+    /// <summary>Whether it was there in the last step.</summary>
+    public bool IsKnown;
+    /// <summary>What is remembered of that.</summary>
+    public PatchMemory Memory;
+}
+
+/// <summary>The patches of a pair: contacts of children, grouped by their normals.</summary>
+/// <remarks>
+/// The contacts of a patch have one normal and one friction, as those of two convex shapes, and are reduced by the same rule: a box on two flush boxes has
+/// four contacts at its corners, as it has on one.
+/// </remarks>
+[InlineArray(Capacity)]
+struct PatchSet
+{
+    Patch first;
+
+    /// <summary>Greatest number of patches.</summary>
+    public const int Capacity = 4;
+
+    // Cosine of 4 degrees: normals that are nearer to each other are one patch.
+    const float SameNormal = 0.99756405f;
+
+    // Cosine of the greatest angle by which a patch may have turned in a step.
+    const float LeastTurnCosine = 0.9f;
+
+    /// <summary>Makes patches of the contacts of children, which have none of their own any more.</summary>
+    /// <param name="memory">The children that touch, in their order, and room for candidates.</param>
+    /// <param name="results">What was found for each child.</param>
+    /// <param name="placed">Shapes and poses of each.</param>
+    /// <param name="known">Patches of the last step.</param>
+    /// <param name="target">Receives the patches at its end, in the order of their numbers.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <returns>Number of patches.</returns>
+    public static int Build(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in KnownPatches known,
+        Span<ChildResult> target, BufferPool pool)
+    {
+        Unsafe.SkipInit(out PatchSet patches);
+        var count = patches.Group(memory.Ranked.AsSpan(), results);
+        if (count == 0)
+            return 0;
+        patches.Match(count, known);
+        patches.SetShares(count);
+        for (int i = 0; i < count; ++i)
+            Place(target[(Capacity - count)..], ref patches[i], i, results[patches[i].Slot].Manifold.OffsetB);
+        var reduces = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            ref var patch = ref patches[i];
+            if (patch.ChildCount == 1 && patch.ContactCount <= patch.Share)
+                Copy(results[patch.Slot], ref Find(target, patch).Manifold);
+            else
+                reduces |= 1 << i;
+        }
+        if (reduces != 0)
+            PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, target, pool);
+        foreach (ref var child in memory.Ranked.AsSpan())
+            results[child.Slot].Manifold.Count = 0;
+        return count;
+    }
+
+    // By normals, in the order of children, so that the first of a patch is its deepest.
+    int Group(Span<RankedChild> ranked, Span<ChildResult> results)
+    {
+        var count = 0;
+        foreach (ref var child in ranked)
+        {
+            child.Patch = -1;
+            ref var manifold = ref results[child.Slot].Manifold;
+            if (manifold.Count == 0)
+                continue;
+            var best = -1;
+            var cosine = 0f;
+            for (int i = 0; i < count; ++i)
+            {
+                var other = Exact.Dot(this[i].Normal, manifold.Normal);
+                if (other > cosine)
+                    (cosine, best) = (other, i);
+            }
+            if (cosine < SameNormal && count < Capacity)
+            {
+                best = count++;
+                this[best] = new() { Normal = manifold.Normal, Slot = child.Slot };
+            }
+            // Where there is no room for more, what is across all patches is left out.
+            if (best < 0)
+                continue;
+            child.Patch = best;
+            this[best].ContactCount += manifold.Count;
+            ++this[best].ChildCount;
+        }
+        return count;
+    }
+
+    // Each patch of the last step goes on as the one whose normal is nearest.
+    void Match(int count, in KnownPatches known)
+    {
+        var taken = 0;
+        var numbers = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            var best = -1;
+            var cosine = LeastTurnCosine;
+            for (int j = 0; j < known.Count; ++j)
+            {
+                var other = Exact.Dot(known[j].Normal, this[i].Normal);
+                if ((taken & 1 << j) == 0 && other > cosine)
+                    (cosine, best) = (other, j);
+            }
+            if (best < 0)
+                continue;
+            taken |= 1 << best;
+            this[i].IsKnown = true;
+            this[i].Memory = known[best];
+            this[i].Number = known.Number(best);
+            numbers |= 1 << this[i].Number;
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            if (this[i].IsKnown)
+                continue;
+            this[i].Number = BitOperations.TrailingZeroCount(~numbers);
+            numbers |= 1 << this[i].Number;
+        }
+    }
+
+    // Eight contacts in all: four for each of two patches; of three, three for those that are known longest, which do not change from step to step
+    // as the deepest may; two for each of four. What one does not need goes to the next.
+    void SetShares(int count)
+    {
+        Span<int> shares = count switch { < 3 => [4, 4, 0, 0], 3 => [3, 3, 2, 0], _ => [2, 2, 2, 2] };
+        var left = 0;
+        var rank = 0;
+        for (int number = 0; number < Capacity; ++number)
+        {
+            for (int i = 0; i < count; ++i)
+            {
+                if (this[i].Number != number)
+                    continue;
+                this[i].Share = Math.Min(ConvexContactManifold.MaximumContactCount, shares[rank++] + left);
+                left = Math.Max(0, this[i].Share - this[i].ContactCount);
+            }
+        }
+    }
+
+    // Inserts the patch into those that are placed already.
+    static void Place(Span<ChildResult> target, ref Patch patch, int count, Vector3 offsetB)
+    {
+        var place = count;
+        for (; place > 0 && target[place - 1].Children.B > patch.Number; --place)
+            target[place] = target[place - 1];
+        target[place].Children = ChildIds.Patch(patch.Number);
+        target[place].KeepsHistory = false;
+        target[place].OffsetA = default;
+        target[place].Manifold.OffsetB = offsetB;
+        target[place].Manifold.Normal = patch.Normal;
+        target[place].Manifold.Count = 0;
+    }
+
+    /// <summary>The result of a patch.</summary>
+    public static ref ChildResult Find(Span<ChildResult> target, in Patch patch)
+    {
+        var i = Capacity - 1;
+        while (target[i].Children.B != patch.Number)
+            --i;
+        return ref target[i];
+    }
+
+    static void Copy(in ChildResult source, ref ConvexContactManifold target)
+    {
+        target.Count = source.Manifold.Count;
+        target.Contact0 = source.Manifold.Contact0;
+        target.Contact1 = source.Manifold.Contact1;
+        target.Contact2 = source.Manifold.Contact2;
+        target.Contact3 = source.Manifold.Contact3;
+        for (int i = 0; i < target.Count; ++i)
+        {
+            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref target, i);
+            contact.FeatureId = source.Children.Mix(contact.FeatureId);
+        }
+    }
+}

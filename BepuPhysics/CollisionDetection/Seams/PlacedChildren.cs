@@ -1,0 +1,89 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A convex shape of those that the library comes with, as its bytes.</summary>
+unsafe struct ShapeCopy
+{
+    /// <summary>The shape.</summary>
+    public fixed byte Bytes[Capacity];
+
+    const int Capacity = 40;
+
+    static ReadOnlySpan<byte> ByteCounts => [4, 8, 12, 36, 8, 16];
+
+    /// <summary>Whether the shapes of a type can be copied.</summary>
+    public static bool Fits(int typeId) => (uint)typeId < (uint)ByteCounts.Length;
+
+    /// <summary>The shape, which is of this type.</summary>
+    public readonly TShape Read<TShape>() where TShape : unmanaged
+    {
+        fixed (byte* bytes = Bytes)
+            return Unsafe.ReadUnaligned<TShape>(bytes);
+    }
+
+    /// <summary>Copies a shape.</summary>
+    public void Write(int typeId, void* shape)
+    {
+        fixed (byte* bytes = Bytes)
+            Unsafe.CopyBlockUnaligned(bytes, shape, ByteCounts[typeId]);
+    }
+}
+
+/// <summary>Two children with their shapes and poses, for as long as their parent is open.</summary>
+/// <remarks>Shapes are copied: some are made up when they are asked for, and those of a batch are gone when it is expanded.</remarks>
+unsafe struct PlacedChildren
+{
+    /// <summary>Type ids of the shapes.</summary>
+    public int TypeA, TypeB;
+    /// <summary>The shapes.</summary>
+    public ShapeCopy ShapeA, ShapeB;
+    /// <summary>Position of B's child less that of A's.</summary>
+    public Vector3 OffsetB;
+    /// <summary>Rotations from the children's frames to the world.</summary>
+    public Quaternion OrientationA, OrientationB;
+    /// <summary>What is next to a triangle.</summary>
+    public TriangleCone ConeA, ConeB;
+
+    /// <summary>Whether the mover is B: what touches the others, and tells how high a lip is that does not stop it.</summary>
+    public bool MoverIsB;
+
+    /// <summary>Whether both shapes are among those that can be looked at along a direction.</summary>
+    public readonly bool AreKnown => TypeA >= 0;
+
+    /// <summary>Keeps what a task has said of two children.</summary>
+    public void Write(in ChildShapes children, bool moverIsB)
+    {
+        MoverIsB = moverIsB;
+        if (!ShapeCopy.Fits(children.TypeA) || !ShapeCopy.Fits(children.TypeB))
+        {
+            TypeA = TypeB = -1;
+            return;
+        }
+        TypeA = children.TypeA;
+        TypeB = children.TypeB;
+        ShapeA.Write(TypeA, children.ShapeA);
+        ShapeB.Write(TypeB, children.ShapeB);
+        OffsetB = children.OffsetB - children.OffsetA;
+        OrientationA = children.OrientationA;
+        OrientationB = children.OrientationB;
+        ConeA = children.ConeA;
+        ConeB = children.ConeB;
+    }
+
+    /// <summary>Radius of a ball that lies in the mover, m; of a triangle, which is flat, that of the other.</summary>
+    public float InnerRadius()
+    {
+        var task = (IDirectedTask)DirectedTasks.Registry.GetTask(TypeA, TypeB, out _, out var flipped);
+        fixed (byte* a = ShapeA.Bytes, b = ShapeB.Bytes)
+        {
+            var radiusA = flipped ? task.InnerRadiusB(a) : task.InnerRadiusA(a);
+            var radiusB = flipped ? task.InnerRadiusA(b) : task.InnerRadiusB(b);
+            var (mover, other) = MoverIsB ? (radiusB, radiusA) : (radiusA, radiusB);
+            return mover > 0 ? mover : other;
+        }
+    }
+}

@@ -1,0 +1,149 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Keeps the normals of triangles of a surface between those of their neighbours.</summary>
+/// <remarks>
+/// A triangle that is tested as if it were alone is touched at its edges from all around. In a surface the part of these directions that is beyond the
+/// neighbour's normal is the neighbour's, and there is none at an edge at which the surface is flat or bends towards the front. What is touched from such
+/// a direction is touched along the one of least depth of those that there are: the triangle's normal, those of the neighbours, and the one between them
+/// that is nearest. If it is not over the triangle then, it touches a neighbour, and not this.
+/// </remarks>
+static class TriangleNeighbours
+{
+    // Sine by which a direction may be beyond a neighbour's.
+    const float Beyond = 1e-4f;
+    // A direction as steep to the triangle's normal as this cosine says is the neighbours'.
+    const float LeastCosine = 0.05f;
+    // Bounds that meet at a corner are gone over until none is left, or it is seen that they cannot all be met.
+    const int MaximumClampCount = 4;
+
+    // A triangle as it lies in the world.
+    struct Surface
+    {
+        public Vector3 Normal;
+        // Directions in its plane out of each edge; bounds of directions at each edge.
+        public Vector3 Out0, Out1, Out2, Bound0, Bound1, Bound2;
+        public readonly bool IsA;
+
+        public Surface(in Triangle triangle, in Quaternion orientation, in TriangleCone cone, bool isA)
+        {
+            IsA = isA;
+            var ab = Exact.Rotate(triangle.B - triangle.A, orientation);
+            var bc = Exact.Rotate(triangle.C - triangle.B, orientation);
+            var ca = Exact.Rotate(triangle.A - triangle.C, orientation);
+            Normal = Exact.Normalize(Exact.Cross(ab, ca));
+            Out0 = Exact.Normalize(Exact.Cross(Normal, ab));
+            Out1 = Exact.Normalize(Exact.Cross(Normal, bc));
+            Out2 = Exact.Normalize(Exact.Cross(Normal, ca));
+            Bound0 = (cone.FreeMask & 1) != 0 ? default : Out0 * cone.Cosines.X - Normal * cone.Sines.X;
+            Bound1 = (cone.FreeMask & 2) != 0 ? default : Out1 * cone.Cosines.Y - Normal * cone.Sines.Y;
+            Bound2 = (cone.FreeMask & 4) != 0 ? default : Out2 * cone.Cosines.Z - Normal * cone.Sines.Z;
+        }
+
+        // The direction of the bound that a direction is farthest beyond; zero where it is beyond none.
+        public readonly Vector3 Violated(in Vector3 direction)
+        {
+            var (most, bound) = (Beyond, default(Vector3));
+            if (Exact.Dot(direction, Bound0) is var first && first > most)
+                (most, bound) = (first, Bound0);
+            if (Exact.Dot(direction, Bound1) is var second && second > most)
+                (most, bound) = (second, Bound1);
+            if (Exact.Dot(direction, Bound2) > most)
+                bound = Bound2;
+            return bound;
+        }
+    }
+
+    /// <summary>Changes what was found for children beyond their neighbours.</summary>
+    /// <param name="memory">The children that touch, and room for tests.</param>
+    /// <param name="results">What was found for each child, and then what is left of it.</param>
+    /// <param name="placed">Shapes and poses of each.</param>
+    /// <param name="margin">Greatest distance at which a contact exists, m.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void Apply(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, float margin, BufferPool pool)
+    {
+        Apply(ref memory, results, placed, margin, isA: false, pool);
+        Apply(ref memory, results, placed, margin, isA: true, pool);
+    }
+
+    static void Apply(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, float margin, bool isA, BufferPool pool)
+    {
+        ref var tests = ref memory.Tests;
+        tests.Begin();
+        for (int i = 0; i < memory.Ranked.Count; ++i)
+        {
+            var slot = memory.Ranked[i].Slot;
+            if (results[slot].Manifold.Count > 0 && IsSurface(placed[slot], isA))
+                AddDirections(ref tests, placed[slot], results[slot].Manifold.Normal, isA, margin, i, pool);
+        }
+        if (tests.Count == 0)
+            return;
+        tests.Execute();
+        memory.Chosen.Count = 0;
+        for (int i = 0; i < tests.Count; ++i)
+        {
+            var best = i;
+            for (; i + 1 < tests.Count && tests[i + 1].Owner == tests[best].Owner; ++i)
+                best = tests[i + 1].Depth < tests[best].Depth ? i + 1 : best;
+            memory.Chosen.Add(new() { Owner = tests[best].Owner, Normal = tests[best].Normal }, pool);
+        }
+        tests.Begin();
+        foreach (ref var chosen in memory.Chosen.AsSpan())
+            tests.Add(placed[memory.Ranked[chosen.Owner].Slot], chosen.Normal, float.MaxValue, margin, chosen.Owner, pool);
+        tests.Execute();
+        for (int i = 0; i < tests.Count; ++i)
+        {
+            ref var test = ref tests[i];
+            ref var child = ref memory.Ranked[test.Owner];
+            child.Class = 1;
+            ref var result = ref results[child.Slot];
+            result.Replace(test);
+            if (Exact.Dot(isA ? -test.Normal : test.Normal, Create(placed[child.Slot], isA).Normal) < LeastCosine)
+                result.Manifold.Count = 0;
+        }
+    }
+
+    // Nothing is next to what is no triangle of a surface.
+    static bool IsSurface(in PlacedChildren placed, bool isA) =>
+        (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;
+
+    static Surface Create(in PlacedChildren placed, bool isA) => isA
+        ? new(placed.ShapeA.Read<Triangle>(), placed.OrientationA, placed.ConeA, isA)
+        : new(placed.ShapeB.Read<Triangle>(), placed.OrientationB, placed.ConeB, isA);
+
+    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, float margin, int owner, BufferPool pool)
+    {
+        var surface = Create(placed, isA);
+        var direction = isA ? -normal : normal;
+        // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
+        if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine || surface.Violated(direction) == default)
+            return;
+        Add(ref tests, placed, surface.Normal, isA, margin, owner, pool);
+        var cone = isA ? placed.ConeA : placed.ConeB;
+        if (cone.Sines == default)
+            return;
+        var clamped = direction;
+        for (int i = 0; i < MaximumClampCount && surface.Violated(clamped) is var bound && bound != default; ++i)
+            clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
+        if (surface.Violated(clamped) == default)
+            Add(ref tests, placed, clamped, isA, margin, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out0, surface.Bound0, cone.Cosines.X, cone.Sines.X, margin, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out1, surface.Bound1, cone.Cosines.Y, cone.Sines.Y, margin, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out2, surface.Bound2, cone.Cosines.Z, cone.Sines.Z, margin, owner, pool);
+    }
+
+    static void AddNeighbour(ref DirectedTests tests, in PlacedChildren placed, in Surface surface, in Vector3 outwards, in Vector3 bound,
+        float cosine, float sine, float margin, int owner, BufferPool pool)
+    {
+        if (bound != default && sine > 0)
+            Add(ref tests, placed, surface.Normal * cosine + outwards * sine, surface.IsA, margin, owner, pool);
+    }
+
+    static void Add(ref DirectedTests tests, in PlacedChildren placed, in Vector3 direction, bool isA, float margin, int owner, BufferPool pool) =>
+        tests.Add(placed, isA ? -direction : direction, float.MinValue, margin, owner, pool);
+}
