@@ -20,12 +20,9 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     const int LeastBundlesPerBlock = 8;
     // Steps of acceleration up to which a contact is quiet.
     const float QuietSteps = 2;
-    const float LeastBand = 1e-30f;
-    // Velocity left after the warm start, per that from outside, from which on an island is worked on.
-    const float LeastResidual = 0.02f;
-    // The same, per that of a fall by the distance from a body's centre to its contacts, as strong gravity and small bodies make the first great for it.
-    const float LeastFall = 3e-4f;
-    // Part of that from which on a body takes part, and from which on an island is worked on again that was worked on in the last substep.
+    // Part of its tolerance up to which a body that rests alone is none of the graph's: half, as it may have more left after other substeps than the first.
+    const float AloneShare = 0.5f;
+    // Part of the tolerance from which on a body takes part, and from which on an island is worked on again that was worked on in the last substep.
     const float ActiveShare = 0.05f;
 
     SupportGraph graph;
@@ -38,7 +35,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     readonly int[] foundCounts = new int[MaximumBlocks];
     // What carries the nodes, read when a node's island is worked on for the first time in a step.
     Buffer<LoadSupport> supports;
-    int heldCount;
+    // Whether contacts may be held.
+    bool hasBegun;
 
     LoadPathMode Mode => solver.LoadPath;
 
@@ -80,7 +78,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 Begin();
                 break;
             case SolverPoint.BeforeFirstWarmStart:
-                Find(block);
+                Find(block, substep);
                 break;
             case SolverPoint.LastBeforeFirstWarmStart:
                 Build(substep.Dt);
@@ -94,6 +92,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     void Begin()
     {
+        hasBegun = true;
         ref var set = ref bodies.Awake;
         pool.TakeAtLeast(Math.Max(1, set.Count), out before);
         for (int i = 0; i < set.Count; ++i)
@@ -107,11 +106,12 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     int FirstBundle(int block) => (int)((long)bundleCount * block / blockCount);
 
-    void Find(int block)
+    void Find(int block, in Substep substep)
     {
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
-        var finder = new SupportFinder(awake, before.Memory, QuietSteps * solver.LastSubstepCount);
+        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, QuietSteps * solver.LastSubstepCount,
+            new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
         var start = FirstBundle(block);
         var end = FirstBundle(block + 1);
         var links = found.Memory + start * Vector<float>.Count;
@@ -141,13 +141,15 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             new Span<SupportLink>(found.Memory + FirstBundle(i) * Vector<float>.Count, foundCounts[i]).CopyTo(new(found.Memory + count, foundCounts[i]));
             count += foundCounts[i];
         }
+        if (count == 0)
+            return;
         ref var set = ref bodies.Awake;
         graph.Build(new ReadOnlySpan<SupportLink>(found.Memory, count), set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
         pool.TakeAtLeast(Math.Max(1, graph.Links.Count), out supports);
         for (int i = 0; i < graph.Nodes.Count; ++i)
             SetTolerance(ref graph.Nodes[i], dt);
-        for (; heldCount < graph.Links.Count; ++heldCount)
-            Hold(graph.Links[heldCount]);
+        for (int i = 0; i < graph.Links.Count; ++i)
+            graph.Links[i].Spring = SupportLink.HeldSpring(graph.Links[i].Band);
     }
 
     readonly struct HeightAgainstGain(Buffer<MotionState> motions, Buffer<BodyVelocity> before) : IHeights
@@ -168,12 +170,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 ratio = MathHelper.Min(ratio, inverseMass / set.LocalInertias[lower].InverseMass);
         }
         var gain = Exact.Length(set.MotionStates[node.Body].Velocity.Linear - before[node.Body].Linear);
-        // The second is the velocity that a fall of some twenty-millionth of the body's size would give.
-        node.Tolerance = ratio * MathHelper.Min(LeastResidual * gain, LeastFall * MathF.Sqrt(gain / dt * node.Radius));
+        node.Tolerance = new RestTolerance(ratio, dt).Of(gain, node.Radius);
     }
-
-    // A band of no width at all would be a spring that is not held.
-    static void Hold(in SupportLink link) => link.Spring = -MathHelper.Max(link.Band, LeastBand);
 
     void Transfer(int island)
     {
@@ -284,12 +282,12 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         }
     }
 
-    // Lets go of the contacts, and gives back what the step took. The sign of the zero tells the next step that they were held.
+    // Lets go of the contacts, and gives back what the step took.
     void ISolverStage.EndStep()
     {
-        for (int i = 0; i < heldCount; ++i)
-            graph.Links[i].Spring = -0f;
-        heldCount = 0;
+        if (hasBegun)
+            LetGo();
+        hasBegun = false;
         graph.Dispose(pool);
         if (before.Allocated)
             pool.Return(ref before);
@@ -297,5 +295,22 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             pool.Return(ref found);
         if (supports.Allocated)
             pool.Return(ref supports);
+    }
+
+    // The sign of the zero tells the next step that they were held.
+    void LetGo()
+    {
+        ref var batches = ref solver.ActiveSet.Batches;
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
+            {
+                ref var batch = ref batches[i].TypeBatches[j];
+                var count = ConstraintTypeIds.ContactCount(batch.TypeId);
+                var spring = (Vector<float>*)batch.Prestep.Memory + ContactPrestepLayout.Spring(count);
+                for (int k = Bundles(batches[i], j); k > 0; --k, spring += ContactPrestepLayout.PrestepFloats(count))
+                    *spring = Wide.Select(Vector.LessThan(*spring, Vector<float>.Zero), new Vector<float>(-0f), *spring);
+            }
+        }
     }
 }

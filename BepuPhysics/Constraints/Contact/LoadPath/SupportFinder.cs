@@ -7,11 +7,21 @@ namespace BepuPhysics.Constraints.Contact;
 /// <summary>Finds the contact constraints of a bundle that carry one of their bodies against what pulls at it, and are quiet.</summary>
 /// <param name="bodies">The bodies, after the first integration.</param>
 /// <param name="before">Their velocities before it, a row each.</param>
+/// <param name="constraints">Their lists of constraints, a row each.</param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
+/// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
+/// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
 // Only contacts that are quiet carry: their surfaces move no faster along or apart than the acceleration from outside gives in some substeps. What
 // slides, rolls fast, tumbles or is hit is left to the sweeps, and so is what rests on something that moves.
-readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, float quietSteps)
+//
+// A body whose only constraint is a patch on a static has nobody on it. If what its contacts bore in the last substep bears it now, there is nothing to hand
+// down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
+// way, as friction knows its limit only once the load is there.
+readonly unsafe struct SupportFinder(
+    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, float quietSteps, RestTolerance tolerance, float warmStartScale)
 {
+    /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
+    internal const int LeastContacts = 3;
     const int FloatsPerVelocity = 8;
     // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
@@ -23,7 +33,7 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
     const float SlidingShare = 0.99f;
     const float SlidingSteps = 0.1f;
 
-    /// <summary>Writes what is found in a bundle, in the order of lanes.</summary>
+    /// <summary>Holds the contacts of what rests alone on a static, and writes what else is found in a bundle, in the order of lanes.</summary>
     /// <returns>How many were found, at most one per lane.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
     internal int Find(ref TypeBatch batch, int bundle, SupportLink* found)
@@ -94,13 +104,23 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
             open |= Vector.AndNot(new Vector<int>(1 << i), touches | Vector.GreaterThan(impulses[i], Vector<float>.Zero));
         }
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
+        radius = Vector.SquareRoot(radius);
+        if (!hasB)
+        {
+            var alone = carries & IsBorne(count, velocityA, normal, impulses, fastest, radius);
+            if (alone != Vector<int>.Zero)
+                alone &= IsAlone((int*)references);
+            Hold(Vector.AndNot(alone, slides), count, open, band, prestep + ContactPrestepLayout.Spring(count));
+            carries = Vector.AndNot(carries, alone);
+            if (carries == Vector<int>.Zero)
+                return 0;
+        }
 
         var lowerA = Vector.AndNot(new Vector<int>(-1), isUpperA);
         var indexA = references[0] & new Vector<int>(EncodedBody.IndexMask);
         var indexB = hasB ? references[1] & new Vector<int>(EncodedBody.IndexMask) : indexA;
         var upper = Wide.Select(lowerA, indexB, indexA);
         var lower = Wide.Select(fixedB, new Vector<int>(-1), Wide.Select(lowerA, indexA, indexB));
-        radius = Vector.SquareRoot(radius);
         int foundCount = 0;
         for (var lanes = Wide.Bits(carries); lanes != 0; lanes &= lanes - 1)
         {
@@ -120,6 +140,35 @@ readonly unsafe struct SupportFinder(SolverBodies bodies, BodyVelocity* before, 
             };
         }
         return foundCount;
+    }
+
+    // Whether the warm start alone brings A to rest on what does not move. That it turns would be seen in the next step.
+    Vector<int> IsBorne(int count, in SolverBodyWide body, in Vector3Wide normal, Vector<float>* impulses, Vector<float> gain, Vector<float> radius)
+    {
+        var load = impulses[0];
+        for (int i = 1; i < count; ++i)
+            load += impulses[i];
+        var impulse = normal * load + *(Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count));
+        var left = body.Linear + impulse * (body.InverseMass * new Vector<float>(warmStartScale));
+        return Vector.LessThan(left.Length() + body.Angular.Length() * radius, tolerance.Of(gain, radius));
+    }
+
+    // Whether a body has no constraint but this one.
+    Vector<int> IsAlone(int* references)
+    {
+        var counts = Vector<int>.Zero;
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+            ((int*)&counts)[lane] = references[lane] >= 0 ? constraints[references[lane] & EncodedBody.IndexMask].Count : 0;
+        return Vector.Equals(counts, Vector<int>.One);
+    }
+
+    static void Hold(Vector<int> lanes, int count, Vector<int> open, Vector<float> band, Vector<float>* spring)
+    {
+        var touching = new Vector<int>(count);
+        for (int i = 0; i < count; ++i)
+            touching -= open >> i & Vector<int>.One;
+        lanes &= Vector.GreaterThanOrEqual(touching, new(LeastContacts));
+        *spring = Wide.Select(lanes, SupportLink.HeldSpring(band), *spring);
     }
 
     static Vector<int> IsAtLimit(int count, Vector<float>* prestep, Vector<float>* impulses)

@@ -13,8 +13,6 @@ namespace BepuPhysics.Constraints.Contact;
 /// </remarks>
 unsafe struct SupportGraph
 {
-    const int LeastContacts = 3;
-
     // Links by upper body.
     Buffer<SupportLink> byUpper;
     // Per body of the active set, all of one length.
@@ -161,7 +159,7 @@ unsafe struct SupportGraph
         public readonly int Compare(HeightOfBody x, HeightOfBody y) => x.Height != y.Height ? x.Height.CompareTo(y.Height) : x.Body.CompareTo(y.Body);
     }
 
-    // On fewer than three contacts a body may roll or rock, and what it has of momentum is no load. What slides on all that it rests on moves.
+    // What slides on all that it rests on moves.
     readonly bool IsGrounded(int body)
     {
         int contacts = 0;
@@ -173,7 +171,7 @@ unsafe struct SupportGraph
             contacts += byUpper[i].CarryingCount;
             slides &= byUpper[i].Slides;
         }
-        return contacts >= LeastContacts && !slides;
+        return contacts >= SupportFinder.LeastContacts && !slides;
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
