@@ -20,13 +20,17 @@ public static partial class DefaultTypes
         solver.Register<AreaConstraint>();
         solver.Register<BallSocket>();
         solver.Register<CenterDistanceConstraint>();
+        solver.Register<Gear>();
         solver.Register<Hinge>();
+        solver.Register<Rack>();
+        solver.Register<Slider>();
         solver.Register<SwivelHinge>();
         solver.Register<VolumeConstraint>();
         solver.Register<Weld>();
         solver.Register<CenterDistanceLimit>();
         solver.Register<DistanceLimit>();
         solver.Register<LinearAxisLimit>();
+        solver.Register<Pulley>();
         solver.Register<SwingLimit>();
         solver.Register<TwistLimit>();
         solver.Register<AngularServo>();

@@ -104,6 +104,27 @@ static class ConstraintChecks
             throw new ArgumentOutOfRangeException(name, value, $"{name} must be finite and at most {Limits.MaximumGearRatio}.");
     }
 
+    internal static void RopeRatio(float value, string name)
+    {
+        if (!(value > 0 && value <= Limits.MaximumGearRatio))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be positive and at most {Limits.MaximumGearRatio}.");
+    }
+
+    internal static void Teeth(float value, string name)
+    {
+        const float Maximum = 1000;
+        if (!(MathF.Abs(value) >= 1 && MathF.Abs(value) <= Maximum && value == MathF.Floor(value)))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be a whole number of at least 1 and at most {Maximum}, or its negative.");
+    }
+
+    // Of smaller ones a turn is next to no way.
+    internal static void PinionRadius(float value, string name)
+    {
+        const float Minimum = 1e-3f;
+        if (!(MathF.Abs(value) >= Minimum && MathF.Abs(value) <= Limits.MaximumOffset))
+            throw new ArgumentOutOfRangeException(name, value, $"{name} must be at least {Minimum} and at most {Limits.MaximumOffset} m, or its negative.");
+    }
+
     // The square and the cube of a distance that constraints take.
     internal static void Area(float value, string name)
     {

@@ -37,6 +37,11 @@ public static class ConstraintTypeIds
     internal const int BallSocketServo = 53;
     internal const int AngularAxisGearMotor = 54;
     internal const int CenterDistanceLimit = 55;
+    // From here on, bepuphysics2 has none.
+    internal const int Slider = 56;
+    internal const int Gear = 57;
+    internal const int Rack = 58;
+    internal const int Pulley = 59;
 
     /// <summary>Type id of a convex contact constraint.</summary>
     /// <param name="contactCount">Number of contacts, 1 to 4.</param>

@@ -83,7 +83,13 @@ static class RandomDescriptions
     {
         // Points that are to be in one place have no direction, and so no derivative, where they are.
         if (type == typeof(float))
-            return [name == "TargetDistance" ? samples.Uniform(0.3f, 2) : samples.Uniform(-1, 2)];
+            return [name switch
+            {
+                "TargetDistance" => samples.Uniform(0.3f, 2),
+                "Teeth" or "TeethA" or "TeethB" => MathF.Floor(samples.Uniform(1, 20)) * (samples.Coin() ? 1 : -1),
+                "Radius" => samples.Uniform(0.5f, 2) * (samples.Coin() ? 1 : -1),
+                _ => samples.Uniform(-1, 2),
+            }];
         if (type == typeof(Vector3))
             return Floats(IsDirection(name) ? samples.Direction() : samples.Vector(1));
         if (type == typeof(Quaternion))

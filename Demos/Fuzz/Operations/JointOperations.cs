@@ -71,6 +71,25 @@ static class JointOperations
         .. Of(w => new BallSocketServo { LocalOffsetA = Point(w), LocalOffsetB = Point(w), SpringSettings = Spring(w), ServoSettings = Servo(w) }),
         .. Of(w => new AngularAxisGearMotor { LocalAxisA = Axis(w), VelocityScale = w.Random.Number(-3, 3), Settings = Motor(w) }),
         .. Of(w => new CenterDistanceLimit(w.Random.Number(0, 1), w.Random.Number(1, 3), Spring(w))),
+        .. Of(w => new Slider
+        {
+            LocalOffsetA = Point(w), LocalAxisA = Axis(w), LocalOffsetB = Point(w), LocalOrientation = w.Random.Turn(), SpringSettings = Spring(w),
+        }),
+        .. OfThreeBodies(w => new Gear
+        {
+            LocalBasisA = w.Random.Turn(), LocalBasisB = w.Random.Turn(), LocalHousingBasisA = w.Random.Turn(), LocalHousingBasisB = w.Random.Turn(),
+            TeethA = 1 + w.Random.Below(40), TeethB = -1 - w.Random.Below(40), SpringSettings = Spring(w),
+        }),
+        .. OfThreeBodies(w => new Rack
+        {
+            LocalBasisA = w.Random.Turn(), LocalHousingBasis = w.Random.Turn(), LocalOffsetB = Point(w), LocalHousingOffset = Point(w),
+            LocalHousingAxis = Axis(w), Radius = w.Random.Number(0.01f, 1), Teeth = 1 + w.Random.Below(40), SpringSettings = Spring(w),
+        }),
+        .. OfThreeBodies(w => new Pulley
+        {
+            LocalOffsetA = Point(w), LocalOffsetB = Point(w), LocalWheelA = Point(w), LocalWheelB = Point(w), Ratio = w.Random.Number(0.1f, 4),
+            MaximumLength = w.Random.Number(0, 5), SpringSettings = Spring(w),
+        }),
     ];
 
     static Vector3 Point(FuzzWorld w) => w.Random.Vector(1);
