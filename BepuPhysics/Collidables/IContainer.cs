@@ -16,6 +16,8 @@ unsafe struct ContainerChild
     public TypedIndex Name;
     /// <summary>Pose of the child's centre in the frame of the container.</summary>
     public RigidPose Pose;
+    /// <summary>What is next to a triangle of a surface; nothing for all else.</summary>
+    public TriangleCone Cone;
 }
 
 /// <summary>A shape made of convex children, numbered from zero, in a tree or in a list.</summary>

@@ -51,5 +51,6 @@ public unsafe partial struct Mesh : IContainer
     {
         GetCenteredChild(index, out *(Triangle*)scratch, out var center);
         child = new() { TypeId = Triangle.TypeId, Shape = scratch, Pose = new(center) };
+        GetCone(index, out child.Cone);
     }
 }

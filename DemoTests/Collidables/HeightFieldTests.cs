@@ -275,6 +275,35 @@ public sealed unsafe class HeightFieldTests : IDisposable
         Assert.Throws<InvalidOperationException>(() => plain.SetCell(0, 0, default));
     }
 
+    /// <summary>A mesh of the same triangles knows its neighbours by corners that are the same, and keeps their angles in a byte.</summary>
+    [Theory]
+    [MemberData(nameof(Sizes))]
+    public void Its_edges_bend_as_those_of_a_mesh(int countX, int countZ)
+    {
+        var field = Create(countX, countZ);
+        var children = Children(field);
+        pool.Take<Triangle>(children.Count, out var triangles);
+        for (int i = 0; i < children.Count; ++i)
+            field.GetLocalChild(children[i], out triangles[i]);
+        var mesh = new Mesh(triangles, Vector3.One, pool);
+        pool.Return(ref triangles);
+        var scratch = stackalloc byte[IContainer.ScratchByteCount];
+        for (int i = 0; i < children.Count; ++i)
+        {
+            mesh.GetCone(i, out var expected);
+            ((IContainer)field).GetChild(children[i], null!, scratch, out var child);
+            Assert.Equal(expected.FreeMask, child.Cone.FreeMask);
+            for (int edge = 0; edge < 3; ++edge)
+            {
+                double angle = Math.Atan2(child.Cone.Sines[edge], child.Cone.Cosines[edge]);
+                double least = Math.Atan2(expected.Sines[edge], expected.Cosines[edge]);
+                // The step of a byte is 2 pi q / 254^2, with q = 254 sqrt(angle / pi); the last is at a right angle.
+                Assert.InRange(angle, least - 1e-5, least + 2 * Math.Sqrt(angle * Math.PI) / 254 + 1e-4);
+            }
+        }
+        mesh.Dispose(pool);
+    }
+
     [Fact]
     public void A_turned_field_is_in_its_box()
     {

@@ -15,7 +15,7 @@ static unsafe class ContainerPlaces
     public static void SetA<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
         where TContainer : unmanaged, IContainer
     {
-        Find(container, index, shapes, scratch, children.OrientationA, ref children.NameA, out children.TypeA, out children.ShapeA, out var pose);
+        Find(container, index, shapes, scratch, children.OrientationA, ref children.NameA, out children.TypeA, out children.ShapeA, out children.ConeA, out var pose);
         children.OffsetA = pose.Position;
         children.OrientationA = pose.Orientation;
     }
@@ -24,17 +24,18 @@ static unsafe class ContainerPlaces
     public static void SetB<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
         where TContainer : unmanaged, IContainer
     {
-        Find(container, index, shapes, scratch, children.OrientationB, ref children.NameB, out children.TypeB, out children.ShapeB, out var pose);
+        Find(container, index, shapes, scratch, children.OrientationB, ref children.NameB, out children.TypeB, out children.ShapeB, out children.ConeB, out var pose);
         children.OffsetB += pose.Position;
         children.OrientationB = pose.Orientation;
     }
 
     static void Find<TContainer>(in TContainer container, int index, Shapes shapes, void* scratch, in Quaternion orientation, ref TypedIndex name,
-        out int typeId, out void* shape, out RigidPose pose) where TContainer : unmanaged, IContainer
+        out int typeId, out void* shape, out TriangleCone cone, out RigidPose pose) where TContainer : unmanaged, IContainer
     {
         container.GetChild(index, shapes, scratch, out var child);
         typeId = child.TypeId;
         shape = child.Shape;
+        cone = child.Cone;
         if (child.Name.Exists)
             name = child.Name;
         pose = new(Exact.Rotate(child.Pose.Position, orientation), Exact.Concatenate(child.Pose.Orientation, orientation));

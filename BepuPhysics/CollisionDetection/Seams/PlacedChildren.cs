@@ -13,7 +13,7 @@ unsafe struct ShapeCopy
 
     const int Capacity = 40;
 
-    static ReadOnlySpan<byte> ByteCounts => [4, 8, 12, 36, 8, 16];
+    static ReadOnlySpan<byte> ByteCounts => [4, 8, 12, 40, 8, 16];
 
     /// <summary>Whether the shapes of a type can be copied.</summary>
     public static bool Fits(int typeId) => (uint)typeId < (uint)ByteCounts.Length;
