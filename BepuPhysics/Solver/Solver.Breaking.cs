@@ -26,7 +26,9 @@ public sealed unsafe partial class Solver
     /// <summary>Number of constraints that may break.</summary>
     internal int BreakableCount => breakable.Count;
 
-    /// <summary>The constraints that the last step removed because they broke, in the order of the slots of their handles. Valid until the next step begins.</summary>
+    /// <summary>
+    /// The constraints that the last step removed because they broke, in the order of the slots of their handles. Valid until the next step begins.
+    /// </summary>
     public ReadOnlySpan<BrokenConstraint> BrokenConstraints => broken.Span.Allocated ? broken.Span.AsSpan()[..broken.Count] : default;
 
     /// <summary>What a constraint bears before it breaks; <see cref="BreakThreshold.Unbreakable"/> unless something else was said.</summary>

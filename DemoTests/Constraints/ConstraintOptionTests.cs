@@ -11,7 +11,9 @@ using Xunit;
 
 namespace DemoTests.Constraints;
 
-/// <summary>What can be said of single constraints: that they are disabled, that they break, that their bodies do not collide; and how far they are off.</summary>
+/// <summary>
+/// What can be said of single constraints: that they are disabled, that they break, that their bodies do not collide; and how far they are off.
+/// </summary>
 public class ConstraintOptionTests
 {
     const float Dt = TestWorld.Dt;
@@ -248,7 +250,8 @@ public class ConstraintOptionTests
     {
         using var world = World();
         var a = world.AddKinematic(ball, new RigidPose(new Vector3(1, 2, 3)));
-        var b = world.AddDynamic(ball, 1, new RigidPose(new Vector3(1, 2, 3) + new Vector3(0.3f, 0, 0.4f), Quaternion.CreateFromAxisAngle(Vector3.UnitX, 0.2f)));
+        var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitX, 0.2f);
+        var b = world.AddDynamic(ball, 1, new RigidPose(new Vector3(1.3f, 2, 3.4f), turn));
         var weld = world.Solver.Add(a, b, new Weld { LocalOrientation = Quaternion.Identity });
         var limit = world.Solver.Add(a, b, new DistanceLimit(default, default, 0.1f, 0.2f, default));
         var slack = world.Solver.Add(a, b, new DistanceLimit(default, default, 0.1f, 2, default));

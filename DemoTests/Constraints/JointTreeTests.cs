@@ -12,16 +12,20 @@ using Xunit;
 namespace DemoTests.Constraints;
 
 /// <summary>Random trees of every type of joint, of bodies of very different masses, hung up and let go: none may be a source of energy.</summary>
+/// <remarks>Twelve trees of each; PHYSICS_FULL_TESTS: a thousand.</remarks>
 public class JointTreeTests
 {
-    const int TreeCount = 12;
+    static readonly int treeCount = Environment.GetEnvironmentVariable("PHYSICS_FULL_TESTS") is { Length: > 0 } ? 1000 : 12;
     const int StepCount = 120;
     static readonly Vector3 gravity = new(0, -9.81f, 0);
     static readonly Box box = new(0.4f, 0.3f, 0.5f);
 
     // Known not to hold this yet, and asked no more than to stay finite: light bodies with heavy ones at the end of arms that are several times their
     // size turn further in a substep than these rows can follow. Of twelve trees one or two gain, distances up to half of their motion, hinges more. What
-    // is not in this list keeps its energy in the same trees. A rack's pinion, whose axis nothing holds here, jumps by teeth as it tumbles: 5.4 % in one tree.
+    // is not in this list keeps its energy in the same trees. All of it comes from the correction of positions through the velocity: without it not one of
+    // forty trees of ball sockets, hinges or ball socket servos gains, with 4 to 32 substeps, while geometric stiffness along all directions, of each
+    // substep, or more iterations mend few of them.
+    // A rack's pinion, whose axis nothing holds here, jumps by teeth as it tumbles: 5.4 % in one tree.
     static readonly string[] gaining =
     [
         nameof(BallSocket), nameof(Hinge), nameof(SwivelHinge), nameof(BallSocketServo), nameof(DistanceLimit), nameof(DistanceServo),
@@ -49,7 +53,7 @@ public class JointTreeTests
         var type = JointTypes.All.Single(type => type.Id == typeId);
         var greatestGain = gaining.Contains(type.Name) ? double.PositiveInfinity : 0.05;
         var joints = 0;
-        for (int seed = 0; seed < TreeCount; ++seed)
+        for (int seed = 0; seed < treeCount; ++seed)
         {
             using var world = new TestWorld(new AccuracySettings
             {
@@ -72,7 +76,7 @@ public class JointTreeTests
                     $"{type.Name}, tree {seed}, step {step}: gained {energy - start} J of {fastest} J.");
             }
         }
-        Assert.True(joints > TreeCount, $"Only {joints} joints.");
+        Assert.True(joints > treeCount, $"Only {joints} joints.");
     }
 
     // Each body is joined to as many of those before it as the type connects; the first ones are fixed. It is put where the joint has no error.

@@ -100,6 +100,7 @@ static unsafe class CompoundChildren
         result.Shape = shapes.GetBatch(child.ShapeIndex.Type).GetPointer(child.ShapeIndex.Index);
         result.Name = child.ShapeIndex;
         result.Pose = new(child.LocalPosition, child.LocalOrientation);
+        result.Cone = default;
     }
 
     /// <summary>Measures all children, their compound at the origin.</summary>
