@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using Demos.Accuracy;
 using DemoTests.Scenes;
 using Xunit;
@@ -152,7 +151,10 @@ public class MechanismSceneTests
         var b = world.AddDynamic(ball, massB, new RigidPose(new Vector3(1, 0, 0)));
         world.Solver.Add(a, b, top, new Pulley
         {
-            LocalWheelA = new(-1, 0, 0), LocalWheelB = new(1, 0, 0), Ratio = ratio, MaximumLength = 10 + ratio * 10,
+            LocalWheelA = new(-1, 0, 0),
+            LocalWheelB = new(1, 0, 0),
+            Ratio = ratio,
+            MaximumLength = 10 + ratio * 10,
         });
         world.Step(60);
         var tension = Gravity * (1 + ratio) / (1 / massA + ratio * ratio / massB);

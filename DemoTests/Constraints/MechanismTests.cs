@@ -97,7 +97,12 @@ public class GearTests : JointTests<Gear>
         var basis = Quaternion.Identity;
         probe.Set(0, new()
         {
-            LocalBasisA = basis, LocalBasisB = basis, LocalHousingBasisA = basis, LocalHousingBasisB = basis, TeethA = 12, TeethB = 31,
+            LocalBasisA = basis,
+            LocalBasisB = basis,
+            LocalHousingBasisA = basis,
+            LocalHousingBasisB = basis,
+            TeethA = 12,
+            TeethB = 31,
         }, bodies);
         AssertClose([0.01], probe.PositionError(0), 1e-5);
     }
@@ -127,7 +132,11 @@ public class RackTests : JointTests<Rack>
     private protected override IEnumerable<(string, Rack, SampleBody[])> DegenerateCases(JointSamples samples) =>
         Rotations.OpposedTwistAxes(samples, NewBodies, basis => new Rack
         {
-            LocalBasisA = basis, LocalHousingBasis = Quaternion.Identity, LocalHousingAxis = Vector3.UnitX, Radius = 1e-3f, Teeth = 1000,
+            LocalBasisA = basis,
+            LocalHousingBasis = Quaternion.Identity,
+            LocalHousingAxis = Vector3.UnitX,
+            Radius = 1e-3f,
+            Teeth = 1000,
         });
 }
 

@@ -1,8 +1,6 @@
 using System;
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 
 namespace Demos.Characters;
 

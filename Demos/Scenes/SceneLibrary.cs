@@ -25,6 +25,10 @@ public static class SceneLibrary
         BuiltIn.Towers.Scene,
         Slope.Scene,
         Newton.Scene,
+        Ragdolls.Scene,
+        Chains.Hundredfold,
+        Chains.Thousandfold,
+        RopeNet.Scene,
     ];
 
     /// <summary>Makes the built-in scene of that name, or reads the file.</summary>
