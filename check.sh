@@ -102,10 +102,8 @@ scene_file() {
     cat "$work/refusal"
     ((status == 0)) && return 0
     ((status == 1)) || return 1
-    word=$(grep -oE "'(mesh|compound)' .*not supported" "$work/refusal" | grep -oE '[a-z]+' | head -n 1)
-    [[ -n "$word" ]] || return 1
-    # A compound is no word of the format but a body of several or displaced shapes.
-    [[ "$word" == compound ]] || grep -qE "^[[:space:]]*$word[[:space:]]" "$1"
+    word=$(grep -oE "'mesh' .*not supported" "$work/refusal" | grep -oE '[a-z]+' | head -n 1)
+    [[ -n "$word" ]] && grep -qE "^[[:space:]]*$word[[:space:]]" "$1"
 }
 
 run_scenes() {
