@@ -253,6 +253,26 @@ public class LoadPathTests
         Assert.Equal(0, CountHeld(world.Simulation.Solver));
     }
 
+    /// <summary>What rests alone needs no graph, and is held in each substep all the same; what slides is not.</summary>
+    [Fact]
+    public void What_rests_alone_is_held_too()
+    {
+        using var world = new LoadPathWorld(LoadPathMode.WhereNeeded);
+        world.Add(new Vector3(0, 0.5f, 0), Vector3.One, 1);
+        world.Add(new Vector3(3, 0.5f, 0), Vector3.One, 1000);
+        world.Add(new Vector3(-100, 0.5f, 9), new Vector3(2, 1, 2), 1, new Vector3(40, 0, 0));
+        world.Run(1);
+        int least = int.MaxValue, most = 0;
+        world.Simulation.Solver.SubstepEnded += _ =>
+        {
+            least = Math.Min(least, CountHeld(world.Simulation.Solver));
+            most = Math.Max(most, CountHeld(world.Simulation.Solver));
+        };
+        world.Run(0.5f);
+        Assert.Equal((2, 2), (least, most));
+        Assert.Equal(0, CountHeld(world.Simulation.Solver));
+    }
+
     static int CountHeld(Solver solver)
     {
         int held = 0;
