@@ -1,8 +1,9 @@
+using System;
+using System.Diagnostics;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -58,14 +59,14 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
     }
 
     internal override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks) =>
-        throw new System.Diagnostics.UnreachableException();
+        throw new UnreachableException();
 
     public void Execute(ref PairBatch batch, DirectedPair* pairs)
     {
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             ref var bundle = ref Bundles(batch)[start >> BundleIndexing.VectorShift];
-            Execute(ref bundle, ref Manifold(batch), pairs, System.Math.Min(Vector<float>.Count, batch.Count - start));
+            Execute(ref bundle, ref Manifold(batch), pairs, Math.Min(Vector<float>.Count, batch.Count - start));
         }
         batch.Count = 0;
     }

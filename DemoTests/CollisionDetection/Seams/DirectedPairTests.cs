@@ -3,7 +3,6 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities;
 using BepuUtilities.Memory;
 using Demos.References;
 using DemoTests.Support;

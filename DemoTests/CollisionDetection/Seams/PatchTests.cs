@@ -59,7 +59,7 @@ public class PatchTests
             one.Step();
             two.Step();
         }
-        Assert.Equal((4, 1), Count(two, bodies[5]) is var top ? top : default);
+        Assert.Equal((4, 2), (Count(two, bodies[5]).Contacts, Count(two, bodies[0]).Patches));
         foreach (var body in bodies)
         {
             var (a, b) = (one.Simulation.Bodies[body].Pose, two.Simulation.Bodies[body].Pose);
@@ -67,6 +67,28 @@ public class PatchTests
             Assert.InRange((a.Orientation - b.Orientation).Length(), 0, 2e-5f);
         }
         Assert.Equal(Count(one, bodies[0]), Count(two, bodies[0]));
+    }
+
+    [Fact]
+    public void A_ball_bounces_on_a_seam_as_beside_it()
+    {
+        using var one = Create(1, One);
+        using var two = Create(1, Two);
+        var heights = new[] { one, two }.Select(world =>
+        {
+            world.Behaviour.Restitution = .6f;
+            var body = world.AddBody(new Sphere(.2f), new RigidPose(new Vector3(1e-4f, 1, 0)));
+            var highest = 0f;
+            for (int i = 0; i < 60; ++i)
+            {
+                world.Step();
+                var bounced = i > 25;
+                highest = Math.Max(highest, bounced ? world.Simulation.Bodies[body].Pose.Position.Y : 0);
+            }
+            return highest;
+        }).ToArray();
+        Assert.InRange(heights[0], .4f, .8f);
+        Assert.Equal(heights[0], heights[1], 1e-4f);
     }
 
     [Fact]

@@ -81,7 +81,8 @@ static class SeamFloors
     {
         foreach (var cell in Cells(grid))
         {
-            Vector3 a = new(-.5f * grid, 0, -.5f * grid), b = new(.5f * grid, 0, -.5f * grid), c = new(-.5f * grid, 0, .5f * grid), d = new(.5f * grid, 0, .5f * grid);
+            var half = .5f * grid;
+            Vector3 a = new(-half, 0, -half), b = new(half, 0, -half), c = new(-half, 0, half), d = new(half, 0, half);
             children.Add(new(shapes.Add(new Triangle(a, b, c)), new RigidPose(cell)));
             children.Add(new(shapes.Add(new Triangle(d, c, b)), new RigidPose(cell)));
         }

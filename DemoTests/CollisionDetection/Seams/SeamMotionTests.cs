@@ -3,7 +3,6 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuUtilities.Memory;
 using DemoTests.CollisionDetection.Children;
 using Xunit;
 using Xunit.Abstractions;
@@ -28,6 +27,7 @@ public class SeamMotionTests(ITestOutputHelper output)
         StandingCylinder,
         RollingCylinder,
         Hull,
+        TwoBoxes,
     }
 
     static readonly Vector3[] HullPoints = [.. Enumerable.Range(0, 16).Select(i =>
@@ -60,6 +60,11 @@ public class SeamMotionTests(ITestOutputHelper output)
                 return world.AddBody(new Cylinder(.3f, .4f), At(.2f, Quaternion.Identity), velocity);
             case Mover.RollingCylinder:
                 return world.AddBody(new Cylinder(.3f, .4f), At(.3f, across), velocity with { Angular = new(0, 0, -speed / .3f) });
+            case Mover.TwoBoxes:
+                var half = world.Simulation.Shapes.Add(new Box(.4f, .3f, .5f));
+                var both = world.AddCluster([new(half, new RigidPose(new Vector3(-.2f, 0, 0))), new(half, new RigidPose(new Vector3(.2f, 0, 0)))]);
+                return world.Simulation.Bodies.Add(BodyDescription.CreateDynamic(
+                    At(.15f, Quaternion.CreateFromAxisAngle(Vector3.UnitY, .7f)), velocity, new Box(.8f, .3f, .5f).ComputeInertia(1), both, -1f));
             default:
                 var hull = new ConvexHull(HullPoints, world.Simulation.BufferPool, out var center);
                 world.Own(hull);
