@@ -7,6 +7,7 @@ using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace DemoTests.Locking;
 
@@ -112,6 +113,19 @@ static class LockOperations
     {
         Change("Shapes.Add", w => w.Simulation.Shapes.Add(new Box(3, 3, 3)));
         Change("Shapes.Add of a new type", w => w.Simulation.Shapes.Add(new Capsule(1, 1)));
+        Change("Shapes.Add of a compound", w =>
+        {
+            w.Pool.Take(1, out Buffer<CompoundChild> children);
+            children[0] = new(RigidPose.Identity, w.OtherShape);
+            try
+            {
+                w.Simulation.Shapes.Add(new Compound(children));
+            }
+            finally
+            {
+                w.Pool.Return(ref children);
+            }
+        });
         Change("Shapes.Remove", w => w.Simulation.Shapes.Remove(w.UnusedShape));
         Change("Shapes.RemoveAndDispose", w => w.Simulation.Shapes.RemoveAndDispose(w.UnusedShape, w.Pool));
         Change("Shapes.RecursivelyRemoveAndDispose", w => w.Simulation.Shapes.RecursivelyRemoveAndDispose(w.UnusedShape, w.Pool));

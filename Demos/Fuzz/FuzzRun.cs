@@ -158,7 +158,7 @@ sealed class FuzzRun : IDisposable
             Exception? outcome = Call(world, operation);
             list?.Add($"{call,5} {operation.Name}{world.Arguments} -> {outcome?.Message}");
             // Shapes that were shared live on: one that is removed gives its name to the next.
-            world.DisposeLostHulls(false);
+            world.DisposeLostShapes(false);
         }
     }
 

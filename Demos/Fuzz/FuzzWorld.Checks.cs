@@ -12,7 +12,7 @@ sealed partial class FuzzWorld
     public void Check(int call)
     {
         Sync();
-        DisposeLostHulls(false);
+        DisposeLostShapes(false);
         if (Bodies.Live.Count != Simulation.Bodies.CountBodies())
             throw new FuzzFailure($"{Simulation.Bodies.CountBodies()} bodies, {Bodies.Live.Count} handles");
         if (Statics.Live.Count != Simulation.Statics.Count)

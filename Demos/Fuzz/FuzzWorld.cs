@@ -67,8 +67,8 @@ sealed partial class FuzzWorld : IDisposable
     /// <summary>As <see cref="KeptBodies"/>.</summary>
     public List<StaticReference> KeptStatics { get; } = [];
 
-    /// <summary>Memory of the hulls that are shapes, which are not disposed with them.</summary>
-    public Dictionary<TypedIndex, ConvexHull> Hulls { get; } = [];
+    /// <summary>How shapes are disposed that own memory, which may be removed without it.</summary>
+    public Dictionary<TypedIndex, Action> Owners { get; } = [];
 
     /// <summary>What the present call was given, for a list of calls.</summary>
     public string Arguments { get; private set; } = "";
@@ -156,15 +156,15 @@ sealed partial class FuzzWorld : IDisposable
         ShapeNames.Forget(Shapes.Exists);
     }
 
-    /// <summary>Returns the memory of hulls that are no shapes any more.</summary>
-    public void DisposeLostHulls(bool all)
+    /// <summary>Returns the memory of what are no shapes any more.</summary>
+    public void DisposeLostShapes(bool all)
     {
-        foreach (TypedIndex name in new List<TypedIndex>(Hulls.Keys))
+        foreach (TypedIndex name in new List<TypedIndex>(Owners.Keys))
         {
             if (!all && Shapes.Exists(name))
                 continue;
-            Hulls[name].Dispose(Pool);
-            Hulls.Remove(name);
+            Owners[name]();
+            Owners.Remove(name);
         }
     }
 
@@ -190,7 +190,7 @@ sealed partial class FuzzWorld : IDisposable
         Simulation.Dispose();
         if (!OwnsShapes)
             Shapes.Dispose();
-        DisposeLostHulls(true);
+        DisposeLostShapes(true);
         CheckWorkers();
         try
         {

@@ -19,6 +19,8 @@ public static class SceneLibrary
         Pile.Scene,
         ShapePile.Scene,
         HullPile.Scene,
+        RagdollTube.Scene,
+        Washer.Scene,
         CylinderTower.Scene,
         Rolling.Scene,
         Coins.Scene,

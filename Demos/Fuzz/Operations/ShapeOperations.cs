@@ -1,8 +1,10 @@
 using System;
+using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace Demos.Fuzz.Operations;
 
@@ -19,6 +21,8 @@ static class ShapeOperations
         new("Shapes.Add cylinder", 10, w => Add(w, new Cylinder(Size(w), Size(w)))),
         new("Shapes.Add triangle", 8, w => Add(w, new Triangle(w.Random.Vector(1), w.Random.Vector(1), w.Random.Vector(1)))),
         new("Shapes.Add hull", 12, AddHull),
+        new("Shapes.Add compound", 8, w => AddCompound(w, false)),
+        new("Shapes.Add big compound", 8, w => AddCompound(w, true)),
         new("Shapes.Add nothing", 1, w => w.Shapes.Add(default(ConvexHull))),
         new("Shapes.Remove", 5, w => w.Shapes.Remove(w.RemovableShape())),
         new("Shapes.RemoveAndDispose", 4, w => RemoveAndDispose(w, false)),
@@ -81,7 +85,38 @@ static class ShapeOperations
             throw;
         }
         w.ShapeNames.Live.Add(name);
-        w.Hulls.Add(name, hull);
+        w.Owners.Add(name, () => hull.Dispose(w.Pool));
+    }
+
+    static void AddCompound(FuzzWorld w, bool isBig)
+    {
+        if (w.ShapeNames.Live.Count >= MaximumShapes)
+            return;
+        w.Pool.Take(1 + w.Random.Below(6), out Buffer<CompoundChild> children);
+        for (int i = 0; i < children.Length; ++i)
+            children[i] = new(w.Random.Spoil(w.AnyPose(), 60), w.AnyShape());
+        Action dispose = () => w.Pool.Return(ref children);
+        try
+        {
+            TypedIndex name;
+            if (isBig)
+            {
+                var big = new BigCompound(children, w.Shapes, w.Pool);
+                dispose = () => big.Dispose(w.Pool);
+                name = w.Shapes.Add(big);
+            }
+            else
+            {
+                name = w.Shapes.Add(new Compound(children));
+            }
+            w.ShapeNames.Live.Add(name);
+            w.Owners.Add(name, dispose);
+        }
+        catch
+        {
+            dispose();
+            throw;
+        }
     }
 
     static void MakeHull(FuzzWorld w)
@@ -128,6 +163,11 @@ static class ShapeOperations
             w.Shapes.RecursivelyRemoveAndDispose(shape, w.Pool);
         else
             w.Shapes.RemoveAndDispose(shape, w.Pool);
-        w.Hulls.Remove(shape);
+        // What went with it has disposed of itself.
+        foreach (TypedIndex name in new List<TypedIndex>(w.Owners.Keys))
+        {
+            if (!w.Shapes.Exists(name))
+                w.Owners.Remove(name);
+        }
     }
 }
