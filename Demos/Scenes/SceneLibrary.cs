@@ -19,6 +19,7 @@ public static class SceneLibrary
         Pile.Scene,
         ShapePile.Scene,
         HullPile.Scene,
+        MeshTerrain.Scene,
         CylinderTower.Scene,
         Rolling.Scene,
         Coins.Scene,

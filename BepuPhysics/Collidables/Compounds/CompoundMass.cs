@@ -73,7 +73,7 @@ struct CompoundMass
         }
         Invert(xx, yx, yy, zx, zy, zz, out var iXX, out var iYX, out var iYY, out var iZX, out var iZY, out var iZZ);
         var error = InertiaRounding.Round([iXX, iYX, iYY, iZX, iZY, iZZ], out var tensor);
-        if (!(error <= ConvexHullMass.GreatestError) || !float.IsNormal(tensor.XX) || !float.IsNormal(tensor.YY) || !float.IsNormal(tensor.ZZ))
+        if (!(error <= MassIntegrals.GreatestError) || !float.IsNormal(tensor.XX) || !float.IsNormal(tensor.YY) || !float.IsNormal(tensor.ZZ))
             throw new ArgumentException("Floats cannot hold the inverse inertia of these children: they have no extent, or are much longer than thick.");
         return new() { InverseMass = (float)(1 / mass), InverseInertiaTensor = tensor };
     }
