@@ -10,9 +10,13 @@ public static partial class DefaultTypes
     {
         RegisterContainer<Compound>(registry);
         RegisterContainer<BigCompound>(registry);
+        RegisterContainer<Mesh>(registry);
         registry.Register(new ContainerPairTask<Compound, Compound>());
         registry.Register(new ContainerPairTask<Compound, BigCompound>());
         registry.Register(new ContainerPairTask<BigCompound, BigCompound>());
+        registry.Register(new ContainerPairTask<Compound, Mesh>());
+        registry.Register(new ContainerPairTask<BigCompound, Mesh>());
+        registry.Register(new ContainerPairTask<Mesh, Mesh>());
     }
 
     static void RegisterContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer

@@ -15,7 +15,8 @@ public unsafe partial struct Mesh
     const int PrefixByteCount = 32;
 
     /// <summary>Loads a mesh from bytes that <see cref="Serialize"/> wrote, on this or any other machine.</summary>
-    /// <remarks>Bytes that were damaged are refused, and nothing outside of them is read. A mesh is loaded as it was built, without building it again.</remarks>
+    /// <remarks>Bytes that were damaged are refused, and nothing outside of them is read. A mesh is loaded as it was built, without building it
+    /// again.</remarks>
     /// <param name="data">The bytes; more may follow.</param>
     /// <param name="pool">Source of the mesh's memory.</param>
     /// <exception cref="ArgumentException">The bytes are not those of a mesh; nothing was taken from the pool.</exception>

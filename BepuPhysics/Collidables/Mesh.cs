@@ -282,6 +282,7 @@ public unsafe partial struct Mesh : IDisposableShape
         GetScaledBounds(out var min, out var max);
         const float Limit = ShapeLimits.MaximumSize;
         if (!(min.X >= -Limit && min.Y >= -Limit && min.Z >= -Limit && max.X <= Limit && max.Y <= Limit && max.Z <= Limit))
-            throw new ArgumentOutOfRangeException(nameof(Scale), scale, $"Scaled, the mesh reaches from {min} to {max}; coordinates must be from {-Limit} to {Limit} m.");
+            throw new ArgumentOutOfRangeException(nameof(Scale), scale,
+                $"Scaled, the mesh reaches from {min} to {max}; coordinates must be from {-Limit} to {Limit} m.");
     }
 }

@@ -149,7 +149,8 @@ public static class MeshInertiaHelper
     public static void GetInertiaOffset(float mass, Vector3 offset, out Symmetric3x3 inertiaOffset)
     {
         float x = offset.X * offset.X, y = offset.Y * offset.Y, z = offset.Z * offset.Z;
-        inertiaOffset = new(-mass * (y + z), mass * (offset.Y * offset.X), -mass * (x + z), mass * (offset.Z * offset.X), mass * (offset.Z * offset.Y), -mass * (x + y));
+        inertiaOffset = new(-mass * (y + z), mass * (offset.Y * offset.X), -mass * (x + z), mass * (offset.Z * offset.X), mass * (offset.Z * offset.Y),
+            -mass * (x + y));
     }
 
     internal static MassIntegrals Integrate<TTriangleSource>(ref TTriangleSource source, bool isClosed) where TTriangleSource : ITriangleSource

@@ -15,11 +15,11 @@ sealed class ShapeFactory(Simulation simulation)
 
     public static bool SupportsCompounds => true;
 
-    public static bool Supports(SceneShapeKind kind) => kind != SceneShapeKind.Mesh;
+    public static bool Supports(SceneShapeKind kind) => Enum.IsDefined(kind);
 
     /// <summary>Adds a shape.</summary>
     /// <param name="shape">The scene's shape.</param>
-    /// <param name="solid">Whether a body of this shape has mass; without meaning to shapes that are their own centre.</param>
+    /// <param name="solid">Whether a body of this shape has mass; matters to a mesh, which then is taken as closed.</param>
     public BuiltShape Build(SceneShape shape, bool solid)
     {
         (float x, float y, float z) = (shape.Size.X, shape.Size.Y, shape.Size.Z);
@@ -30,7 +30,7 @@ sealed class ShapeFactory(Simulation simulation)
             SceneShapeKind.Capsule => Convex(new Capsule(x, 2 * y), Math.PI * x * x * (4 / 3.0 * x + 2.0 * y)),
             SceneShapeKind.Cylinder => Convex(new Cylinder(x, 2 * y), 2 * Math.PI * x * x * y),
             SceneShapeKind.Hull => Hull(shape),
-            _ => throw new SceneException(shape.Line, shape.Word, $"'{shape.Word}' is not supported yet"),
+            _ => Mesh(shape, solid),
         };
     }
 
@@ -70,6 +70,32 @@ sealed class ShapeFactory(Simulation simulation)
         if (!ConvexHullHelper.TryCreateShape(shape.Points, simulation.BufferPool, out Vector3 center, out ConvexHull hull, out _))
             throw new SceneException(shape.Line, shape.Word, "the points of the hull enclose no volume");
         return Convex(hull, HullVolume.Of(hull), center);
+    }
+
+    BuiltShape Mesh(SceneShape shape, bool solid)
+    {
+        // The engine's front is the side from which a triangle is clockwise.
+        var indices = new int[shape.Indices.Length];
+        for (int i = 0; i < indices.Length; i += 3)
+            (indices[i], indices[i + 1], indices[i + 2]) = (shape.Indices[i], shape.Indices[i + 2], shape.Indices[i + 1]);
+        Mesh mesh = default;
+        try
+        {
+            mesh = new Mesh(shape.Points, indices, Vector3.One, simulation.BufferPool);
+            Vector3 center = default;
+            float volume = 0;
+            if (solid)
+            {
+                mesh.ComputeClosedCenterOfMass(out volume, out center);
+                mesh.Recenter(center);
+            }
+            return new BuiltShape(simulation.Shapes.Add(mesh), center, volume, mesh.ComputeClosedInertia);
+        }
+        catch (ArgumentException exception)
+        {
+            mesh.Dispose(simulation.BufferPool);
+            throw new SceneException(shape.Line, shape.Word, exception.Message);
+        }
     }
 
     BuiltShape Convex<TShape>(TShape shape, double volume, Vector3 center = default) where TShape : unmanaged, IConvexShape =>

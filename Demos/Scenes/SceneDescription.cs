@@ -49,6 +49,9 @@ public sealed class SceneDescription
     /// <summary>Adds the convex hull of points and returns its number.</summary>
     public int AddHull(Vector3[] points) => Add(new SceneShape { Kind = SceneShapeKind.Hull, Points = points });
 
+    /// <summary>Adds a mesh and returns its number; triangles are counter-clockwise seen from their front.</summary>
+    public int AddMesh(Vector3[] vertices, int[] indices) => Add(new SceneShape { Kind = SceneShapeKind.Mesh, Points = vertices, Indices = indices });
+
     /// <summary>Adds a static body of one shape and returns its number.</summary>
     public int AddStatic(int shape, Vector3 position, Quaternion? orientation = null) => Add(new SceneBody
     {

@@ -21,6 +21,7 @@ public static class SceneLibrary
         HullPile.Scene,
         RagdollTube.Scene,
         Washer.Scene,
+        MeshTerrain.Scene,
         CylinderTower.Scene,
         Rolling.Scene,
         Coins.Scene,

@@ -150,7 +150,8 @@ static unsafe class MeshBuilder
             header.PlacedCount = count - header.Report.DegenerateTriangleCount - header.Report.DuplicateTriangleCount;
             if (header.PlacedCount == 0)
             {
-                throw new ArgumentException($"None of the {count} triangles has a surface: triangle 0 has corners {weld.Points[indices[0] & ~MeshHeader.LeftOut]}, " +
+                throw new ArgumentException($"None of the {count} triangles has a surface: " +
+                    $"triangle 0 has corners {weld.Points[indices[0] & ~MeshHeader.LeftOut]}, " +
                     $"{weld.Points[indices[1]]}, {weld.Points[indices[2]]}.");
             }
             pool.TakeAtLeast(header.PlacedCount, out order);
@@ -159,7 +160,8 @@ static unsafe class MeshBuilder
             header.NodeCount = nodes.Count;
             Measure(ref header, weld.Points);
             if (header.TotalByteCount > int.MaxValue)
-                throw new ArgumentException($"A mesh of {count} triangles and {weld.Count} vertices takes {header.TotalByteCount} bytes; the limit is {int.MaxValue}.");
+                throw new ArgumentException(
+                    $"A mesh of {count} triangles and {weld.Count} vertices takes {header.TotalByteCount} bytes; the limit is {int.MaxValue}.");
             pool.Take<byte>((int)header.TotalByteCount, out var data);
             var target = (MeshHeader*)data.Memory;
             new Span<byte>(target, MeshHeader.ByteCount).Clear();
@@ -194,7 +196,8 @@ static unsafe class MeshBuilder
     {
         if (IsScale(scale.X) && IsScale(scale.Y) && IsScale(scale.Z))
             return;
-        throw new ArgumentOutOfRangeException(nameof(scale), scale, $"Components of a mesh's scale must be from {LeastScale} to {1 / LeastScale}, or negative.");
+        throw new ArgumentOutOfRangeException(nameof(scale), scale,
+            $"Components of a mesh's scale must be from {LeastScale} to {1 / LeastScale}, or negative.");
     }
 
     const float LeastScale = 1e-9f;

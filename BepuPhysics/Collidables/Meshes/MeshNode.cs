@@ -89,7 +89,8 @@ unsafe struct MeshNode
             for (int axis = 0; axis < 3; ++axis)
             {
                 var last = Origin[axis] + (double)Lines * Step(axis);
-                if ((exponents >> (8 * axis) & 255) is 0 or > 2 * Bias - 1 || !float.IsFinite(Origin[axis]) || (float)last != last || !float.IsFinite((float)last))
+                if ((exponents >> (8 * axis) & 255) is 0 or > 2 * Bias - 1 || !float.IsFinite(Origin[axis]) || (float)last != last ||
+                    !float.IsFinite((float)last))
                     return false;
             }
             return true;
@@ -127,7 +128,8 @@ unsafe struct MeshNode
         var (low, high) = Vector128.Widen(bytes);
         least = origin + Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(low), Vector128.WidenUpper(low)).AsInt32()) * step;
         greatest = origin +
-            (Vector256.Create((float)Lines) - Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(high), Vector128.WidenUpper(high)).AsInt32())) * step;
+            (Vector256.Create((float)Lines) - Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(high),
+                Vector128.WidenUpper(high)).AsInt32())) * step;
     }
 
     /// <summary>Makes the grid of boxes and writes them; where there is no child the box is to be empty, least above greatest.</summary>
@@ -195,9 +197,12 @@ unsafe struct MeshNode
         var reach = Vector128.Narrow(words, words).AsByte();
         var lines = (byte*)node + LineOffset;
         // Greatest lines are bytes 0 to 2 of it, least ones 4 to 6. Written out: only what is known to the compiler is one instruction.
-        var met = Vector128.LessThanOrEqual(Vector128.Load(lines), Vector128.Shuffle(reach, Vector128.Create((byte)0, 0, 0, 0, 0, 0, 0, 0, 4, 4, 4, 4, 4, 4, 4, 4))) &
-            Vector128.LessThanOrEqual(Vector128.Load(lines + 2 * Width), Vector128.Shuffle(reach, Vector128.Create((byte)1, 1, 1, 1, 1, 1, 1, 1, 5, 5, 5, 5, 5, 5, 5, 5))) &
-            Vector128.LessThanOrEqual(Vector128.Load(lines + 4 * Width), Vector128.Shuffle(reach, Vector128.Create((byte)2, 2, 2, 2, 2, 2, 2, 2, 6, 6, 6, 6, 6, 6, 6, 6)));
+        var met = Vector128.LessThanOrEqual(Vector128.Load(lines),
+            Vector128.Shuffle(reach, Vector128.Create((byte)0, 0, 0, 0, 0, 0, 0, 0, 4, 4, 4, 4, 4, 4, 4, 4))) &
+            Vector128.LessThanOrEqual(Vector128.Load(lines + 2 * Width),
+                Vector128.Shuffle(reach, Vector128.Create((byte)1, 1, 1, 1, 1, 1, 1, 1, 5, 5, 5, 5, 5, 5, 5, 5))) &
+            Vector128.LessThanOrEqual(Vector128.Load(lines + 4 * Width),
+                Vector128.Shuffle(reach, Vector128.Create((byte)2, 2, 2, 2, 2, 2, 2, 2, 6, 6, 6, 6, 6, 6, 6, 6)));
         var sides = met.ExtractMostSignificantBits();
         return (int)(sides & sides >> 8 & 255);
     }

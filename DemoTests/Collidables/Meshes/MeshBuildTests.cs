@@ -45,7 +45,8 @@ public sealed class MeshBuildTests : IDisposable
     [Fact]
     public void Corners_with_equal_coordinates_are_one_vertex_and_unused_ones_none()
     {
-        var mesh = new Mesh([new(0, 0, 0), new(1, 0, 0), new(0, 0, 1), new(-0f, 0, -0f), new(1, 0, 1), new(9, 9, 9)], [0, 1, 2, 1, 4, 2, 3, 2, 1], Vector3.One, pool, [5, 6, 7]);
+        var mesh = new Mesh([new(0, 0, 0), new(1, 0, 0), new(0, 0, 1), new(-0f, 0, -0f), new(1, 0, 1), new(9, 9, 9)], [0, 1, 2, 1, 4, 2, 3, 2, 1],
+            Vector3.One, pool, [5, 6, 7]);
         Assert.Equal((4, 3, 6), (mesh.VertexCount, mesh.ChildCount, mesh.GetMaterial(1)));
         mesh.Dispose(pool);
     }
@@ -58,8 +59,10 @@ public sealed class MeshBuildTests : IDisposable
         {
             var sample = MeshSample.Soup(10, 4);
             sample.Vertices[10].Y = bad;
-            var triangles = Enumerable.Range(0, 10).Select(i => new Triangle(sample.Vertices[3 * i], sample.Vertices[3 * i + 1], sample.Vertices[3 * i + 2])).ToArray();
-            foreach (var attempt in new Action[] { () => _ = new Mesh(sample.Vertices, sample.Indices, Vector3.One, pool), () => _ = new Mesh(triangles, Vector3.One, pool) })
+            var triangles = Enumerable.Range(0,
+                10).Select(i => new Triangle(sample.Vertices[3 * i], sample.Vertices[3 * i + 1], sample.Vertices[3 * i + 2])).ToArray();
+            foreach (var attempt in new Action[] { () => _ = new Mesh(sample.Vertices, sample.Indices, Vector3.One, pool),
+                () => _ = new Mesh(triangles, Vector3.One, pool) })
             {
                 var message = Assert.Throws<ArgumentException>(attempt).Message;
                 Assert.Contains(name, message, StringComparison.Ordinal);
@@ -76,7 +79,8 @@ public sealed class MeshBuildTests : IDisposable
         foreach (var index in new[] { -1, 30, int.MinValue })
         {
             sample.Indices[17] = index;
-            Assert.Contains($"triangle 5 has vertex {index}", Assert.Throws<ArgumentException>(() => new Mesh(sample.Vertices, sample.Indices, Vector3.One, pool)).Message, StringComparison.Ordinal);
+            Assert.Contains($"triangle 5 has vertex {index}",
+                Assert.Throws<ArgumentException>(() => new Mesh(sample.Vertices, sample.Indices, Vector3.One, pool)).Message, StringComparison.Ordinal);
         }
         sample.Indices[17] = 17;
         Assert.Throws<ArgumentException>(() => new Mesh(sample.Vertices, sample.Indices.AsSpan()[..29], Vector3.One, pool));
@@ -118,7 +122,8 @@ public sealed class MeshBuildTests : IDisposable
         Assert.Equal([1], found.AsSpan().ToArray());
         found.Dispose(pool);
         mesh.Dispose(pool);
-        Assert.Contains("triangle 0", Assert.Throws<ArgumentException>(() => new Mesh(vertices, [0, 1, 2], Vector3.One, pool)).Message, StringComparison.Ordinal);
+        Assert.Contains("triangle 0", Assert.Throws<ArgumentException>(() => new Mesh(vertices, [0, 1, 2], Vector3.One, pool)).Message,
+            StringComparison.Ordinal);
     }
 
     public static TheoryData<string> OddSets => ["equal", "line", "point", "huge"];

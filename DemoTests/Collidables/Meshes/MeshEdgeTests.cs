@@ -77,10 +77,12 @@ public sealed class MeshEdgeTests : IDisposable
                     }
                     var angle = Math.Atan2(cone.Sines[edge], cone.Cosines[edge]);
                     bent += expected > .01 ? 1 : 0;
-                    // A byte is a step: d(q / 254)^2 pi is 2 sqrt(angle pi) / 254. Before scaling, which multiplies it by the ratio of the factors squared at most.
+                    // A byte is a step: d(q / 254)^2 pi is 2 sqrt(angle pi) / 254. Before scaling, which multiplies it by the ratio of the factors
+                    // squared at most.
                     var ratio = Math.Max(Math.Abs(x), Math.Max(Math.Abs(y), Math.Abs(z))) / Math.Min(Math.Abs(x), Math.Min(Math.Abs(y), Math.Abs(z)));
                     var step = (2 * Math.Sqrt(Math.PI * Math.PI) / 254 + 1e-3) * ratio * ratio;
-                    Assert.InRange(angle, expected - Math.Min(step, ratio == 1 ? 2 * Math.Sqrt((expected + .01) * Math.PI) / 254 + 1e-4 : step), expected + 1e-6);
+                    Assert.InRange(angle, expected - Math.Min(step, ratio == 1 ? 2 * Math.Sqrt((expected + .01) * Math.PI) / 254 + 1e-4 : step),
+                        expected + 1e-6);
                 }
             }
             mesh.Dispose(pool);

@@ -79,7 +79,8 @@ public sealed class MeshInertiaTests : IDisposable
         var count = 0;
         for (int i = 0; i < 400_000; ++i)
         {
-            double x = (random.NextDouble() * 2 - 1) * (Ring + Tube), y = (random.NextDouble() * 2 - 1) * Tube, z = (random.NextDouble() * 2 - 1) * (Ring + Tube);
+            double x = (random.NextDouble() * 2 - 1) * (Ring + Tube), y = (random.NextDouble() * 2 - 1) * Tube,
+                z = (random.NextDouble() * 2 - 1) * (Ring + Tube);
             var across = Math.Sqrt(x * x + z * z) - Ring;
             if (across * across + y * y > Tube * Tube)
                 continue;

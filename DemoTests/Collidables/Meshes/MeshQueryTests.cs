@@ -63,7 +63,8 @@ public sealed class MeshQueryTests : IDisposable
             found.Count = 0;
             mesh.FindLocalOverlaps(min, max, ref found, pool);
             var actual = found.AsSpan().ToArray().Order().ToArray();
-            var expected = Enumerable.Range(0, sample.TriangleCount).Where(triangle => !mesh.IsLeftOut(triangle) && Overlaps(mesh, triangle, min, max)).ToArray();
+            var expected = Enumerable.Range(0, sample.TriangleCount).Where(triangle => !mesh.IsLeftOut(triangle) &&
+                Overlaps(mesh, triangle, min, max)).ToArray();
             total += expected.Length;
             if (isExact)
                 Assert.Equal(expected, actual);

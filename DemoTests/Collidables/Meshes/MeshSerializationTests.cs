@@ -51,7 +51,8 @@ public sealed class MeshSerializationTests : IDisposable
     {
         // Recorded once: a change here is a change of the form, which has a mark of its own.
         var hash = new StateHash();
-        hash.Add((ReadOnlySpan<byte>)Write(new([new(0, 0, 0), new(1, 0, 0), new(0, 0, 1), new(1, .5f, 1), new(2, 0, 0)], [0, 1, 2, 1, 3, 2, 1, 4, 3]), Vector3.One));
+        hash.Add((ReadOnlySpan<byte>)Write(new([new(0, 0, 0), new(1, 0, 0), new(0, 0, 1), new(1, .5f, 1), new(2, 0, 0)], [0, 1, 2, 1, 3, 2, 1, 4, 3]),
+            Vector3.One));
         Assert.Equal("0xEC8422844C4D67AA", $"0x{hash.Value:X}");
     }
 
@@ -88,7 +89,8 @@ public sealed class MeshSerializationTests : IDisposable
                 if (random.Next(2) == 0)
                     damaged[place] ^= (byte)(1 << random.Next(8));
                 else
-                    BitConverter.TryWriteBytes(damaged.AsSpan(place & ~3), random.Next(4) switch { 0 => -1, 1 => int.MaxValue, 2 => random.Next(), _ => 0x7F800000 });
+                    BitConverter.TryWriteBytes(damaged.AsSpan(place & ~3),
+                        random.Next(4) switch { 0 => -1, 1 => int.MaxValue, 2 => random.Next(), _ => 0x7F800000 });
             }
             var hash = new StateHash();
             hash.Add(damaged.AsSpan(0, 4));

@@ -9,16 +9,6 @@ namespace DemoTests.Runner;
 /// <summary>What the library cannot do yet is refused by name, before anything is simulated.</summary>
 public class SceneSupportTests
 {
-    [Theory]
-    [InlineData("mesh 3 1 0 0 0 1 0 0 0 0 1 0 1 2", "mesh")]
-    public void A_shape_that_does_not_exist_is_named(string shape, string word)
-    {
-        var error = Assert.Throws<SceneException>(() => Build(shape, "0 1 1 0 0 0 0 0 0 1 0 0 -1 0 0 0 0 1 0 0 0 0 0 0 0"));
-
-        Assert.Equal($"line 4: '{word}' is not supported yet", error.Message);
-        Assert.Equal(word, error.Token);
-    }
-
     /// <summary>A body falls on a static of the same shape, and on a box.</summary>
     [Theory]
     [InlineData("box 0.5 0.5 0.5")]
@@ -27,6 +17,7 @@ public class SceneSupportTests
     [InlineData("cylinder 0.5 0.5")]
     [InlineData("hull 4 0 0 0 1 0 0 0 1 0 0 0 1")]
     [InlineData("hull 9 -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 0")]
+    [InlineData("mesh 4 4 0 0 0 1 0 0 0 1 0 0 0 1 0 2 1 0 1 3 0 3 2 1 2 3")]
     public void A_shape_that_exists_loads_and_runs(string shape)
     {
         string text = $"scene 1 name n steps 60 friction 0.5 damping 0 sleep 0\nshapes 2\nbox 9 1 9\n{shape}\nbodies 3\n"
@@ -48,6 +39,14 @@ public class SceneSupportTests
         var error = Assert.Throws<SceneException>(() => Build(shape, "2 1 1 0 0 0 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
 
         Assert.Equal((4, "hull"), (error.Line, error.Token));
+    }
+
+    [Fact]
+    public void A_mesh_without_a_surface_is_refused_with_its_line()
+    {
+        var error = Assert.Throws<SceneException>(() => Build("mesh 3 1 0 0 0 1 0 0 2 0 0 0 1 2", "0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal((4, "mesh"), (error.Line, error.Token));
     }
 
     [Theory]

@@ -18,9 +18,7 @@ static class ShapePile
     {
         var random = new SceneRandom(seed);
         var scene = new SceneDescription { Name = Scene.Name, Steps = 600 };
-        var masses = new float[SizeCount * KindCount];
-        for (int i = 0; i < SizeCount; ++i)
-            AddKinds(scene, random, i, masses.AsSpan(i * KindCount));
+        float[] masses = AddPalette(scene, random);
         int ground = scene.AddBox(200, 1, 200);
         scene.AddStatic(ground, new Vector3(0, -1, 0));
         for (int i = 0; i < Columns * Columns * Columns; ++i)
@@ -30,6 +28,15 @@ static class ShapePile
             scene.AddDynamic(i % masses.Length, masses[i % masses.Length], position, random.NextRotation());
         }
         return scene;
+    }
+
+    /// <summary>Adds four shapes of each kind, the kinds in turn, and returns their masses.</summary>
+    public static float[] AddPalette(SceneDescription scene, SceneRandom random)
+    {
+        var masses = new float[SizeCount * KindCount];
+        for (int i = 0; i < SizeCount; ++i)
+            AddKinds(scene, random, i, masses.AsSpan(i * KindCount));
+        return masses;
     }
 
     /// <summary>Adds one shape of each kind, and its mass at one kilogram per cubic metre.</summary>
