@@ -8,6 +8,9 @@ namespace BepuPhysics.CollisionDetection;
 // no corner of a feature shows, the lowest of a rim or of a capsule that stands, is one if it is over the other feature.
 public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>
 {
+    // Part of a shape's size below which a segment is a point.
+    const float ShortestSegment = 1e-5f;
+
     /// <summary>Finds the contacts of a bundle of pairs along directions that are given.</summary>
     /// <param name="a">First shapes.</param>
     /// <param name="b">Second shapes.</param>
@@ -45,7 +48,7 @@ public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWi
         if (TFeatureA.MaximumVertexCount == 1 || TFeatureB.MaximumVertexCount == 1)
             overlap.CandidateCount = 0;
         else
-            overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
+            FindCandidates(ref overlap, exists);
         // The pair is as deep as its deepest corner, so that the origin takes the place of none but where it is deeper.
         var deepest = new Vector<float>(IContactCandidate.None);
         if (TFeatureA.IsRound)
@@ -58,6 +61,19 @@ public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWi
         overlap.PairDepth = deepest;
         var remembered = Vector<int>.Zero;
         FaceReduction.Reduce(overlap, scratch.FrameA, orientationA, exists, ref remembered, ref manifold);
+    }
+
+    // A capsule without a length has no line that another could lie along.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void FindCandidates(ref FaceOverlap overlap, Vector<int> exists)
+    {
+        var shortest = new Vector<float>(ShortestSegment);
+        var (isSegmentA, isSegmentB) = (overlap.A.IsSegment, overlap.B.IsSegment);
+        overlap.A.IsSegment &= Vector.GreaterThan(overlap.A.Extent, overlap.A.Feature.Size * shortest);
+        overlap.B.IsSegment &= Vector.GreaterThan(overlap.B.Extent, overlap.B.Feature.Size * shortest);
+        overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
+        overlap.A.IsSegment = isSegmentA;
+        overlap.B.IsSegment = isSegmentB;
     }
 
     /// <summary>Depth at the origin of the frame, where that is over a feature; none elsewhere.</summary>

@@ -100,10 +100,11 @@ public class SeamMotionTests(ITestOutputHelper output)
     }
 
     // What is not yet as it should be. Slowing down from 20 m/s what stands is tilted, and hops by 7 mm/s on boxes; by 17 and 36 mm/s where triangles know
-    // of no neighbours, as those of a mesh do.
-    static bool IsBeyond(SeamFloor floor, Mover mover, float friction, float speed) => friction > 0 && speed == 20 &&
-        ((floor == SeamFloor.Boxes && mover == Mover.StandingCylinder) ||
-        (floor == SeamFloor.LooseTriangles && mover is (Mover.StandingCylinder or Mover.Hull)));
+    // of no neighbours, as those of a mesh do. A mover of two boxes on a floor of boxes may still hit one.
+    static bool IsBeyond(SeamFloor floor, Mover mover, float friction, float speed) =>
+        (floor == SeamFloor.Boxes && mover == Mover.TwoBoxes) || (friction > 0 && speed == 20 && (
+            (floor == SeamFloor.Boxes && mover == Mover.StandingCylinder) ||
+            (floor == SeamFloor.LooseTriangles && mover is (Mover.StandingCylinder or Mover.Hull))));
 
     void Compare(SeamFloor floor, Mover mover, float friction, float speed)
     {

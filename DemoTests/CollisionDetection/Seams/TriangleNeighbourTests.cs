@@ -14,7 +14,7 @@ public class TriangleNeighbourTests
     const float Radius = .5f;
 
     // Edge AB is along Z at X = 0; the triangle is at positive X, seen from above, its neighbour at negative X.
-    static readonly Triangle Shape = new(new(0, 0, -2), new(0, 0, 2), new(3, 0, 0));
+    static readonly Triangle Shape = new(new(0, 0, 2), new(0, 0, -2), new(3, 0, 0));
 
     static TriangleCone Cone(float degrees, int freeMask = 0)
     {
