@@ -62,7 +62,10 @@ public sealed partial class Shapes
         // Before a batch is made for the type, so that a refused shape leaves no trace.
         shape.Validate();
         if (shape is ICompoundShape compound)
+        {
+            world.CheckAlive();
             CompoundChildren.CheckShapes(compound, this);
+        }
         using var change = Change("Shapes.Add");
         return new(TShape.TypeId, GetOrCreateBatch<TShape>().AddUnlocked(shape));
     }

@@ -37,8 +37,9 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>How the rows are held.</summary>
     static virtual RowKind Kind => RowKind.Equality;
 
-    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes. All, unless a joint says otherwise.</summary>
-    static virtual int LinearRowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+    /// <summary>Whether a row is along a direction; it is about an axis otherwise. All are, unless a joint says otherwise.</summary>
+    /// <param name="row">Number of the row.</param>
+    static virtual bool IsLinear(int row) => true;
 
     /// <summary>Lever arms and axes for the current poses.</summary>
     static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);

@@ -45,7 +45,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             var row = Row(ref error, i);
             if (TJoint.Kind == RowKind.Inequality)
                 row = Wide.Min(row, Vector<float>.Zero);
-            if (i < TJoint.LinearRowCount)
+            if (TJoint.IsLinear(i))
                 linear += row * row;
             else
                 angular += row * row;
@@ -58,7 +58,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 
     static int IConstraint<TBodies, TPrestep, TRows>.RowCount => RowCount;
 
-    static int IConstraint<TBodies, TPrestep, TRows>.LinearRowCount => TJoint.LinearRowCount;
+    static bool IConstraint<TBodies, TPrestep, TRows>.IsLinear(int row) => TJoint.IsLinear(row);
 
     static RowLimit IConstraint<TBodies, TPrestep, TRows>.LimitOf(int row) =>
         TJoint.Kind == RowKind.Inequality ? RowLimit.Positive : IsLimited ? RowLimit.Length : RowLimit.None;

@@ -59,7 +59,7 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
     internal static virtual int RowCount => 0;
 
-    internal static virtual int LinearRowCount => 0;
+    internal static virtual bool IsLinear(int row) => false;
 
     internal static virtual RowLimit LimitOf(int row) => RowLimit.None;
 

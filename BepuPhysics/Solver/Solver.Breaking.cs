@@ -1,6 +1,5 @@
 using System;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -135,7 +134,7 @@ public sealed unsafe partial class Solver
             for (int row = 0; row < processor.RowCount; ++row)
             {
                 var impulse = processor.Impulse(ref batch, location.IndexInTypeBatch, row);
-                if (row < processor.LinearRowCount)
+                if (processor.IsLinear(row))
                     linear += impulse * impulse;
                 else
                     angular += impulse * impulse;

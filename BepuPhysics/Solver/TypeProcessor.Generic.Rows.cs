@@ -10,7 +10,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override int RowCount => TConstraint.RowCount;
 
     /// <inheritdoc/>
-    internal override int LinearRowCount => TConstraint.LinearRowCount;
+    internal override bool IsLinear(int row) => TConstraint.IsLinear(row);
 
     /// <inheritdoc/>
     internal override RowLimit LimitOf(int row) => TConstraint.LimitOf(row);

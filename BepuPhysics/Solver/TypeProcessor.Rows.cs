@@ -10,8 +10,8 @@ public abstract partial class TypeProcessor
     /// <summary>Number of rows of a constraint; 0 where the type is a game's own that does not tell them, and can only be swept over.</summary>
     internal abstract int RowCount { get; }
 
-    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes.</summary>
-    internal abstract int LinearRowCount { get; }
+    /// <summary>Whether a row is along a direction; it is about an axis otherwise.</summary>
+    internal abstract bool IsLinear(int row);
 
     /// <summary>What bounds the impulse of a row.</summary>
     internal abstract RowLimit LimitOf(int row);

@@ -286,7 +286,6 @@ public sealed unsafe class HeightFieldTests : IDisposable
         for (int i = 0; i < children.Count; ++i)
             field.GetLocalChild(children[i], out triangles[i]);
         var mesh = new Mesh(triangles, Vector3.One, pool);
-        pool.Return(ref triangles);
         var scratch = stackalloc byte[IContainer.ScratchByteCount];
         for (int i = 0; i < children.Count; ++i)
         {

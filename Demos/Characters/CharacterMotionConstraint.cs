@@ -164,12 +164,12 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
     static void SolveVertical(ref TBodies bodies, in Substep substep, in CharacterGoalWide goal, in Row up, ref Vector<float> impulse)
     {
         // What is left of the depth may be used up within the substep.
-        var depth = Vector.Max(goal.Depth - up.Moved(bodies), Vector<float>.Zero);
+        var depth = Wide.Max(goal.Depth - up.Moved(bodies), Vector<float>.Zero);
         var missing = depth * substep.InverseDt - up.Velocity(bodies);
         var inverseMass = up.InverseMass(bodies, up);
         var change = Vector.ConditionalSelect(Vector.GreaterThan(inverseMass, Vector<float>.Zero), missing / inverseMass, Vector<float>.Zero);
         var previous = impulse;
-        impulse = Vector.Min(Vector.Max(impulse + change, goal.MaximumVerticalForce * -substep.Dt), Vector<float>.Zero);
+        impulse = Wide.Min(Wide.Max(impulse + change, goal.MaximumVerticalForce * -substep.Dt), Vector<float>.Zero);
         up.Apply(ref bodies, impulse - previous);
     }
 }

@@ -4,7 +4,6 @@ using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
-using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.Collidables;
 

@@ -64,7 +64,9 @@ public partial struct CompoundBuilder
         ComputeInverseInertia(Poses(children), inverseLocalInertias, childMasses);
 
     /// <summary>Inverse mass and inertia of children around their centre of mass, which becomes the origin of their poses.</summary>
-    /// <inheritdoc cref="ComputeInverseInertia(Span{RigidPose}, Span{Symmetric3x3}, Span{float})"/>
+    /// <param name="childPoses">Poses of the children.</param>
+    /// <param name="inverseLocalInertias">Inverse inertia of each child around its own centre, in its frame; zero for one that is a point.</param>
+    /// <param name="childMasses">Masses of the children, kg; more than zero.</param>
     /// <param name="centerOfMass">Centre of mass in the frame that the poses were in.</param>
     public static BodyInertia ComputeInverseInertia(
         Span<RigidPose> childPoses, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses, out Vector3 centerOfMass)
@@ -108,8 +110,12 @@ public partial struct CompoundBuilder
         ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses);
 
     /// <summary>Inverse mass and inertia of convex children around their centre of mass, which becomes the origin of their poses.</summary>
-    /// <inheritdoc cref="ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)"/>
+    /// <param name="children">The children.</param>
+    /// <param name="childMasses">Masses of the children, kg; more than zero.</param>
+    /// <param name="shapes">Shapes that the children refer to.</param>
     /// <param name="centerOfMass">Centre of mass in the frame that the children were in.</param>
+    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist, or floats cannot
+    /// hold the inverse inertia.</exception>
     public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass) =>
         ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses, out centerOfMass);
 

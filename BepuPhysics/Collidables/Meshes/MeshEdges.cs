@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;

@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 // The block of three comes first, as in Rows5: here it is the angular one, and the block of two is linear.
 struct AngularAndTangentRows : IJacobian<AngularAndTangentRows, TwoBodies, Rows5, RowMatrix5>
 {
+    /// <inheritdoc/>
+    public static bool IsLinear(int row) => row >= 3;
+
     /// <summary>The rows at right angles to the line.</summary>
     public LinearTangentRows Tangents;
 

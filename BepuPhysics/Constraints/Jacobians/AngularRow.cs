@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 struct AngularRow : IJacobian<AngularRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     /// <summary>Angular Jacobian of A; of B it is the opposite. A unit vector where nothing else is said.</summary>
     public Vector3Wide Axis;

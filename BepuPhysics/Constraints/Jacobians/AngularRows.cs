@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     /// <summary>Axis times angle of a rotation, the shorter way, at most half a turn.</summary>
     // The arc tangent needs no unit length and is exact for small angles, where the arc cosine of W would have lost all digits.
@@ -51,7 +51,7 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 struct OneBodyAngularRows : IJacobian<OneBodyAngularRows, OneBody, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

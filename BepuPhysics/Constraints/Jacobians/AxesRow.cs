@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
     const float ParallelSine = 1e-6f;

@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints;
 struct GearRow : IJacobian<GearRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     /// <summary>The axis; a unit vector.</summary>
     public Vector3Wide Axis;

@@ -13,8 +13,8 @@ interface IJacobian<TJacobian, TBodies, TRows, TMass>
     where TJacobian : unmanaged, IJacobian<TJacobian, TBodies, TRows, TMass> where TBodies : unmanaged, IBodySlots
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
 {
-    /// <summary>Number of rows, from the first on, that are along directions; the rest are about axes.</summary>
-    static virtual int LinearRowCount => Unsafe.SizeOf<TRows>() / Unsafe.SizeOf<Vector<float>>();
+    /// <summary>Whether a row is along a direction; it is about an axis otherwise.</summary>
+    static virtual bool IsLinear(int row) => true;
 
     /// <summary>J v.</summary>
     static abstract void RelativeVelocity(in TJacobian jacobian, in TBodies bodies, out TRows velocity);
@@ -42,7 +42,7 @@ interface IJacobianJoint<TBodies, TPrestep, TJacobian, TRows, TMass> : IJoint<TB
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged where TJacobian : unmanaged, IJacobian<TJacobian, TBodies, TRows, TMass>
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
 {
-    static int IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.LinearRowCount => TJacobian.LinearRowCount;
+    static bool IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.IsLinear(int row) => TJacobian.IsLinear(row);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.RelativeVelocity(in TJacobian geometry, in TBodies bodies, out TRows velocity) =>

@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows6, RowMatrix6>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 3;
+    public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>
     public Vector3Wide OffsetA;

@@ -12,7 +12,7 @@ namespace BepuPhysics.Constraints;
 struct PointAndTangentRows : IPointJacobian<PointAndTangentRows, TwoBodies, Rows5, RowMatrix5>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 3;
+    public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>
     public Vector3Wide OffsetA;

@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints;
 struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowMatrix2>
 {
     /// <inheritdoc/>
-    public static int LinearRowCount => 0;
+    public static bool IsLinear(int row) => false;
 
     /// <summary>A direction fixed to A, at right angles to the axis.</summary>
     public Vector3Wide TangentX;

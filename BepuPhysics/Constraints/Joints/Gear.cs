@@ -71,6 +71,9 @@ struct GearWide : IWide<Gear>
 readonly struct GearJoint : IJacobianJoint<ThreeBodies, GearWide, HousedRow, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static bool IsLinear(int row) => false;
+
+    /// <inheritdoc/>
     // A JIT root of its own: beside three bodies it would take more locals than the JIT tracks.
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Prepare(in ThreeBodies bodies, in GearWide prestep, out HousedRow geometry)

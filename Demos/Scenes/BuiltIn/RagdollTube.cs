@@ -10,7 +10,7 @@ static class RagdollTube
 
     readonly record struct Link(int A, int B, Vector3 Place, float Swing, float MinimumTwist, float MaximumTwist);
 
-    public static BuiltInScene Scene { get; } = new("ragdoll-tube", "64 ragdolls of 11 parts in a turning tube of 7 boxes", Create);
+    public static BuiltInScene Scene { get; } = new("ragdoll-tube", "64 ragdolls of 11 parts in a turning tube of 7 boxes, by --seed", Create);
 
     static SceneDescription Create(int seed)
     {

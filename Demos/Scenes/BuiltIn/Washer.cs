@@ -9,7 +9,7 @@ static class Washer
     const int Side = 6, Height = 14, BoxCount = 8;
     const float Spacing = 3, HoleRadius = .3f, OuterRadius = .8f, HalfThickness = .08f;
 
-    public static BuiltInScene Scene { get; } = new("washer", "504 rings of 8 boxes dropped on 36 pegs", Create);
+    public static BuiltInScene Scene { get; } = new("washer", "504 rings of 8 boxes dropped on 36 pegs, by --seed", Create);
 
     static SceneDescription Create(int seed)
     {
