@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
-using BepuPhysics.Trees;
 using BepuUtilities.Collections;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
