@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Memory;
 using Xunit;
 
 namespace DemoTests.Compounds;

@@ -1,7 +1,6 @@
 using System;
 using System.Linq;
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
