@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
@@ -109,23 +110,19 @@ static class LockOperations
         void Change(string name, Action<LockedWorld> act) => list.Add(name, (OperationKind.Change, act));
     }
 
+    // Of no pool: the world's may be gone. It stays as long as the process, as the compound does not own it.
+    static unsafe Buffer<CompoundChild> Child(TypedIndex shape)
+    {
+        var child = (CompoundChild*)NativeMemory.Alloc((nuint)sizeof(CompoundChild));
+        *child = new(RigidPose.Identity, shape);
+        return new(child, 1);
+    }
+
     static void Shapes(Dictionary<string, (OperationKind, Action<LockedWorld>)> list)
     {
         Change("Shapes.Add", w => w.Simulation.Shapes.Add(new Box(3, 3, 3)));
         Change("Shapes.Add of a new type", w => w.Simulation.Shapes.Add(new Capsule(1, 1)));
-        Change("Shapes.Add of a compound", w =>
-        {
-            w.Pool.Take(1, out Buffer<CompoundChild> children);
-            children[0] = new(RigidPose.Identity, w.OtherShape);
-            try
-            {
-                w.Simulation.Shapes.Add(new Compound(children));
-            }
-            finally
-            {
-                w.Pool.Return(ref children);
-            }
-        });
+        Change("Shapes.Add of a compound", w => w.Simulation.Shapes.Add(new Compound(Child(w.OtherShape))));
         Change("Shapes.Remove", w => w.Simulation.Shapes.Remove(w.UnusedShape));
         Change("Shapes.RemoveAndDispose", w => w.Simulation.Shapes.RemoveAndDispose(w.UnusedShape, w.Pool));
         Change("Shapes.RecursivelyRemoveAndDispose", w => w.Simulation.Shapes.RecursivelyRemoveAndDispose(w.UnusedShape, w.Pool));
