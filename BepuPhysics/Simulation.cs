@@ -23,6 +23,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public Bodies Bodies { get; }
     /// <summary>All statics.</summary>
     public Statics Statics { get; }
+    /// <summary>Layers of the bodies and statics, which say what meets what.</summary>
+    public CollidableLayers Layers { get; }
     /// <summary>Shapes of the bodies and statics.</summary>
     public Shapes Shapes { get; }
     /// <summary>All constraints, contacts included.</summary>
@@ -60,7 +62,9 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
         { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
-        Bodies.Connect(Solver, BroadPhase, Shapes);
+        Layers = new CollidableLayers(Bodies, Statics, bufferPool, world);
+        Bodies.Connect(Solver, BroadPhase, Shapes, Layers);
+        Statics.Connect(Layers);
         Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
@@ -121,6 +125,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver.Clear();
         Bodies.Clear();
         Statics.Clear();
+        Layers.Dispose();
         BroadPhase.RemoveAllLeaves();
         Quarantine.BeginStep();
         if (ownsShapes)
@@ -165,6 +170,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
+        Layers.Dispose();
         BroadPhase.ReturnMemory();
         if (ownsShapes)
             Shapes.EndWithSimulation();
@@ -192,6 +198,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies.Abandon();
         Quarantine.Abandon();
         Statics.Abandon();
+        Layers.Abandon();
         BroadPhase.Abandon();
         if (!ownsShapes)
             Shapes.Detach(world);

@@ -17,6 +17,7 @@ static class StaticOperations
         new("Statics.GetDescription", 2, w => w.Simulation.Statics.GetDescription(w.AnyStatic())),
         new("Statics.SetShape", 4, w => w.Simulation.Statics.SetShape(w.AnyStatic(), w.AnyShape())),
         new("Statics.UpdateBounds", 3, w => w.Simulation.Statics.UpdateBounds(w.AnyStatic())),
+        new("Layers of a static", 2, w => w.Simulation.Layers[w.AnyStatic()] = BodyOperations.AnyLayers(w)),
         new("Statics.EnsureCapacity", 2, w => w.Simulation.Statics.EnsureCapacity(w.AnyCount())),
         new("Statics.GetDirectReference", 2, w => _ = w.Simulation.Statics.GetDirectReference(w.AnyStatic()).Pose.Position.X),
         new("StaticReference of a handle", 3, w => w.KeptStatics.Add(w.Simulation.Statics[w.AnyStatic()])),
