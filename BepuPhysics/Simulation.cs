@@ -15,6 +15,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
 {
     readonly WorldLock world = new();
     readonly bool ownsShapes;
+    readonly CollidableTraits traits;
 
     /// <summary>Who may do what now.</summary>
     internal WorldLock World => world;
@@ -35,6 +36,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public BroadPhase BroadPhase { get; }
     /// <summary>Finds contacts.</summary>
     public NarrowPhase NarrowPhase { get; private set; } = null!;
+    /// <summary>What touched what in the last step.</summary>
+    public CollisionEvents Events { get; }
     /// <summary>Bodies that the last step had to stop.</summary>
     public Quarantine Quarantine { get; }
     /// <summary>Seconds that each stage of the last step took.</summary>
@@ -62,9 +65,11 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
         { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
-        Layers = new CollidableLayers(Bodies, Statics, bufferPool, world);
-        Bodies.Connect(Solver, BroadPhase, Shapes, Layers);
-        Statics.Connect(Layers);
+        traits = new CollidableTraits(Bodies, Statics, bufferPool);
+        Layers = new CollidableLayers(traits, bufferPool, world);
+        Events = new CollisionEvents(Bodies, traits, Solver, bufferPool, world);
+        Bodies.Connect(Solver, BroadPhase, Shapes, traits);
+        Statics.Connect(traits);
         Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
@@ -125,7 +130,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver.Clear();
         Bodies.Clear();
         Statics.Clear();
-        Layers.Dispose();
+        traits.Clear();
+        Events.Clear();
         BroadPhase.RemoveAllLeaves();
         Quarantine.BeginStep();
         if (ownsShapes)
@@ -170,7 +176,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
-        Layers.Dispose();
+        traits.Clear();
+        Events.Clear();
         BroadPhase.ReturnMemory();
         if (ownsShapes)
             Shapes.EndWithSimulation();
@@ -198,7 +205,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies.Abandon();
         Quarantine.Abandon();
         Statics.Abandon();
-        Layers.Abandon();
+        traits.Abandon();
+        Events.Abandon();
         BroadPhase.Abandon();
         if (!ownsShapes)
             Shapes.Detach(world);

@@ -19,7 +19,7 @@ public sealed unsafe partial class Bodies
     Solver solver = null!;
     BroadPhase broadPhase = null!;
     Shapes shapes = null!;
-    CollidableLayers layers = null!;
+    CollidableTraits traits = null!;
 
     /// <summary>Sets of bodies; set 0 is the active one.</summary>
     public Buffer<BodySet> Sets;
@@ -71,12 +71,12 @@ public sealed unsafe partial class Bodies
         EnsureSlots(initialCapacity);
     }
 
-    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes, CollidableLayers layers)
+    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes, CollidableTraits traits)
     {
         this.solver = solver;
         this.broadPhase = broadPhase;
         this.shapes = shapes;
-        this.layers = layers;
+        this.traits = traits;
     }
 
     /// <summary>Number of bodies in all sets.</summary>
@@ -156,7 +156,7 @@ public sealed unsafe partial class Bodies
             solver.UpdateBodyIndex(set, index);
         }
         Locations[handle.Slot].SetIndex = -1;
-        layers.Forget(new(CollidableMobility.Dynamic, handle));
+        traits.Forget(new(CollidableMobility.Dynamic, handle));
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, Pool);
     }

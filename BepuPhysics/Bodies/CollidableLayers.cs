@@ -13,28 +13,25 @@ public sealed class CollidableLayers
 {
     readonly WorldLock world;
     readonly BufferPool pool;
-    readonly Bodies bodies;
-    readonly Statics statics;
-    CollidableTable<CollisionLayers> table = new(CollisionLayers.Everything);
+    readonly CollidableTraits traits;
 
-    internal CollidableLayers(Bodies bodies, Statics statics, BufferPool pool, WorldLock world)
+    internal CollidableLayers(CollidableTraits traits, BufferPool pool, WorldLock world)
     {
         this.world = world;
         this.pool = pool;
-        this.bodies = bodies;
-        this.statics = statics;
+        this.traits = traits;
     }
 
     /// <summary>Whether any collidable was given layers since the simulation began, or was cleared.</summary>
-    internal bool IsUsed => table.IsUsed;
+    internal bool IsUsed => traits.Layers.IsUsed;
 
     /// <summary>Layers of a body; <see cref="CollisionLayers.Everything"/> unless it was given others.</summary>
     /// <exception cref="System.ArgumentException">There is no such body; nothing was changed.</exception>
     /// <exception cref="System.InvalidOperationException">A value is set while a step, a change or a query is in progress; nothing was changed.</exception>
     public CollisionLayers this[BodyHandle body]
     {
-        get => this[new CollidableReference(CollidableMobility.Dynamic, Existing(body))];
-        set => this[new CollidableReference(CollidableMobility.Dynamic, Existing(body))] = value;
+        get => Of(traits.Existing(body));
+        set => Set(traits.Existing(body), value);
     }
 
     /// <summary>Layers of a static; <see cref="CollisionLayers.Everything"/> unless it was given others.</summary>
@@ -42,8 +39,8 @@ public sealed class CollidableLayers
     /// <exception cref="System.InvalidOperationException">A value is set while a step, a change or a query is in progress; nothing was changed.</exception>
     public CollisionLayers this[StaticHandle still]
     {
-        get => this[new CollidableReference(Existing(still))];
-        set => this[new CollidableReference(Existing(still))] = value;
+        get => Of(traits.Existing(still));
+        set => Set(traits.Existing(still), value);
     }
 
     /// <summary>Layers of a body or static; <see cref="CollisionLayers.Everything"/> unless it was given others.</summary>
@@ -51,17 +48,8 @@ public sealed class CollidableLayers
     /// <exception cref="System.InvalidOperationException">A value is set while a step, a change or a query is in progress; nothing was changed.</exception>
     public CollisionLayers this[CollidableReference collidable]
     {
-        get
-        {
-            CheckExists(collidable);
-            return table[collidable];
-        }
-        set
-        {
-            using var change = world.Change("CollidableLayers.Set");
-            CheckExists(collidable);
-            table.Set(collidable, value, pool);
-        }
+        get => Of(traits.Existing(collidable));
+        set => Set(traits.Existing(collidable), value);
     }
 
     /// <summary>Whether the layers of two collidables let them collide.</summary>
@@ -69,31 +57,11 @@ public sealed class CollidableLayers
     public bool MayMeet(CollidableReference a, CollidableReference b) => CollisionLayers.MayMeet(this[a], this[b]);
 
     /// <summary>As <see cref="this[CollidableReference]"/>, for collidables that are known to exist.</summary>
-    internal CollisionLayers Of(CollidableReference collidable) => table[collidable];
+    internal CollisionLayers Of(CollidableReference collidable) => traits.Layers[collidable];
 
-    internal void Forget(CollidableReference collidable) => table.Forget(collidable);
-
-    internal void Dispose() => table.Dispose(pool);
-
-    internal void Abandon() => table.Abandon();
-
-    BodyHandle Existing(BodyHandle body)
+    void Set(CollidableReference collidable, CollisionLayers value)
     {
-        bodies.CheckHandle(body);
-        return body;
-    }
-
-    StaticHandle Existing(StaticHandle still)
-    {
-        statics.CheckHandle(still);
-        return still;
-    }
-
-    void CheckExists(CollidableReference collidable)
-    {
-        if (collidable.Mobility == CollidableMobility.Static)
-            statics.CheckHandle(collidable.StaticHandle);
-        else
-            bodies.CheckHandle(collidable.BodyHandle);
+        using var change = world.Change("CollidableLayers.Set");
+        traits.Layers.Set(collidable, value, pool);
     }
 }

@@ -15,7 +15,7 @@ public sealed unsafe partial class Statics
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
-    CollidableLayers layers = null!;
+    CollidableTraits traits = null!;
 
     /// <summary>Greatest number of statics.</summary>
     public const int MaximumCount = 1 << HandleLayout.SlotBits;
@@ -49,7 +49,7 @@ public sealed unsafe partial class Statics
         EnsureSlots(initialCapacity);
     }
 
-    internal void Connect(CollidableLayers layers) => this.layers = layers;
+    internal void Connect(CollidableTraits traits) => this.traits = traits;
 
     /// <summary>A static by its handle.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
@@ -150,7 +150,7 @@ public sealed unsafe partial class Statics
             Indices[IndexToHandle[index].Slot] = index;
         }
         Indices[handle.Slot] = -1;
-        layers.Forget(new(handle));
+        traits.Forget(new(handle));
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, pool);
     }

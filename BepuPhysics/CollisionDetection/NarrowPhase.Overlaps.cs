@@ -132,7 +132,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // The constraint of a pair has its bodies in one order for ever.
         if (ComesSecond(a, b))
             (a, b) = (b, a);
-        if (a.Mobility != CollidableMobility.Dynamic)
+        if (a.Mobility != CollidableMobility.Dynamic && !IsSensed(a, b))
             return;
         ref var worker = ref workers[workerIndex];
         if (leafB >= 0 && !Admits(ref worker, leafA, leafB))

@@ -34,7 +34,7 @@ public sealed class CollisionLayersTests
             return true;
         }
 
-        public bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
+        public bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childA, int childB, ref ConvexContactManifold manifold) => true;
 
         public void Dispose() { }
 
@@ -83,7 +83,8 @@ public sealed class CollisionLayersTests
     {
         var pool = new BufferPool();
         var simulation = Simulation.Create(
-            pool, new Filter(givesLayers ? null : filter, floorLayers), new DefaultPoseIntegratorCallbacks(new Vector3(0, -10, 0)), new SolveDescription(1, 4));
+            pool, new Filter(givesLayers ? null : filter, floorLayers), new DefaultPoseIntegratorCallbacks(new Vector3(0, -10, 0)),
+            new SolveDescription(1, 4));
         var floor = simulation.Statics.Add(new StaticDescription(new Vector3(0, -1, 0), simulation.Shapes.Add(new Box(100, 2, 100))));
         if (givesLayers)
             simulation.Layers[floor] = floorLayers;
