@@ -26,14 +26,55 @@ public sealed partial class Simulation
         Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref THitHandler hitHandler, int id = 0) where THitHandler : IRayHitHandler
     {
         using var reading = world.Read("Simulation.RayCast");
+        CheckRay(origin, direction, maximumT, pool);
+        var tester = new CollidableRayTester<THitHandler> { Simulation = this, Hits = new() { Handler = hitHandler } };
+        BroadPhase.CastRay(origin, direction, maximumT, pool, ref tester, id);
+        hitHandler = tester.Hits.Handler;
+    }
+
+    /// <summary>Finds what a ray hits among the collidables that its layers let it meet; the handler hears of no others.</summary>
+    /// <remarks>As without layers, which see.</remarks>
+    /// <param name="origin">Where the ray starts, m.</param>
+    /// <param name="direction">Direction of the ray; its length is the unit in which t is measured. A direction of zero length hits nothing.</param>
+    /// <param name="maximumT">Length of the ray in units of its direction; may be infinite.</param>
+    /// <param name="layers">Layers that the ray is in, and that it meets.</param>
+    /// <param name="pool">Source of temporary memory; a pool of the calling thread.</param>
+    /// <param name="hitHandler">Chooses what to test and receives the hits; copied in and copied back.</param>
+    /// <param name="id">The caller's number for the ray.</param>
+    /// <exception cref="ArgumentException">A component is not finite, or the length is negative or not a number.</exception>
+    public void RayCast<THitHandler>(
+        Vector3 origin, Vector3 direction, float maximumT, CollisionLayers layers, BufferPool pool, ref THitHandler hitHandler, int id = 0)
+        where THitHandler : IRayHitHandler
+    {
+        using var reading = world.Read("Simulation.RayCast");
+        CheckRay(origin, direction, maximumT, pool);
+        var tester = new LayeredRayTester<THitHandler> { Layers = layers };
+        tester.Inner.Simulation = this;
+        tester.Inner.Hits.Handler = hitHandler;
+        BroadPhase.CastRay(origin, direction, maximumT, pool, ref tester, id);
+        hitHandler = tester.Inner.Hits.Handler;
+    }
+
+    static void CheckRay(Vector3 origin, Vector3 direction, float maximumT, BufferPool pool)
+    {
         BodyChecks.Position(origin, nameof(origin));
         BodyChecks.Vector(direction, nameof(direction));
         if (!(maximumT >= 0))
             throw new ArgumentOutOfRangeException(nameof(maximumT), maximumT, "The length of a ray must be zero or more.");
         ArgumentNullException.ThrowIfNull(pool);
-        var tester = new CollidableRayTester<THitHandler> { Simulation = this, Hits = new() { Handler = hitHandler } };
-        BroadPhase.CastRay(origin, direction, maximumT, pool, ref tester, id);
-        hitHandler = tester.Hits.Handler;
+    }
+
+    // Tests the shapes of those that the layers of the ray let it meet.
+    struct LayeredRayTester<THitHandler> : IBroadPhaseRayTester where THitHandler : IRayHitHandler
+    {
+        public CollidableRayTester<THitHandler> Inner;
+        public CollisionLayers Layers;
+
+        public unsafe void RayTest(CollidableReference collidable, RayData* rayData, float* maximumT, BufferPool pool)
+        {
+            if (CollisionLayers.MayMeet(Layers, Inner.Simulation.Layers.Of(collidable)))
+                Inner.RayTest(collidable, rayData, maximumT, pool);
+        }
     }
 
     // Tests the shape of a collidable whose bounds the ray meets.

@@ -76,6 +76,7 @@ public sealed partial class Simulation
         using var stage = world.Stage(operation: "Simulation.Solve");
         using var timer = Profiler.Time(Solver);
         Quarantine.EnsureCapacity();
+        NarrowPhase.BeginEvents();
         try
         {
             Solver.Step(dt, PoseIntegrator, threadDispatcher);
@@ -93,6 +94,7 @@ public sealed partial class Simulation
         {
             Quarantine.Collect();
         }
+        NarrowPhase.EndEvents();
     }
 
     static void CheckDt(float dt)

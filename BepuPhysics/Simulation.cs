@@ -15,6 +15,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
 {
     readonly WorldLock world = new();
     readonly bool ownsShapes;
+    readonly CollidableTraits traits;
 
     /// <summary>Who may do what now.</summary>
     internal WorldLock World => world;
@@ -23,6 +24,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public Bodies Bodies { get; }
     /// <summary>All statics.</summary>
     public Statics Statics { get; }
+    /// <summary>Layers of the bodies and statics, which say what meets what.</summary>
+    public CollidableLayers Layers { get; }
     /// <summary>Shapes of the bodies and statics.</summary>
     public Shapes Shapes { get; }
     /// <summary>All constraints, contacts included.</summary>
@@ -33,6 +36,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public BroadPhase BroadPhase { get; }
     /// <summary>Finds contacts.</summary>
     public NarrowPhase NarrowPhase { get; private set; } = null!;
+    /// <summary>What touched what in the last step.</summary>
+    public CollisionEvents Events { get; }
     /// <summary>Bodies that the last step had to stop.</summary>
     public Quarantine Quarantine { get; }
     /// <summary>Seconds that each stage of the last step took.</summary>
@@ -60,7 +65,11 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
         { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
-        Bodies.Connect(Solver, BroadPhase, Shapes);
+        traits = new CollidableTraits(Bodies, Statics, bufferPool);
+        Layers = new CollidableLayers(traits, bufferPool, world);
+        Events = new CollisionEvents(Bodies, traits, Solver, bufferPool, world);
+        Bodies.Connect(Solver, BroadPhase, Shapes, traits);
+        Statics.Connect(traits);
         Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
@@ -121,6 +130,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver.Clear();
         Bodies.Clear();
         Statics.Clear();
+        traits.Clear();
+        Events.Clear();
         BroadPhase.RemoveAllLeaves();
         Quarantine.BeginStep();
         if (ownsShapes)
@@ -165,6 +176,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
+        traits.Clear();
+        Events.Clear();
         BroadPhase.ReturnMemory();
         if (ownsShapes)
             Shapes.EndWithSimulation();
@@ -192,6 +205,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies.Abandon();
         Quarantine.Abandon();
         Statics.Abandon();
+        traits.Abandon();
+        Events.Abandon();
         BroadPhase.Abandon();
         if (!ownsShapes)
             Shapes.Detach(world);

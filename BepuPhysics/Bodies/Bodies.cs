@@ -19,6 +19,7 @@ public sealed unsafe partial class Bodies
     Solver solver = null!;
     BroadPhase broadPhase = null!;
     Shapes shapes = null!;
+    CollidableTraits traits = null!;
 
     /// <summary>Sets of bodies; set 0 is the active one.</summary>
     public Buffer<BodySet> Sets;
@@ -70,11 +71,12 @@ public sealed unsafe partial class Bodies
         EnsureSlots(initialCapacity);
     }
 
-    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes)
+    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes, CollidableTraits traits)
     {
         this.solver = solver;
         this.broadPhase = broadPhase;
         this.shapes = shapes;
+        this.traits = traits;
     }
 
     /// <summary>Number of bodies in all sets.</summary>
@@ -154,6 +156,7 @@ public sealed unsafe partial class Bodies
             solver.UpdateBodyIndex(set, index);
         }
         Locations[handle.Slot].SetIndex = -1;
+        traits.Forget(new(CollidableMobility.Dynamic, handle));
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, Pool);
     }

@@ -15,6 +15,7 @@ public sealed unsafe partial class Statics
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
+    CollidableTraits traits = null!;
 
     /// <summary>Greatest number of statics.</summary>
     public const int MaximumCount = 1 << HandleLayout.SlotBits;
@@ -47,6 +48,8 @@ public sealed unsafe partial class Statics
         owners = new HandleOwners(HandleLayout.SlotBits, HandleLayout.ValueBits, initialCapacity, pool);
         EnsureSlots(initialCapacity);
     }
+
+    internal void Connect(CollidableTraits traits) => this.traits = traits;
 
     /// <summary>A static by its handle.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
@@ -147,6 +150,7 @@ public sealed unsafe partial class Statics
             Indices[IndexToHandle[index].Slot] = index;
         }
         Indices[handle.Slot] = -1;
+        traits.Forget(new(handle));
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, pool);
     }

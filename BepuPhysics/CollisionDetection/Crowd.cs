@@ -76,7 +76,7 @@ unsafe struct Crowd
     }
 
     /// <summary>Counts the pairs of all active leaves, and decides which are left out.</summary>
-    public void Count(Bodies bodies, BroadPhase broadPhase, BufferPool pool, IThreadDispatcher? dispatcher)
+    public void Count(Bodies bodies, BroadPhase broadPhase, CollidableLayers layers, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         var leafCount = broadPhase.ActiveTree.LeafCount;
         var workerCount = dispatcher?.ThreadCount ?? 1;
@@ -85,7 +85,7 @@ unsafe struct Crowd
         counts.Clear(0, leafCount * workerCount);
         try
         {
-            var handler = new Counter { Counts = counts.Memory, LeafCount = leafCount, Leaves = broadPhase.ActiveLeaves.Memory };
+            var handler = new Counter { Counts = counts.Memory, LeafCount = leafCount, Leaves = broadPhase.ActiveLeaves.Memory, Layers = layers };
             broadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
             for (int i = leafCount; i < leafCount * workerCount; ++i)
                 counts[i % leafCount] += counts[i];
@@ -127,16 +127,19 @@ unsafe struct Crowd
             pool.Return(ref places);
     }
 
-    // Counts the pairs of which one is dynamic and none is static.
+    // Counts the pairs that may meet of which one is dynamic and none is static.
     struct Counter : IBroadPhaseOverlapHandler
     {
         public int* Counts;
         public int LeafCount;
         public CollidableReference* Leaves;
+        public CollidableLayers Layers;
 
         public readonly void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic)
         {
             if (bIsStatic || (Leaves[leafA].Mobility != CollidableMobility.Dynamic && Leaves[leafB].Mobility != CollidableMobility.Dynamic))
+                return;
+            if (!CollisionLayers.MayMeet(Layers.Of(Leaves[leafA]), Layers.Of(Leaves[leafB])))
                 return;
             var counts = Counts + (nint)workerIndex * LeafCount;
             ++counts[leafA];

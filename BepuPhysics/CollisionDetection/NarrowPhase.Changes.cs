@@ -71,6 +71,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void ApplyChanges()
     {
+        if (Simulation.Events.UsesSensors)
+            GatherSensed();
         RemoveUnseenPairs();
         RemoveGoneManifolds();
         order.Count = 0;

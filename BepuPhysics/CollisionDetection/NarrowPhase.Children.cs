@@ -92,7 +92,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void ConfigureChildren(int workerIndex, int pairId, int childA, int childB, ref ConvexContactManifold manifold)
     {
-        if (!Callbacks.ConfigureContactManifold(workerIndex, workers[workerIndex].TestedPairs[pairId].Pair, childA, childB, ref manifold))
+        ref var tested = ref workers[workerIndex].TestedPairs[pairId];
+        if (!tested.IsSensor && !Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, childA, childB, ref manifold))
             manifold.Count = 0;
     }
 
@@ -100,6 +101,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         ref var worker = ref workers[workerIndex];
         var tested = worker.TestedPairs.Take(pairId, worker.Pool);
+        if (tested.IsSensor)
+        {
+            NoteSensed(workerIndex, tested.Pair, results);
+            return;
+        }
         if (!Configure(workerIndex, tested.Pair, offsetB, results, out var material))
         {
             foreach (ref var result in results)

@@ -28,6 +28,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public QuickList<PendingManifold> Pending;
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
+        public QuickList<CollidablePair> Sensed;
         /// <summary>Null where the worker has no memory: before a step, and after it.</summary>
         public BufferPool Pool;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
@@ -86,6 +87,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     {
         var a = pair.A;
         var b = pair.B;
+        var isSensor = false;
+        if (Simulation.Events.UsesSensors && !IsTested(pair, out isSensor))
+            return;
         var bodies = Simulation.Bodies;
         ref var locationA = ref bodies.Locations[a.Slot];
         ref var setA = ref bodies.SetOf(locationA);
@@ -114,15 +118,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
             return;
         CallbackChecks.Margin(ref margin, ownMargin, a, b);
+        if (isSensor)
+            margin = 0;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
         Unsafe.SkipInit(out TestedPair tested);
         tested.Pair = pair;
-        tested.CacheIndex = cacheIndex;
+        tested.CacheIndex = isSensor ? -1 : cacheIndex;
         tested.Constraint = default;
         tested.ConstraintTypeId = CachedManifold.NoConstraint;
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
+        tested.IsSensor = isSensor;
         if (task.Expands)
         {
             TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
@@ -175,6 +182,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
 
     void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
+        if (tested.IsSensor)
+        {
+            NoteSensed(workerIndex, tested.Pair, ref manifold);
+            return;
+        }
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
             if (tested.KeepsHistory)
@@ -235,6 +247,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Release(ref worker.Pending, worker.Pool);
         Release(ref worker.Bouncing, worker.Pool);
         Release(ref worker.Gone, worker.Pool);
+        Release(ref worker.Sensed, worker.Pool);
         worker.Pool = null!;
     }
 

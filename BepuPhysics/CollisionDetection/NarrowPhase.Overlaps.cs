@@ -18,6 +18,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB], leafA, bIsStatic ? -1 : leafB);
     }
 
+    // The same where some collidables were given layers.
+    readonly struct LayeredOverlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase, CollidableLayers layers) : IBroadPhaseOverlapHandler
+    {
+        public void Handle(int workerIndex, int leafA, int leafB, bool bIsStatic)
+        {
+            var a = broadPhase.ActiveLeaves[leafA];
+            var b = bIsStatic ? broadPhase.StaticLeaves[leafB] : broadPhase.ActiveLeaves[leafB];
+            if (CollisionLayers.MayMeet(layers.Of(a), layers.Of(b)))
+                narrowPhase.Enqueue(workerIndex, a, b, leafA, bIsStatic ? -1 : leafB);
+        }
+    }
+
     internal override void FindContacts(float dt, IThreadDispatcher? dispatcher)
     {
         var count = dispatcher?.ThreadCount ?? 1;
@@ -26,12 +38,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         try
         {
             if (crowd.CountsFirst)
-                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Pool, dispatcher);
+                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Simulation.Layers, Pool, dispatcher);
             if (!TryTestPairs(count, dt, dispatcher))
             {
                 ReleaseWorkers();
                 ForgetContacts();
-                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Pool, dispatcher);
+                crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Simulation.Layers, Pool, dispatcher);
                 TryTestPairs(count, dt, dispatcher);
             }
             var skipped = 0L;
@@ -58,8 +70,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
         for (int i = 0; i < workerCount; ++i)
             Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher);
-        var handler = new Overlaps(this, Simulation.BroadPhase);
-        Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
+        FindOverlaps(dispatcher);
         for (int i = 0; i < workerCount; ++i)
             crowd.AddRest(workers[i].PairsLeft);
         if (crowd.HasTooMany)
@@ -67,6 +78,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var flush = new FlushWork { NarrowPhase = this, WorkerCount = workerCount };
         StagedWork.Run(ref flush, dispatcher);
         return true;
+    }
+
+    // Two instances of the same loop, so that layers cost nothing where there are none.
+    void FindOverlaps(IThreadDispatcher? dispatcher)
+    {
+        if (Simulation.Layers.IsUsed)
+        {
+            var layered = new LayeredOverlaps(this, Simulation.BroadPhase, Simulation.Layers);
+            Simulation.BroadPhase.FindOverlapsOfLeaves(ref layered, dispatcher);
+            return;
+        }
+        var handler = new Overlaps(this, Simulation.BroadPhase);
+        Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
     }
 
     void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher)
@@ -108,7 +132,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // The constraint of a pair has its bodies in one order for ever.
         if (ComesSecond(a, b))
             (a, b) = (b, a);
-        if (a.Mobility != CollidableMobility.Dynamic)
+        if (a.Mobility != CollidableMobility.Dynamic && !IsSensed(a, b))
             return;
         ref var worker = ref workers[workerIndex];
         if (leafB >= 0 && !Admits(ref worker, leafA, leafB))

@@ -19,6 +19,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(TCallbacks), nameof(INarrowPhaseCallbacks.ConfigureContactManifold), manifold);
         Precompilation.CompileAll(typeof(CollisionBatcher<Completion>));
         Precompilation.Compile(typeof(BroadPhase), nameof(BroadPhase.FindOverlapsOfLeaves), typeof(Overlaps));
+        if (Simulation.Layers.IsUsed)
+        {
+            Precompilation.Compile(typeof(BroadPhase), nameof(BroadPhase.FindOverlapsOfLeaves), typeof(LayeredOverlaps));
+            OverlapFinder.Compile<LayeredOverlaps>();
+        }
         StagedWork.Compile<FlushWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));

@@ -152,6 +152,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         manifold.Constraint = handle;
         manifold.ConstraintTypeId = typeId;
         CountConstraint(ref cached, 1);
+        if (Simulation.Events.IsUsed)
+            Simulation.Events.NoteContacts(pair);
     }
 
     // A pair has contacts from its first constraint to its last.

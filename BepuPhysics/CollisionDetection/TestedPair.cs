@@ -13,6 +13,9 @@ struct TestedPair
     /// <summary>Whether tests of the pair's shapes keep histories, and whether the pair has one.</summary>
     public bool KeepsHistory, HasHistory;
 
+    /// <summary>Whether one of the two is a sensor, so that the pair has no constraint.</summary>
+    public bool IsSensor;
+
     /// <summary>Whether the pair's constraint can be written in place.</summary>
     /// <param name="typeId">Type id of the constraint that the pair is to have.</param>
     // A pair whose shapes have become such as keep a history gets it with the changes.

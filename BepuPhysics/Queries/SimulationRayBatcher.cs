@@ -8,8 +8,9 @@ namespace BepuPhysics;
 
 /// <summary>Collects rays and casts them together.</summary>
 /// <remarks>
-/// For code that collects its rays; each is cast by itself, as by <see cref="Simulation.RayCast"/>, in the order in which they were
-/// added. Used by one thread at a time; any number of batchers may ask one simulation. Do not copy one that holds rays.
+/// For code that collects its rays; each is cast by itself, as by
+/// <see cref="Simulation.RayCast{THitHandler}(Vector3, Vector3, float, BufferPool, ref THitHandler, int)"/>, in the order in which they were added.
+/// Used by one thread at a time; any number of batchers may ask one simulation. Do not copy one that holds rays.
 /// </remarks>
 public struct SimulationRayBatcher<TRayHitHandler> : IDisposable where TRayHitHandler : struct, IRayHitHandler
 {

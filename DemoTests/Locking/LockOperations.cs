@@ -56,6 +56,12 @@ static class LockOperations
         Change("BecomeKinematic", w => w.Simulation.Bodies[w.Body].BecomeKinematic());
         Change("Bodies.UpdateBounds", w => w.Simulation.Bodies.UpdateBounds(w.Body));
         Change("Bodies.EnsureCapacity", w => w.Simulation.Bodies.EnsureCapacity(5000));
+        Change("Layers of a body", w => w.Simulation.Layers[w.Body] = new CollisionLayers(1, 2));
+        Change("Layers of a static", w => w.Simulation.Layers[w.SpareStatic] = new CollisionLayers(1, 2));
+        Change("Events.Listen", w => w.Simulation.Events.Listen(w.Body, EventMask.All));
+        Change("Events.SetSensor", w => w.Simulation.Events.SetSensor(w.SpareStatic, true));
+        list.Add("Events.HitSpeed", (OperationKind.Write, w => w.Simulation.Events.HitSpeed = 2));
+        list.Add("GetInterpolatedPose", (OperationKind.Query, w => w.Simulation.Bodies.GetInterpolatedPose(w.Body, .5f)));
         list.Add("ApplyImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyImpulse(Vector3.UnitY, Vector3.UnitX)));
         list.Add("ApplyLinearImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyLinearImpulse(Vector3.UnitY)));
         list.Add("ApplyAngularImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyAngularImpulse(Vector3.UnitY)));

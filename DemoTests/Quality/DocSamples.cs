@@ -13,7 +13,7 @@ namespace DemoTests.Quality;
 /// The code of the documentation, as it stands there, in methods that run it. A block of the documentation may be a part of a method
 /// here; what surrounds it makes it a whole.
 /// </summary>
-static class DocSamples
+static partial class DocSamples
 {
     // README.md. The program itself; HelloWorldPackageTests runs it from the packages.
     public static void HelloWorld()

@@ -15,6 +15,7 @@ namespace DemoTests.Quality;
 public sealed class DocSamplesTests : IDisposable
 {
     const string Samples = "DemoTests/Quality/DocSamples.cs";
+    const string EventSamples = "DemoTests/Quality/DocSamples.Events.cs";
     const float Dt = 1 / 60f;
 
     readonly BufferPool pool = new();
@@ -26,7 +27,7 @@ public sealed class DocSamplesTests : IDisposable
     [Theory, MemberData(nameof(Pages))]
     public void Code_of_a_page_is_among_the_samples(string page)
     {
-        var samples = Lines(RepositoryFiles.Read(Samples));
+        var samples = Lines(RepositoryFiles.Read(Samples) + RepositoryFiles.Read(EventSamples));
         foreach (var block in DocPages.CodeBlocks(page))
         {
             var lines = Lines(block);

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using Xunit;
 
@@ -55,6 +56,7 @@ sealed class Scramble : IDisposable
     public void Check()
     {
         Simulation.Validate();
+        CheckEvents();
         Assert.Equal(bodies.Count, world.Bodies.CountBodies());
         Assert.Equal(statics.Count, world.Statics.Count);
         Assert.All(bodies, body => Assert.True(world.Bodies.BodyExists(body)));
@@ -63,6 +65,23 @@ sealed class Scramble : IDisposable
         Assert.Equal(joints.Count + contacts, world.Solver.CountConstraints());
         foreach (var joint in joints)
             AssertDescription(joint);
+    }
+
+    // What is told of a step is of bodies and statics that took part in it, which are those that there are now.
+    void CheckEvents()
+    {
+        foreach (ref readonly var begun in Simulation.Events.Began)
+            CheckExists(begun.Pair);
+        foreach (ref readonly var persisting in Simulation.Events.Persisting)
+            CheckExists(persisting.Pair);
+    }
+
+    void CheckExists(CollidablePair pair)
+    {
+        Assert.True(world.Bodies.BodyExists(pair.A.BodyHandle));
+        Assert.True(pair.B.Mobility == CollidableMobility.Static
+            ? world.Statics.StaticExists(pair.B.StaticHandle)
+            : world.Bodies.BodyExists(pair.B.BodyHandle));
     }
 
     public void Clear()
@@ -92,7 +111,7 @@ sealed class Scramble : IDisposable
 
     void Change()
     {
-        switch (random.Next(16))
+        switch (random.Next(19))
         {
             case 0 or 1 or 2:
                 if (bodies.Count < MostBodies)
@@ -128,6 +147,16 @@ sealed class Scramble : IDisposable
             case 14:
                 if (joints.Count > 0)
                     RemoveJoint(random.Next(joints.Count));
+                break;
+            case 16:
+                Simulation.Events.Listen(AnyBody(), (EventMask)random.Next(16));
+                break;
+            case 17:
+                Simulation.Layers[AnyBody()] = random.Next(3) > 0 ? CollisionLayers.Everything : new((uint)random.Next(4), (uint)random.Next(4));
+                break;
+            case 18:
+                if (statics.Count > 1)
+                    Simulation.Events.SetSensor(statics[random.Next(1, statics.Count)], random.Next(2) == 0);
                 break;
             default:
                 world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));

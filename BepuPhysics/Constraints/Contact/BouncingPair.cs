@@ -25,6 +25,8 @@ struct BouncingPair
     public FourFloats Hidden;
     /// <summary>Impacts in this substep.</summary>
     public int ImpactCount;
+    /// <summary>What impacts have pushed along the normal in this step, N s.</summary>
+    public float Impulse;
     /// <summary>Index of body A in the active set.</summary>
     public int A;
     /// <summary>Index of body B, or -1 where nothing moves it.</summary>

@@ -43,6 +43,21 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient) =>
         pairs.Add(new() { Constraint = constraint, ContactCount = contactCount, Coefficient = coefficient }, pool);
 
+    /// <summary>Number of contact constraints that are watched.</summary>
+    internal int PairCount => pairs.Count;
+
+    /// <summary>What the bounces of a constraint have pushed along its normal in the last step, N s.</summary>
+    /// <param name="index">Which of those that are watched.</param>
+    /// <param name="constraint">The constraint.</param>
+    /// <param name="impulse">The impulse.</param>
+    /// <returns>Whether there were any.</returns>
+    internal bool TryGetBounce(int index, out ConstraintHandle constraint, out float impulse)
+    {
+        constraint = pairs[index].Constraint;
+        impulse = pairs[index].Impulse;
+        return impulse > 0;
+    }
+
     /// <summary>Begins a step: nothing is watched.</summary>
     internal void BeginStep()
     {
@@ -197,6 +212,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             ++pair.ImpactCount;
             var contacts = Contacts(pair);
             PairImpact.Find(contacts, pair, dt, out var changeA, out var changeB);
+            pair.Impulse += NormalImpulse(contacts, changeA, changeB);
             var time = pair.Time;
             contacts.Push(pair.A, changeA);
             Move(contacts, pair.A, changeA.Linear * -time, dt);
@@ -205,6 +221,14 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             contacts.Push(pair.B, changeB);
             Move(contacts, pair.B, changeB.Linear * -time, dt);
         }
+    }
+
+    // By the body that the impulse moves more surely; one that only turns tells nothing.
+    static float NormalImpulse(in ContactRows contacts, in BodyVelocity changeA, in BodyVelocity changeB)
+    {
+        if (contacts.InertiaA.InverseMass > 0)
+            return Exact.Dot(changeA.Linear, contacts.Normal) / contacts.InertiaA.InverseMass;
+        return contacts.InertiaB.InverseMass > 0 ? -Exact.Dot(changeB.Linear, contacts.Normal) / contacts.InertiaB.InverseMass : 0;
     }
 
     // Moves a body whose velocity has changed, and looks at its pairs again.

@@ -3,6 +3,7 @@ using System.Numerics;
 using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 
 namespace Demos.Fuzz.Operations;
@@ -20,6 +21,10 @@ static class BodyOperations
         new("Bodies.SetShape", 8, w => w.Simulation.Bodies.SetShape(w.AnyBody(), w.AnyShape())),
         new("Bodies.SetLocalInertia", 8, w => w.Simulation.Bodies.SetLocalInertia(w.AnyBody(), w.Random.Spoil(Inertia(w), 20))),
         new("Bodies.UpdateBounds", 5, w => w.Simulation.Bodies.UpdateBounds(w.AnyBody())),
+        new("Layers of a body", 3, w => w.Simulation.Layers[w.AnyBody()] = AnyLayers(w)),
+        new("Events.Listen to a body", 8, w => w.Simulation.Events.Listen(w.AnyBody(), (EventMask)w.Random.Below(20))),
+        new("Events.SetSensor of a body", 2, w => w.Simulation.Events.SetSensor(w.AnyBody(), w.Random.Percent(40))),
+        new("Bodies.GetInterpolatedPose", 2, w => w.Simulation.Bodies.GetInterpolatedPose(w.AnyBody(), w.Random.Spoil(w.Random.Number(0, 1), 10))),
         new("Bodies.EnsureCapacity", 3, w => w.Simulation.Bodies.EnsureCapacity(w.AnyCount())),
         new("Bodies.MinimumConstraintCapacityPerBody", 2, w => w.Simulation.Bodies.MinimumConstraintCapacityPerBody = w.AnyCount()),
         new("Bodies.EnumerateConnectedBodies", 4, w =>
@@ -72,6 +77,11 @@ static class BodyOperations
         }),
         Of("LocalInertia written", 1, WriteInertia),
     ];
+
+    // Most of them everything, or soon nothing would collide any more.
+    internal static CollisionLayers AnyLayers(FuzzWorld w) => w.Random.Percent(60)
+        ? CollisionLayers.Everything
+        : new((uint)w.Random.Below(16), (uint)w.Random.Below(16));
 
     struct Counter : IForEach<BodyHandle>
     {

@@ -21,6 +21,12 @@ static unsafe class QueryOperations
             w.Tell($"{origin} {direction} {length}");
             w.Simulation.RayCast(origin, direction, length, w.Pool, ref hits);
         }),
+        new("Simulation.RayCast with layers", 4, w =>
+        {
+            var hits = new Hits { World = w };
+            w.Simulation.RayCast(w.Random.Spoil(w.Random.Vector(4), 6), w.Random.Spoil(w.Random.Direction(), 6), w.Random.Spoil(w.Random.Number(0, 20), 10),
+                BodyOperations.AnyLayers(w), w.Pool, ref hits);
+        }),
         new("BroadPhase.GetOverlaps", 6, w =>
         {
             var counter = new Counter { Left = w.Random.Below(20) };

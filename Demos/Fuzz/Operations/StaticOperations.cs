@@ -1,5 +1,6 @@
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
 
 namespace Demos.Fuzz.Operations;
 
@@ -17,6 +18,9 @@ static class StaticOperations
         new("Statics.GetDescription", 2, w => w.Simulation.Statics.GetDescription(w.AnyStatic())),
         new("Statics.SetShape", 4, w => w.Simulation.Statics.SetShape(w.AnyStatic(), w.AnyShape())),
         new("Statics.UpdateBounds", 3, w => w.Simulation.Statics.UpdateBounds(w.AnyStatic())),
+        new("Events.Listen to a static", 4, w => w.Simulation.Events.Listen(w.AnyStatic(), (EventMask)w.Random.Below(20))),
+        new("Events.SetSensor of a static", 1, w => w.Simulation.Events.SetSensor(w.AnyStatic(), w.Random.Percent(40))),
+        new("Layers of a static", 2, w => w.Simulation.Layers[w.AnyStatic()] = BodyOperations.AnyLayers(w)),
         new("Statics.EnsureCapacity", 2, w => w.Simulation.Statics.EnsureCapacity(w.AnyCount())),
         new("Statics.GetDirectReference", 2, w => _ = w.Simulation.Statics.GetDirectReference(w.AnyStatic()).Pose.Position.X),
         new("StaticReference of a handle", 3, w => w.KeptStatics.Add(w.Simulation.Statics[w.AnyStatic()])),

@@ -1,0 +1,72 @@
+using System.Collections.Generic;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The contacts of a listened pair after a step, as a manifold of the deepest four.</summary>
+struct ContactSnapshot
+{
+    public CollidablePair Pair;
+    public bool Touches;
+    /// <summary>Whether all contacts share a normal.</summary>
+    public bool IsConvex;
+    public NonconvexContactManifold Contacts;
+
+    /// <summary>The contacts, which share a normal.</summary>
+    public readonly ConvexContactManifold ToConvex()
+    {
+        var result = new ConvexContactManifold { OffsetB = Contacts.OffsetB, Count = Contacts.Count, Normal = Contacts.GetNormal(0) };
+        for (int i = 0; i < Contacts.Count; ++i)
+            result[i] = Contacts[i];
+        return result;
+    }
+
+    /// <summary>Adds a contact, in the place of the shallowest if there is no room and that one is shallower.</summary>
+    internal void Add(in Contact contact)
+    {
+        if (Contacts.Count < NonconvexContactManifold.MaximumContactCount)
+        {
+            Contacts[Contacts.Count++] = contact;
+            return;
+        }
+        int shallowest = 0;
+        for (int i = 1; i < Contacts.Count; ++i)
+        {
+            if (Contacts.GetDepth(i) < Contacts.GetDepth(shallowest))
+                shallowest = i;
+        }
+        if (contact.Depth > Contacts.GetDepth(shallowest))
+            Contacts[shallowest] = contact;
+    }
+}
+
+public sealed unsafe partial class CollisionEvents
+{
+    /// <summary>Lists all pairs that are listened to and have contacts, touching or not, as the last step has left them.</summary>
+    internal void AddSnapshots(List<ContactSnapshot> snapshots)
+    {
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            ref var pair = ref pairs[i];
+            if (pair.IsSensor || pair.ManifoldCount == 0)
+                continue;
+            var snapshot = new ContactSnapshot { Pair = pair.Pair, Touches = pair.Touches, IsConvex = pair.ManifoldCount == 1 };
+            snapshot.Contacts.OffsetB = pair.OffsetB;
+            for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)
+            {
+                ref var manifold = ref stage.Manifolds[j];
+                for (int k = manifold.FirstContact; k < manifold.FirstContact + manifold.ContactCount; ++k)
+                {
+                    ref var contact = ref stage.Contacts[k];
+                    snapshot.Add(new()
+                    {
+                        Offset = contact.Position - pair.CenterOfA,
+                        Depth = contact.Depth,
+                        Normal = contact.Normal,
+                        FeatureId = contact.FeatureId,
+                    });
+                }
+            }
+            snapshots.Add(snapshot);
+        }
+    }
+}

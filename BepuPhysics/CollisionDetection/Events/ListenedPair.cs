@@ -1,0 +1,53 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A pair that somebody listens to: while it has contacts, or a sensor sees the other.</summary>
+struct ListenedPair
+{
+    public CollidablePair Pair;
+    /// <summary>What either of the two is listened to for.</summary>
+    public EventMask Mask;
+    public bool IsSensor;
+    /// <summary>Whether it touched in the last step that was completed.</summary>
+    public bool Touches;
+    /// <summary>Whether it has contacts, or is seen, in this step.</summary>
+    public bool Exists;
+    public int FirstManifold;
+    public int ManifoldCount;
+    /// <summary>Where the centre of A was when collisions were detected, and that of B relative to it.</summary>
+    public Vector3 CenterOfA, OffsetB;
+    /// <summary>Sum of the impulses of this step's bounces.</summary>
+    public float BounceImpulse;
+
+    /// <summary>By slots, then by generations: whether slots were others' before does not change the order.</summary>
+    public static int Compare(in ListenedPair a, in ListenedPair b)
+    {
+        const ulong ordering = (ulong)CollidableReference.OrderMask << 32 | CollidableReference.OrderMask;
+        var keyA = Key(a.Pair);
+        var keyB = Key(b.Pair);
+        var bySlots = (keyA & ordering).CompareTo(keyB & ordering);
+        if (bySlots != 0)
+            return bySlots;
+        return keyA != keyB ? keyA.CompareTo(keyB) : a.IsSensor.CompareTo(b.IsSensor);
+    }
+
+    static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
+
+    internal struct Order : IComparerRef<ListenedPair>
+    {
+        public readonly int Compare(ref ListenedPair a, ref ListenedPair b) => ListenedPair.Compare(a, b);
+    }
+}
+
+/// <summary>A contact constraint whose pair is listened to, for one step.</summary>
+struct ListenedManifold
+{
+    public ConstraintHandle Constraint;
+    public int ContactCount;
+    public int FirstContact;
+    public float ApproachSpeed;
+    public Vector3 Friction;
+}

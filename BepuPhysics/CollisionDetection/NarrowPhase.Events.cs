@@ -1,0 +1,26 @@
+namespace BepuPhysics.CollisionDetection;
+
+// What the events of a step need to know of pairs and bounces.
+public abstract partial class NarrowPhase
+{
+    /// <summary>Finds the contacts whose impulses are to be told.</summary>
+    internal void BeginEvents()
+    {
+        if (Simulation.Events.IsUsed)
+            Simulation.Events.BeginSolve(ref Pairs);
+    }
+
+    /// <summary>Tells what has happened in the step.</summary>
+    internal void EndEvents()
+    {
+        if (!Simulation.Events.IsUsed)
+            return;
+        // A bounce is no impulse of a constraint.
+        for (int i = 0; i < Restitution.PairCount; ++i)
+        {
+            if (Restitution.TryGetBounce(i, out var constraint, out var impulse))
+                Simulation.Events.AddBounce(pairOfConstraint[constraint.Slot], impulse);
+        }
+        Simulation.Events.EndSolve();
+    }
+}
