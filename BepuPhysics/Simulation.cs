@@ -15,6 +15,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
 {
     readonly WorldLock world = new();
     readonly bool ownsShapes;
+    readonly SleepingIslands islands;
 
     /// <summary>Who may do what now.</summary>
     internal WorldLock World => world;
@@ -33,6 +34,10 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public BroadPhase BroadPhase { get; }
     /// <summary>Finds contacts.</summary>
     public NarrowPhase NarrowPhase { get; private set; } = null!;
+    /// <summary>Puts to sleep what rests.</summary>
+    public IslandSleeper Sleeper { get; }
+    /// <summary>Wakes what sleeps.</summary>
+    public IslandAwakener Awakener { get; }
     /// <summary>Bodies that the last step had to stop.</summary>
     public Quarantine Quarantine { get; }
     /// <summary>Seconds that each stage of the last step took.</summary>
@@ -60,7 +65,12 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Solver = new Solver(Bodies, bufferPool, solveDescription, sizes.Constraints, world)
         { MinimumCapacityPerTypeBatch = Math.Max(16, sizes.ConstraintsPerTypeBatch) };
         Bodies.MinimumConstraintCapacityPerBody = Math.Max(1, sizes.ConstraintCountPerBodyEstimate);
-        Bodies.Connect(Solver, BroadPhase, Shapes);
+        islands = new SleepingIslands(Bodies, Solver, bufferPool);
+        Sleeper = new IslandSleeper(Bodies, Solver, islands, bufferPool);
+        Awakener = new IslandAwakener(world, Bodies, Solver, BroadPhase, islands, bufferPool);
+        Bodies.Connect(Solver, BroadPhase, Shapes, Statics, Sleeper, Awakener);
+        Statics.Connect(Bodies, Awakener);
+        Solver.Connect(Awakener);
         Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
@@ -107,6 +117,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         NarrowPhase = new NarrowPhase<TNarrowPhaseCallbacks>(
             this, narrowPhaseCallbacks, DefaultTypes.CreateDefaultCollisionTaskRegistry(), initialPairCapacity);
         Solver.OnContactRemoved(NarrowPhase.Forget);
+        islands.NarrowPhase = NarrowPhase;
         PoseIntegrator.Initialize(this);
         NarrowPhase.Initialize();
     }
@@ -122,6 +133,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Bodies.Clear();
         Statics.Clear();
         BroadPhase.RemoveAllLeaves();
+        islands.Clear();
+        Sleeper.Clear();
         Quarantine.BeginStep();
         if (ownsShapes)
             Shapes.ClearUnlocked();
@@ -162,6 +175,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase?.Dispose();
         Solver.Dispose();
+        islands.Dispose();
+        Awakener.Dispose();
         Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
@@ -189,6 +204,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase.Abandon();
         Solver.Abandon();
+        islands.Abandon();
+        Awakener.Abandon();
         Bodies.Abandon();
         Quarantine.Abandon();
         Statics.Abandon();

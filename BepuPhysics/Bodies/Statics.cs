@@ -15,6 +15,8 @@ public sealed unsafe partial class Statics
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
+    Bodies bodies = null!;
+    IslandAwakener awakener = null!;
 
     /// <summary>Greatest number of statics.</summary>
     public const int MaximumCount = 1 << HandleLayout.SlotBits;
@@ -46,6 +48,12 @@ public sealed unsafe partial class Statics
         pool.Take(initialCapacity, out StaticsBuffer);
         owners = new HandleOwners(HandleLayout.SlotBits, HandleLayout.ValueBits, initialCapacity, pool);
         EnsureSlots(initialCapacity);
+    }
+
+    internal void Connect(Bodies bodies, IslandAwakener awakener)
+    {
+        this.bodies = bodies;
+        this.awakener = awakener;
     }
 
     /// <summary>A static by its handle.</summary>
@@ -96,15 +104,36 @@ public sealed unsafe partial class Statics
         return ref StaticsBuffer[Indices[handle.Slot]];
     }
 
-    /// <summary>Adds a static.</summary>
+    /// <summary>Adds a static and wakes the dynamic bodies that it may touch.</summary>
     /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
     /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
     public StaticHandle Add(in StaticDescription description)
+    {
+        var filter = default(StaticsShouldntAwakenKinematics);
+        return Add(description, ref filter);
+    }
+
+    /// <summary>Adds a static and wakes nobody.</summary>
+    /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
+    public StaticHandle AddWithoutAwakeningBodies(in StaticDescription description)
+    {
+        var filter = default(StaticsShouldntAwakenBodies);
+        return Add(description, ref filter);
+    }
+
+    /// <summary>Adds a static and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
+    public StaticHandle Add<TAwakeningFilter>(in StaticDescription description, ref TAwakeningFilter filter)
+        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
         using var change = world.Change("Statics.Add");
         Validate(description);
         MakeRoom();
         var bounds = BoundsOf(description.Pose, description.Shape);
+        awakener.BeginRequests();
+        awakener.Request(bounds, ref filter);
         // All memory has been taken: from here on nothing fails.
         var handle = new StaticHandle(owners.Claim(HandlePool.Take()));
         var index = Count++;
@@ -113,29 +142,48 @@ public sealed unsafe partial class Statics
         StaticsBuffer[index] = new() { Pose = description.Pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
         shapes.BeginUse(description.Shape);
         AddToBroadPhase(index, bounds);
+        awakener.WakeRequested();
         return handle;
     }
 
-    /// <summary>Removes a static.</summary>
+    /// <summary>Removes a static and wakes the dynamic bodies that may have touched it.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
     public void Remove(StaticHandle handle)
     {
-        using var change = world.Change("Statics.Remove");
-        CheckHandle(handle);
-        RemoveStaticAt(Indices[handle.Slot]);
+        var filter = default(StaticsShouldntAwakenKinematics);
+        Remove(handle, ref filter);
     }
 
-    /// <summary>Removes a static by its index; the last one takes its place.</summary>
+    /// <summary>Removes a static and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">There is no such static.</exception>
+    public void Remove<TAwakeningFilter>(StaticHandle handle, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
+    {
+        using var change = world.Change("Statics.Remove");
+        CheckHandle(handle);
+        RemoveStaticAt(Indices[handle.Slot], ref filter);
+    }
+
+    /// <summary>Removes a static by its index, where the last one takes its place, and wakes the dynamic bodies that may have touched it.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
     public void RemoveAt(int index)
     {
-        using var change = world.Change("Statics.RemoveAt");
-        CheckIndex(index);
-        RemoveStaticAt(index);
+        var filter = default(StaticsShouldntAwakenKinematics);
+        RemoveAt(index, ref filter);
     }
 
-    void RemoveStaticAt(int index)
+    /// <summary>Removes a static by its index, where the last one takes its place, and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
+    public void RemoveAt<TAwakeningFilter>(int index, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
+        using var change = world.Change("Statics.RemoveAt");
+        CheckIndex(index);
+        RemoveStaticAt(index, ref filter);
+    }
+
+    void RemoveStaticAt<TAwakeningFilter>(int index, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
+    {
+        awakener.BeginRequests();
+        awakener.Request(BoundsAt(index), ref filter);
         RemoveFromBroadPhase(index);
         shapes.EndUse(StaticsBuffer[index].Shape);
         var handle = IndexToHandle[index];
@@ -149,11 +197,21 @@ public sealed unsafe partial class Statics
         Indices[handle.Slot] = -1;
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, pool);
+        awakener.WakeRequested();
     }
 
-    /// <summary>Gives a static another shape.</summary>
+    /// <summary>Gives a static another shape and wakes the dynamic bodies that it may touch, or may have touched.</summary>
     /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
     public void SetShape(StaticHandle handle, TypedIndex shape)
+    {
+        var filter = default(StaticsShouldntAwakenKinematics);
+        SetShape(handle, shape, ref filter);
+    }
+
+    /// <summary>Gives a static another shape and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
+    public void SetShape<TAwakeningFilter>(StaticHandle handle, TypedIndex shape, ref TAwakeningFilter filter)
+        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
         using var change = world.Change("Statics.SetShape");
         CheckHandle(handle);
@@ -161,14 +219,24 @@ public sealed unsafe partial class Statics
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
         var bounds = CheckedBounds(index, target.Pose, shape);
+        RequestAround(index, bounds, ref filter);
         shapes.ChangeUse(target.Shape, shape);
         target.Shape = shape;
         Replace(index, bounds);
     }
 
-    /// <summary>Makes a static what a description says.</summary>
+    /// <summary>Makes a static what a description says and wakes the dynamic bodies that it may touch, or may have touched.</summary>
     /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
     public void ApplyDescription(StaticHandle handle, in StaticDescription description)
+    {
+        var filter = default(StaticsShouldntAwakenKinematics);
+        ApplyDescription(handle, description, ref filter);
+    }
+
+    /// <summary>Makes a static what a description says and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    public void ApplyDescription<TAwakeningFilter>(StaticHandle handle, in StaticDescription description, ref TAwakeningFilter filter)
+        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
         using var change = world.Change("Statics.ApplyDescription");
         CheckHandle(handle);
@@ -176,6 +244,7 @@ public sealed unsafe partial class Statics
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
         var bounds = CheckedBounds(index, description.Pose, description.Shape);
+        RequestAround(index, bounds, ref filter);
         shapes.ChangeUse(target.Shape, description.Shape);
         target.Pose = description.Pose;
         target.Shape = description.Shape;
@@ -199,7 +268,7 @@ public sealed unsafe partial class Statics
         return description;
     }
 
-    /// <summary>Moves the bounds of a static to where its pose says.</summary>
+    /// <summary>Moves the bounds of a static to where its pose says and wakes the dynamic bodies there, and where they were.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
     /// <exception cref="InvalidOperationException">Its pose is not finite; nothing was changed.</exception>
     public void UpdateBounds(StaticHandle handle)
@@ -208,7 +277,10 @@ public sealed unsafe partial class Statics
         CheckHandle(handle);
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
-        Replace(index, CheckedBounds(index, target.Pose, target.Shape));
+        var bounds = CheckedBounds(index, target.Pose, target.Shape);
+        var filter = default(StaticsShouldntAwakenKinematics);
+        RequestAround(index, bounds, ref filter);
+        Replace(index, bounds);
     }
 
     // A pool may lend more than was asked for, and not to both alike.
@@ -310,14 +382,30 @@ public sealed unsafe partial class Statics
     {
         var leaf = StaticsBuffer[index].BroadPhaseIndex;
         if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
-            StaticsBuffer[Indices[moved.StaticHandle.Slot]].BroadPhaseIndex = leaf;
+            bodies.FollowStaticLeaf(moved, leaf);
     }
 
-    // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew.
+    // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew. Wakes who was asked for.
     void Replace(int index, BoundingBox bounds)
     {
         RemoveFromBroadPhase(index);
         AddToBroadPhase(index, bounds);
+        awakener.WakeRequested();
+    }
+
+    // Who wakes is found before anything changes: the filter is the game's and may throw.
+    void RequestAround<TAwakeningFilter>(int index, in BoundingBox bounds, ref TAwakeningFilter filter)
+        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
+    {
+        awakener.BeginRequests();
+        awakener.Request(BoundsAt(index), ref filter);
+        awakener.Request(bounds, ref filter);
+    }
+
+    BoundingBox BoundsAt(int index)
+    {
+        broadPhase.GetStaticBoundsPointers(StaticsBuffer[index].BroadPhaseIndex, out var min, out var max);
+        return new(*min, *max);
     }
 
     internal void Clear()

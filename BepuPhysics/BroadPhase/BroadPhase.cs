@@ -164,7 +164,12 @@ public sealed unsafe partial class BroadPhase : IDisposable
     public void UpdateStaticBounds(int broadPhaseIndex, Vector3 min, Vector3 max)
     {
         using var change = world.Change("BroadPhase.UpdateStaticBounds");
-        StaticTree.UpdateBounds(broadPhaseIndex, min, max);
+        UpdateStaticLeaf(broadPhaseIndex, min, max);
+    }
+
+    internal void UpdateStaticLeaf(int index, Vector3 min, Vector3 max)
+    {
+        StaticTree.UpdateBounds(index, min, max);
         ++staticChanges;
     }
 
@@ -176,6 +181,9 @@ public sealed unsafe partial class BroadPhase : IDisposable
         using var change = world.Change("BroadPhase.Update");
         UpdateTrees();
     }
+
+    /// <summary>Whether something is left to do where no body is awake.</summary>
+    internal bool IsUpdateDue => IsWorthBuilding(staticChanges, StaticTree.LeafCount);
 
     internal void UpdateTrees()
     {

@@ -16,7 +16,9 @@ sealed class Scramble : IDisposable
 {
     const int MostBodies = 90;
     const float Extent = 7;
-    static readonly BodyActivityDescription neverSleep = new(-1);
+    // Bodies that may sleep do so in the very scramble, and are at rest no sooner than others.
+    readonly BodyActivityDescription activity;
+    readonly bool sleeps;
 
     readonly Random random;
     readonly TestWorld world;
@@ -31,8 +33,10 @@ sealed class Scramble : IDisposable
         public bool Has(BodyHandle body) => A == body || B == body;
     }
 
-    public Scramble(int seed, int threads, SimulationAllocationSizes? sizes)
+    public Scramble(int seed, int threads, SimulationAllocationSizes? sizes, bool sleeps = false)
     {
+        this.sleeps = sleeps;
+        activity = sleeps ? new(.3f, 3) : new(-1);
         random = new Random(seed);
         world = new TestWorld(threads: threads, sizes: sizes);
         Fill();
@@ -43,7 +47,7 @@ sealed class Scramble : IDisposable
     /// <summary>Some changes and a step.</summary>
     public void Round()
     {
-        int changes = random.Next(6);
+        int changes = sleeps && random.Next(4) > 0 ? 0 : random.Next(6);
         for (int i = 0; i < changes; ++i)
             Change();
         if (random.Next(8) == 0)
@@ -92,7 +96,7 @@ sealed class Scramble : IDisposable
 
     void Change()
     {
-        switch (random.Next(16))
+        switch (random.Next(sleeps ? 22 : 16))
         {
             case 0 or 1 or 2:
                 if (bodies.Count < MostBodies)
@@ -129,8 +133,27 @@ sealed class Scramble : IDisposable
                 if (joints.Count > 0)
                     RemoveJoint(random.Next(joints.Count));
                 break;
-            default:
+            case 15:
                 world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));
+                break;
+            case 16 or 17:
+                SetAwake(world.Bodies[AnyBody()], random.Next(2) == 0);
+                break;
+            case 18:
+                Teleport(world.Bodies[AnyBody()]);
+                break;
+            case 19:
+                world.Bodies[AnyBody()].Velocity = new BodyVelocity(TestWorld.Scatter(random, 2), TestWorld.Scatter(random, 2));
+                break;
+            case 20:
+                if (joints.Count > 0)
+                    TouchJoint(joints[random.Next(joints.Count)]);
+                break;
+            default:
+                if (random.Next(4) == 0)
+                    Simulation.Awakener.AwakenAll();
+                else
+                    Simulation.Awakener.AwakenBody(AnyBody());
                 break;
         }
     }
@@ -147,8 +170,36 @@ sealed class Scramble : IDisposable
         var velocity = new BodyVelocity(TestWorld.Scatter(random, 4), TestWorld.Scatter(random, 4));
         CollidableDescription collidable = random.Next(10) == 0 ? default : AnyShape();
         return random.Next(6) == 0
-            ? BodyDescription.CreateKinematic(pose, collidable, neverSleep)
-            : BodyDescription.CreateDynamic(pose, velocity, new Box(1, 1, 1).ComputeInertia(1 + random.NextSingle()), collidable, neverSleep);
+            ? BodyDescription.CreateKinematic(pose, collidable, activity)
+            : BodyDescription.CreateDynamic(pose, velocity, new Box(1, 1, 1).ComputeInertia(1 + random.NextSingle()), collidable, activity);
+    }
+
+    static void SetAwake(BodyReference body, bool value)
+    {
+        body.Awake = value;
+        Assert.Equal(value, body.Awake);
+    }
+
+    // Asleep or not, with and without telling anybody.
+    void Teleport(BodyReference body)
+    {
+        body.Pose.Position = Place();
+        body.Pose.Orientation = TestWorld.Turn(random);
+        if (random.Next(2) == 0)
+            body.UpdateBounds();
+        if (random.Next(2) == 0)
+            body.Awake = true;
+    }
+
+    void TouchJoint(Joint joint)
+    {
+        if (joint.Kind != 0)
+            return;
+        world.Solver.GetDescription<BallSocket>(joint.Handle, out var description);
+        if (random.Next(2) == 0)
+            world.Solver.ApplyDescription(joint.Handle, description);
+        else
+            world.Solver.ApplyDescriptionWithoutWaking(joint.Handle, description);
     }
 
     void AddBody() => bodies.Add(world.Bodies.Add(AnyDescription()));
