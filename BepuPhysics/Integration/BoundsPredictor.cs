@@ -49,9 +49,10 @@ unsafe struct BoundsPredictor : IStagedWork
         var start = bundle * Vector<float>.Count;
         var count = Math.Min(Vector<float>.Count, set.Count - start);
         var activities = set.Activity.Memory + start;
+        var speeds = (float*)&speedSquared;
         int ripe = 0;
         for (int i = 0; i < count; ++i)
-            ripe += activities[i].Note(speedSquared[i]);
+            ripe += activities[i].Note(speeds[i]);
         var collidables = set.Collidables.Memory + start;
         Span<int> shapeIndices = stackalloc int[Vector<float>.Count];
         int done = 0;

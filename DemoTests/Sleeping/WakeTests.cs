@@ -210,6 +210,20 @@ public class WakeTests
     }
 
     [Fact]
+    public void A_static_whose_pose_was_written_wakes_who_is_there_with_its_bounds()
+    {
+        using var world = new SleepWorld();
+        var stacks = new[] { world.AddStack(-10, 2), world.AddStack(0, 2), world.AddStack(10, 2) };
+        var post = world.World.AddStatic(new Box(.5f, 1, .5f), new RigidPose(new Vector3(-9.2f, .5f, 0)));
+        world.Settle();
+        var reference = world.World.Statics[post];
+        reference.Pose.Position = new Vector3(.7f, .5f, 0);
+        world.AssertAwake();
+        reference.UpdateBounds();
+        world.AssertAwake(stacks[0].Concat(stacks[1]));
+    }
+
+    [Fact]
     public void A_joint_wakes_both_of_its_islands()
     {
         using var world = new SleepWorld();

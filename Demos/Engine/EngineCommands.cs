@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using Demos.Fuzz;
+using Demos.Sleeping;
 using Demos.Towers;
 
 namespace Demos.Engine;
@@ -11,5 +12,5 @@ static class EngineCommands
 {
     /// <summary>The commands.</summary>
     /// <param name="guard">Runs an action and turns what is wrong with the input into a message.</param>
-    public static IEnumerable<Command> Create(Func<ParseResult, Func<int>, int> guard) => [FuzzCommand.Create(guard), TowersCommand.Create(guard)];
+    public static IEnumerable<Command> Create(Func<ParseResult, Func<int>, int> guard) => [FuzzCommand.Create(guard), TowersCommand.Create(guard), SleepCommand.Create(guard)];
 }

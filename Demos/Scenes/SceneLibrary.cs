@@ -25,6 +25,10 @@ public static class SceneLibrary
         BuiltIn.Towers.Scene,
         Slope.Scene,
         Newton.Scene,
+        ManyStatics.Scene,
+        WakingWave.Scene,
+        SettledCity.Scene,
+        SettledCity.Alone,
     ];
 
     /// <summary>Makes the built-in scene of that name, or reads the file.</summary>
