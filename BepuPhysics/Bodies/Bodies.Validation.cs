@@ -59,7 +59,8 @@ public sealed partial class Bodies
         var leafLimit = set.IsAsleep ? broadPhase.StaticTree.LeafCount : broadPhase.ActiveTree.LeafCount;
         Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)leafLimit, "leaf of body", handle);
         // Also that the leaf knows whether the body is kinematic.
-        Invariant.Require((set.IsAsleep ? broadPhase.StaticLeaves : broadPhase.ActiveLeaves)[collidable.BroadPhaseIndex] == ReferenceAt(set, index), "collidable of the leaf of body", handle);
+        var leaves = set.IsAsleep ? broadPhase.StaticLeaves : broadPhase.ActiveLeaves;
+        Invariant.Require(leaves[collidable.BroadPhaseIndex] == ReferenceAt(set, index), "collidable of the leaf of body", handle);
         ++leafCount;
     }
 

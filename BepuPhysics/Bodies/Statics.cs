@@ -2,7 +2,6 @@ using System;
 using System.Diagnostics.CodeAnalysis;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -200,58 +199,6 @@ public sealed unsafe partial class Statics
         awakener.WakeRequested();
     }
 
-    /// <summary>Gives a static another shape and wakes the dynamic bodies that it may touch, or may have touched.</summary>
-    /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
-    public void SetShape(StaticHandle handle, TypedIndex shape)
-    {
-        var filter = default(StaticsShouldntAwakenKinematics);
-        SetShape(handle, shape, ref filter);
-    }
-
-    /// <summary>Gives a static another shape and wakes the bodies that a filter chooses.</summary>
-    /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
-    public void SetShape<TAwakeningFilter>(StaticHandle handle, TypedIndex shape, ref TAwakeningFilter filter)
-        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
-    {
-        using var change = world.Change("Statics.SetShape");
-        CheckHandle(handle);
-        shapes.CheckExists(shape, nameof(shape));
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, target.Pose, shape);
-        RequestAround(index, bounds, ref filter);
-        shapes.ChangeUse(target.Shape, shape);
-        target.Shape = shape;
-        Replace(index, bounds);
-    }
-
-    /// <summary>Makes a static what a description says and wakes the dynamic bodies that it may touch, or may have touched.</summary>
-    /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
-    public void ApplyDescription(StaticHandle handle, in StaticDescription description)
-    {
-        var filter = default(StaticsShouldntAwakenKinematics);
-        ApplyDescription(handle, description, ref filter);
-    }
-
-    /// <summary>Makes a static what a description says and wakes the bodies that a filter chooses.</summary>
-    /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
-    public void ApplyDescription<TAwakeningFilter>(StaticHandle handle, in StaticDescription description, ref TAwakeningFilter filter)
-        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
-    {
-        using var change = world.Change("Statics.ApplyDescription");
-        CheckHandle(handle);
-        Validate(description);
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, description.Pose, description.Shape);
-        RequestAround(index, bounds, ref filter);
-        shapes.ChangeUse(target.Shape, description.Shape);
-        target.Pose = description.Pose;
-        target.Shape = description.Shape;
-        target.Continuity = description.Continuity;
-        Replace(index, bounds);
-    }
-
     /// <summary>Describes a static as it is now.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
     public void GetDescription(StaticHandle handle, out StaticDescription description)
@@ -266,21 +213,6 @@ public sealed unsafe partial class Statics
     {
         GetDescription(handle, out var description);
         return description;
-    }
-
-    /// <summary>Moves the bounds of a static to where its pose says and wakes the dynamic bodies there, and where they were.</summary>
-    /// <exception cref="ArgumentException">There is no such static.</exception>
-    /// <exception cref="InvalidOperationException">Its pose is not finite; nothing was changed.</exception>
-    public void UpdateBounds(StaticHandle handle)
-    {
-        using var change = world.Change("Statics.UpdateBounds");
-        CheckHandle(handle);
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, target.Pose, target.Shape);
-        var filter = default(StaticsShouldntAwakenKinematics);
-        RequestAround(index, bounds, ref filter);
-        Replace(index, bounds);
     }
 
     // A pool may lend more than was asked for, and not to both alike.
@@ -367,14 +299,6 @@ public sealed unsafe partial class Statics
         return bounds;
     }
 
-    BoundingBox CheckedBounds(int index, in RigidPose pose, TypedIndex shape)
-    {
-        var bounds = BoundsOf(pose, shape);
-        if (!BoxMath.IsValid(bounds.Min, bounds.Max))
-            throw new InvalidOperationException($"There are no finite bounds of {IndexToHandle[index]}: its pose is {pose}.");
-        return bounds;
-    }
-
     void AddToBroadPhase(int index, BoundingBox bounds) =>
         StaticsBuffer[index].BroadPhaseIndex = broadPhase.AddStaticLeaf(new CollidableReference(IndexToHandle[index]), bounds);
 
@@ -383,29 +307,6 @@ public sealed unsafe partial class Statics
         var leaf = StaticsBuffer[index].BroadPhaseIndex;
         if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
             bodies.FollowStaticLeaf(moved, leaf);
-    }
-
-    // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew. Wakes who was asked for.
-    void Replace(int index, BoundingBox bounds)
-    {
-        RemoveFromBroadPhase(index);
-        AddToBroadPhase(index, bounds);
-        awakener.WakeRequested();
-    }
-
-    // Who wakes is found before anything changes: the filter is the game's and may throw.
-    void RequestAround<TAwakeningFilter>(int index, in BoundingBox bounds, ref TAwakeningFilter filter)
-        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
-    {
-        awakener.BeginRequests();
-        awakener.Request(BoundsAt(index), ref filter);
-        awakener.Request(bounds, ref filter);
-    }
-
-    BoundingBox BoundsAt(int index)
-    {
-        broadPhase.GetStaticBoundsPointers(StaticsBuffer[index].BroadPhaseIndex, out var min, out var max);
-        return new(*min, *max);
     }
 
     internal void Clear()

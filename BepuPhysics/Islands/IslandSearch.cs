@@ -1,7 +1,5 @@
 using System;
 using BepuPhysics.Constraints;
-using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics;

@@ -1,6 +1,4 @@
 using System;
-using System.Threading;
-using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;

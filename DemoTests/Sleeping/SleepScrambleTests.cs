@@ -42,6 +42,22 @@ public class SleepScrambleTests
         Assert.Equal(expected, Hashes(seed, threads: 3, sizes: tiny, out _));
     }
 
+    [Theory, InlineData(1), InlineData(2)]
+    public void A_run_that_was_interrupted_and_cleared_gives_the_same_bits(int threads)
+    {
+        using var world = new SleepWorld(threads);
+        List<ulong>? expected = null;
+        // Cleared while all sleep, in the middle of falling asleep, and just after waking.
+        foreach (int steps in (ReadOnlySpan<int>)[200, 60, 34, 120, 200])
+        {
+            world.Fill();
+            var hashes = world.HashSteps(steps);
+            expected ??= hashes;
+            Assert.Equal(expected[..steps], hashes);
+            world.Clear();
+        }
+    }
+
     static List<ulong> Hashes(int seed, int threads, SimulationAllocationSizes? sizes, out int islands)
     {
         using var scramble = new Scramble(seed, threads, sizes, sleeps: true);

@@ -28,7 +28,7 @@ sealed class SleepWorld : IDisposable
 
     public Bodies Bodies => World.Bodies;
 
-    public TypedIndex Cube { get; }
+    public TypedIndex Cube { get; private set; }
 
     public StaticHandle Floor { get; private set; }
 
@@ -58,6 +58,27 @@ sealed class SleepWorld : IDisposable
         for (int i = 0; i < mostSteps && Bodies.ActiveSet.Count > 0; ++i)
             Step();
         Assert.Equal(0, Bodies.ActiveSet.Count);
+    }
+
+    /// <summary>Stacks that fall asleep one after the other, and a ball that wakes one of them.</summary>
+    public void Fill()
+    {
+        for (int i = 0; i < 12; ++i)
+            AddStack(2 * i, 1 + i % 4);
+        var sphere = new Sphere(.4f);
+        Bodies.Add(BodyDescription.CreateDynamic(
+            new Vector3(-20, .4f, .2f), new BodyVelocity(new Vector3(20, 0, 0)), sphere.ComputeInertia(5), Simulation.Shapes.Add(sphere), Activity));
+    }
+
+    public List<ulong> HashSteps(int count) => World.HashSteps(count);
+
+    /// <summary>Leaves nothing but a floor.</summary>
+    public void Clear()
+    {
+        Simulation.Clear();
+        Simulation.Validate();
+        Cube = Simulation.Shapes.Add(new Box(1, 1, 1));
+        Floor = AddFloor();
     }
 
     public bool IsAwake(BodyHandle body) => Bodies[body].Awake;

@@ -5,7 +5,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Sleeping;
@@ -214,10 +213,10 @@ public class WakeTests
     {
         using var world = new SleepWorld();
         var stacks = new[] { world.AddStack(-10, 2), world.AddStack(0, 2), world.AddStack(10, 2) };
-        var post = world.World.AddStatic(new Box(.5f, 1, .5f), new RigidPose(new Vector3(-9.2f, .5f, 0)));
+        var post = world.World.AddStatic(new Box(.5f, 1, .5f), new RigidPose(new Vector3(-9.25f, .5f, 0)));
         world.Settle();
         var reference = world.World.Statics[post];
-        reference.Pose.Position = new Vector3(.7f, .5f, 0);
+        reference.Pose.Position = new Vector3(.75f, .5f, 0);
         world.AssertAwake();
         reference.UpdateBounds();
         world.AssertAwake(stacks[0].Concat(stacks[1]));

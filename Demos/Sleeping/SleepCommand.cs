@@ -1,7 +1,6 @@
 using System;
 using System.CommandLine;
 using System.IO;
-using BepuPhysics;
 using Demos.Scenes;
 
 namespace Demos.Sleeping;
@@ -11,7 +10,11 @@ static class SleepCommand
 {
     public static Command Create(Func<ParseResult, Func<int>, int> guard)
     {
-        var scene = new Argument<string>("scene") { Description = "Name of a scene whose bodies may sleep, or a file.", DefaultValueFactory = _ => "many-statics" };
+        var scene = new Argument<string>("scene")
+        {
+            Description = "Name of a scene whose bodies may sleep, or a file.",
+            DefaultValueFactory = _ => "many-statics",
+        };
         var threads = new Option<int>("--threads") { Description = "Threads that step.", DefaultValueFactory = _ => 1 };
         var steps = new Option<int?>("--steps") { Description = "Steps to watch; the scene's without." };
         var seed = new Option<int>("--seed") { Description = "Seed of scenes by lot.", DefaultValueFactory = _ => 1 };
@@ -50,7 +53,7 @@ static class SleepCommand
         if (run.Simulation.Bodies.ActiveSet.Count == 0)
             output.WriteLine(FormattableString.Invariant($"a step in which all sleep: {run.MeasureAsleep():0.000} us"));
         output.WriteLine(FormattableString.Invariant(
-            $"{run.Simulation.Awakener.SleepingIslandCount} islands sleep; pool {run.PoolBytes / 1e6:0.0} MB, {run.PoolBytes / Math.Max(1.0, run.BodyCount):0} B a body"));
+            $"{run.Simulation.Awakener.SleepingIslandCount} islands sleep; {run.PoolBytes / 1e6:0.0} MB, {run.PoolBytes / Math.Max(1.0, run.BodyCount):0} B a body"));
         output.WriteLine(FormattableString.Invariant($"cost of the static tree over that of a new one: {run.CompareTree():0.000}"));
         output.WriteLine($"hash {run.Simulation.StateHash():x16}");
     }

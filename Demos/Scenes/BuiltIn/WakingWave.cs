@@ -29,7 +29,8 @@ static class WakingWave
             }
         }
         var start = ManyStatics.Place(0, width, spacing) - distance;
-        scene.AddDynamic(ball, 3000, new Vector3(start, ballRadius, 0.3f), linearVelocity: new Vector3(40, 0, 0), angularVelocity: new Vector3(0, 0, -40 / ballRadius));
+        scene.AddDynamic(
+            ball, 3000, new Vector3(start, ballRadius, 0.3f), linearVelocity: new Vector3(40, 0, 0), angularVelocity: new Vector3(0, 0, -40 / ballRadius));
         return scene;
     }
 }
