@@ -17,9 +17,11 @@ public interface ITimestepper
     void Timestep(Simulation simulation, float dt, IThreadDispatcher? threadDispatcher = null);
 }
 
-/// <summary>The usual order: bounds, collisions, constraints.</summary>
+/// <summary>The usual order: sleep, bounds, collisions, constraints.</summary>
 public sealed class DefaultTimestepper : ITimestepper
 {
+    /// <summary>Called after bodies that rest were put to sleep, before anything else of the step.</summary>
+    public event TimestepperStageHandler? Slept;
     /// <inheritdoc/>
     public event TimestepperStageHandler? BeforeCollisionDetection;
     /// <inheritdoc/>
@@ -30,6 +32,8 @@ public sealed class DefaultTimestepper : ITimestepper
     /// <inheritdoc/>
     public void Timestep(Simulation simulation, float dt, IThreadDispatcher? threadDispatcher = null)
     {
+        simulation.Sleep(threadDispatcher);                          // rest    -> islands that sleep
+        Slept?.Invoke(dt, threadDispatcher);
         simulation.PredictBoundingBoxes(dt, threadDispatcher);       // bodies  -> bounds
         var mayWrite = BeforeCollisionDetection is not null;
         BeforeCollisionDetection?.Invoke(dt, threadDispatcher);

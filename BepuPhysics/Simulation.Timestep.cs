@@ -16,8 +16,25 @@ public sealed partial class Simulation
         CheckDt(dt);
         using var step = world.Step("Simulation.Timestep");
         Quarantine.BeginStep();
+        if (NarrowPhase.IsAtRest)
+        {
+            Profiler.Clear();
+            Timestepper.Timestep(this, dt, threadDispatcher);
+            return;
+        }
         using (Profiler.Time(this))
             Timestepper.Timestep(this, dt, threadDispatcher);
+    }
+
+    /// <summary>Puts islands to sleep that have rested long enough: reads rest and velocities.</summary>
+    /// <param name="threadDispatcher">Kept for callers: it takes less than a dispatch.</param>
+    public void Sleep(IThreadDispatcher? threadDispatcher = null)
+    {
+        using var stage = world.Stage(operation: "Simulation.Sleep");
+        if (NarrowPhase.IsAtRest)
+            return;
+        using var timer = Profiler.Time(Sleeper);
+        Sleeper.Update();
     }
 
     /// <summary>Bodies to bounds that contain their motion: reads poses and velocities, writes bounds and speculative margins.</summary>
@@ -26,7 +43,10 @@ public sealed partial class Simulation
         CheckDt(dt);
         using var stage = world.Stage(operation: "Simulation.PredictBoundingBoxes");
         Shapes.CheckAlive();
+        if (NarrowPhase.IsAtRest)
+            return;
         using var timer = Profiler.Time(PoseIntegrator);
+        Bodies.RipeCount = 0;
         Quarantine.EnsureCapacity();
         PoseIntegrator.Prepare(dt);
         var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
@@ -59,6 +79,11 @@ public sealed partial class Simulation
         CheckDt(dt);
         using var stage = world.Stage(allowsQueries: true, "Simulation.CollisionDetection");
         Shapes.CheckAlive();
+        if (NarrowPhase.IsAtRest && !BroadPhase.IsUpdateDue)
+        {
+            NarrowPhase.Rest();
+            return;
+        }
         if (bodiesMayBeWritten)
             Quarantine.StopUnsound();
         using (Profiler.Time(BroadPhase))
@@ -74,6 +99,11 @@ public sealed partial class Simulation
     {
         CheckDt(dt);
         using var stage = world.Stage(operation: "Simulation.Solve");
+        if (NarrowPhase.IsAtRest)
+        {
+            Solver.Rest();
+            return;
+        }
         using var timer = Profiler.Time(Solver);
         Quarantine.EnsureCapacity();
         NarrowPhase.BeginEvents();

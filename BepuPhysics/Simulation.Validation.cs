@@ -22,6 +22,7 @@ public sealed partial class Simulation
         Statics.Validate();
         Solver.Validate();
         NarrowPhase.Validate();
+        islands.Validate();
     }
 
     /// <summary>Hash of the bits of all poses and velocities, in the order of the slots of handles.</summary>

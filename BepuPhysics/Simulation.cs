@@ -16,6 +16,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     readonly WorldLock world = new();
     readonly bool ownsShapes;
     readonly CollidableTraits traits;
+    readonly SleepingIslands islands;
 
     /// <summary>Who may do what now.</summary>
     internal WorldLock World => world;
@@ -38,6 +39,10 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public NarrowPhase NarrowPhase { get; private set; } = null!;
     /// <summary>What touched what in the last step.</summary>
     public CollisionEvents Events { get; }
+    /// <summary>Puts to sleep what rests.</summary>
+    public IslandSleeper Sleeper { get; }
+    /// <summary>Wakes what sleeps.</summary>
+    public IslandAwakener Awakener { get; }
     /// <summary>Bodies that the last step had to stop.</summary>
     public Quarantine Quarantine { get; }
     /// <summary>Seconds that each stage of the last step took.</summary>
@@ -68,8 +73,12 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         traits = new CollidableTraits(Bodies, Statics, bufferPool);
         Layers = new CollidableLayers(traits, bufferPool, world);
         Events = new CollisionEvents(Bodies, traits, Solver, bufferPool, world);
-        Bodies.Connect(Solver, BroadPhase, Shapes, traits);
-        Statics.Connect(traits);
+        islands = new SleepingIslands(Bodies, Solver, bufferPool);
+        Sleeper = new IslandSleeper(Bodies, Solver, islands, bufferPool);
+        Awakener = new IslandAwakener(world, Bodies, Solver, BroadPhase, islands, bufferPool);
+        Bodies.Connect(Solver, BroadPhase, Shapes, Statics, Sleeper, Awakener, traits);
+        Statics.Connect(Bodies, Awakener, traits);
+        Solver.Connect(Awakener);
         Quarantine = new Quarantine(Bodies, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
@@ -116,6 +125,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         NarrowPhase = new NarrowPhase<TNarrowPhaseCallbacks>(
             this, narrowPhaseCallbacks, DefaultTypes.CreateDefaultCollisionTaskRegistry(), initialPairCapacity);
         Solver.OnContactRemoved(NarrowPhase.Forget);
+        islands.NarrowPhase = NarrowPhase;
         PoseIntegrator.Initialize(this);
         NarrowPhase.Initialize();
     }
@@ -133,6 +143,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         traits.Clear();
         Events.Clear();
         BroadPhase.RemoveAllLeaves();
+        islands.Clear();
+        Sleeper.Clear();
         Quarantine.BeginStep();
         if (ownsShapes)
             Shapes.ClearUnlocked();
@@ -173,6 +185,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase?.Dispose();
         Solver.Dispose();
+        islands.Dispose();
+        Awakener.Dispose();
         Quarantine.Dispose();
         Bodies.Dispose();
         Statics.Dispose();
@@ -202,6 +216,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase.Abandon();
         Solver.Abandon();
+        islands.Abandon();
+        Awakener.Abandon();
         Bodies.Abandon();
         Quarantine.Abandon();
         Statics.Abandon();

@@ -26,6 +26,13 @@ public sealed class SimulationProfiler
         }
     }
 
+    /// <summary>Nothing ran.</summary>
+    internal void Clear()
+    {
+        for (int i = 0; i < times.Length; ++i)
+            times[i].Ticks = 0;
+    }
+
     internal Timer Time(object stage) => new(this, stage);
 
     void Set(object stage, long ticks)

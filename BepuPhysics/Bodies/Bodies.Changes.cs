@@ -1,12 +1,10 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuPhysics.Trees;
-using BepuUtilities;
 
 namespace BepuPhysics;
 
-// What may be changed of a body, and its bounds. All that can fail comes before the first change.
+// What may be changed of a body. All that can fail comes before the first change, and waking it is the first. A kinematic that is changed wakes all
+// that it holds.
 public sealed unsafe partial class Bodies
 {
     /// <summary>Makes a body what a description says; its constraints stay.</summary>
@@ -16,9 +14,10 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.ApplyDescription");
         CheckHandle(handle);
         Validate(description);
-        ref var set = ref SetOf(handle, out var index);
         var shape = description.Collidable.Shape;
-        var bounds = PrepareBounds(ref set, index, description.Pose, shape);
+        var bounds = PrepareBounds(handle, description.Pose, shape);
+        awakener.WakeAround(handle);
+        ref var set = ref SetOf(handle, out var index);
         set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
         ChangeInertia(handle, description.LocalInertia);
         ref var motion = ref set.MotionStates[index];
@@ -38,11 +37,13 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.SetShape");
         CheckHandle(handle);
         CheckShape(shape);
-        ref var set = ref SetOf(handle, out var index);
-        ref var collidable = ref set.Collidables[index];
-        if (collidable.Shape == shape)
+        ref var before = ref SetOf(handle, out var index);
+        if (before.Collidables[index].Shape == shape)
             return;
-        var bounds = PrepareBounds(ref set, index, set.MotionStates[index].Pose, shape);
+        var bounds = PrepareBounds(handle, before.MotionStates[index].Pose, shape);
+        awakener.WakeAround(handle);
+        ref var set = ref SetOf(handle, out index);
+        ref var collidable = ref set.Collidables[index];
         shapes.ChangeUse(collidable.Shape, shape);
         collidable.Shape = shape;
         PlaceInBroadPhase(ref set, index, bounds);
@@ -55,18 +56,20 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.SetLocalInertia");
         CheckHandle(handle);
         BodyChecks.Inertia(localInertia);
+        awakener.WakeAround(handle);
         SetOf(handle, out _).EnsurePrincipalFrames(localInertia.InverseInertiaTensor, Pool);
         ChangeInertia(handle, localInertia);
     }
 
-    /// <summary>Moves the bounds of a body in the broad phase to where its pose says, as for queries between steps.</summary>
+    /// <summary>Moves the bounds of a body in the broad phase to where its pose says, as for queries between steps. Wakes nobody.</summary>
     /// <exception cref="ArgumentException">There is no such body.</exception>
     /// <exception cref="InvalidOperationException">The body's pose is not finite; nothing was changed.</exception>
     public void UpdateBounds(BodyHandle handle)
     {
         using var change = world.Change("Bodies.UpdateBounds");
         CheckHandle(handle);
-        UpdateBoundsAt(ref SetOf(handle, out var index), index);
+        ref var set = ref SetOf(handle, out var index);
+        PlaceInBroadPhase(ref set, index, PrepareBounds(handle, set.MotionStates[index].Pose, set.Collidables[index].Shape));
     }
 
     /// <summary>The set of a body that exists, and its index there.</summary>
@@ -90,55 +93,5 @@ public sealed unsafe partial class Bodies
         var leaf = set.Collidables[index].BroadPhaseIndex;
         if (leaf >= 0)
             broadPhase.ActiveLeaves[leaf] = ReferenceAt(set, index);
-    }
-
-    // Everything about a change of bounds that can fail.
-    BoundingBox PrepareBounds(ref BodySet set, int index, in RigidPose pose, TypedIndex shape)
-    {
-        if (!shape.Exists)
-            return default;
-        shapes.UpdateBounds(pose, shape, out var bounds);
-        if (!BoxMath.IsValid(bounds.Min, bounds.Max))
-            throw new InvalidOperationException($"There are no finite bounds of {set.IndexToHandle[index]}: its pose is {pose}.");
-        if (set.Collidables[index].BroadPhaseIndex < 0)
-            broadPhase.MakeRoomFor(broadPhase.ActiveTree.LeafCount + 1, 0);
-        return bounds;
-    }
-
-    // Brings the leaf of a body, if it is to have one, to its bounds.
-    void PlaceInBroadPhase(ref BodySet set, int index, BoundingBox bounds)
-    {
-        ref var collidable = ref set.Collidables[index];
-        if (!collidable.Shape.Exists)
-            RemoveFromBroadPhase(ref set, index);
-        else if (collidable.BroadPhaseIndex < 0)
-            collidable.BroadPhaseIndex = broadPhase.AddActiveLeaf(ReferenceAt(set, index), bounds);
-        else
-            // The whole tree at once: a query may come before the next step fits it.
-            broadPhase.ActiveTree.UpdateBounds(collidable.BroadPhaseIndex, bounds.Min, bounds.Max);
-    }
-
-    void RemoveFromBroadPhase(ref BodySet set, int index)
-    {
-        ref var leaf = ref set.Collidables[index].BroadPhaseIndex;
-        if (leaf < 0)
-            return;
-        if (broadPhase.RemoveActiveLeafAt(leaf, out var moved))
-            SetOf(moved.BodyHandle, out var movedIndex).Collidables[movedIndex].BroadPhaseIndex = leaf;
-        leaf = -1;
-    }
-
-    internal void UpdateBoundsAt(ref BodySet set, int index)
-    {
-        ref var collidable = ref set.Collidables[index];
-        PlaceInBroadPhase(ref set, index, PrepareBounds(ref set, index, set.MotionStates[index].Pose, collidable.Shape));
-    }
-
-    internal void GetBoundsPointers(ref BodySet set, int index, out Vector3* min, out Vector3* max)
-    {
-        var leaf = set.Collidables[index].BroadPhaseIndex;
-        if (leaf < 0)
-            throw new InvalidOperationException($"There are no bounds of {set.IndexToHandle[index]}: it has no shape.");
-        broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
     }
 }

@@ -10,6 +10,7 @@ public sealed partial class Bodies
     internal void Validate()
     {
         int leafCount = 0;
+        int asleepLeafCount = 0;
         for (int setIndex = 0; setIndex < Sets.Length; ++setIndex)
         {
             ref var set = ref Sets[setIndex];
@@ -21,11 +22,12 @@ public sealed partial class Bodies
                 var location = Locations[handle.Slot];
                 Invariant.Require(location.SetIndex == setIndex && location.Index == index, "location of body", handle.Slot);
                 ValidateNumbers(ref set, index, handle.Slot);
-                ValidateCollidable(ref set, index, handle.Slot, ref leafCount);
+                ValidateCollidable(ref set, index, handle.Slot, ref set.IsAsleep ? ref asleepLeafCount : ref leafCount);
             }
             Invariant.Require(IsZeroBehindLast(ref set), "rows behind the last body of set", setIndex);
         }
         Invariant.Require(leafCount == broadPhase.ActiveTree.LeafCount, "number of active leaves, bodies have", leafCount);
+        Invariant.Require(asleepLeafCount + statics.Count == broadPhase.StaticTree.LeafCount, "number of static leaves, sleeping bodies have", asleepLeafCount);
         Invariant.Ids(HandlePool, Locations.Length, "bodies", id => Locations[id].SetIndex >= 0);
         for (int slot = 0; slot < owners.Capacity; ++slot)
             Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);
@@ -54,9 +56,11 @@ public sealed partial class Bodies
             return;
         }
         Invariant.Require(shapes.Exists(collidable.Shape), "shape of body", handle);
-        Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)broadPhase.ActiveTree.LeafCount, "leaf of body", handle);
+        var leafLimit = set.IsAsleep ? broadPhase.StaticTree.LeafCount : broadPhase.ActiveTree.LeafCount;
+        Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)leafLimit, "leaf of body", handle);
         // Also that the leaf knows whether the body is kinematic.
-        Invariant.Require(broadPhase.ActiveLeaves[collidable.BroadPhaseIndex] == ReferenceAt(set, index), "collidable of the leaf of body", handle);
+        var leaves = set.IsAsleep ? broadPhase.StaticLeaves : broadPhase.ActiveLeaves;
+        Invariant.Require(leaves[collidable.BroadPhaseIndex] == ReferenceAt(set, index), "collidable of the leaf of body", handle);
         ++leafCount;
     }
 

@@ -19,9 +19,12 @@ public sealed unsafe partial class Bodies
     Solver solver = null!;
     BroadPhase broadPhase = null!;
     Shapes shapes = null!;
+    Statics statics = null!;
+    IslandAwakener awakener = null!;
+    IslandSleeper sleeper = null!;
     CollidableTraits traits = null!;
 
-    /// <summary>Sets of bodies; set 0 is the active one.</summary>
+    /// <summary>Sets of bodies: 0 is the active one, 1 has all that sleep.</summary>
     public Buffer<BodySet> Sets;
     /// <summary>Memory of the bodies.</summary>
     public BufferPool Pool { get; }
@@ -63,19 +66,24 @@ public sealed unsafe partial class Bodies
         this.world = world;
         Pool = pool;
         initialCapacity = Math.Max(16, initialCapacity);
-        pool.Take(1, out Sets);
+        pool.Take(2, out Sets);
         Sets[0] = default;
+        Sets[AsleepSet] = default;
         Sets[0].Resize(initialCapacity, pool);
         HandlePool = new IdPool(initialCapacity, pool);
         owners = new HandleOwners(HandleLayout.SlotBits, HandleLayout.ValueBits, initialCapacity, pool);
         EnsureSlots(initialCapacity);
     }
 
-    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes, CollidableTraits traits)
+    internal void Connect(Solver solver, BroadPhase broadPhase, Shapes shapes, Statics statics, IslandSleeper sleeper, IslandAwakener awakener,
+        CollidableTraits traits)
     {
         this.solver = solver;
         this.broadPhase = broadPhase;
         this.shapes = shapes;
+        this.statics = statics;
+        this.sleeper = sleeper;
+        this.awakener = awakener;
         this.traits = traits;
     }
 
@@ -128,8 +136,7 @@ public sealed unsafe partial class Bodies
     {
         using var change = world.Change("Bodies.Remove");
         CheckHandle(handle);
-        ref var location = ref Locations[handle.Slot];
-        RemoveBodyAt(location.SetIndex, location.Index);
+        RemoveBody(handle);
     }
 
     /// <summary>Removes a body of the active set and all of its constraints.</summary>
@@ -139,16 +146,16 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.RemoveAt");
         if ((uint)activeBodyIndex >= (uint)ActiveSet.Count)
             throw new ArgumentOutOfRangeException(nameof(activeBodyIndex), activeBodyIndex, $"There are {ActiveSet.Count} active bodies.");
-        RemoveBodyAt(0, activeBodyIndex);
+        RemoveBody(ActiveSet.IndexToHandle[activeBodyIndex]);
     }
 
-    void RemoveBodyAt(int setIndex, int index)
+    void RemoveBody(BodyHandle handle)
     {
-        ref var set = ref Sets[setIndex];
+        awakener.WakeAround(handle);
+        ref var set = ref SetOf(handle, out var index);
         solver.RemoveConstraintsOf(ref set.Constraints[index]);
         RemoveFromBroadPhase(ref set, index);
         shapes.EndUse(set.Collidables[index].Shape);
-        var handle = set.IndexToHandle[index];
         set.RemoveAt(index);
         if (index < set.Count)
         {
@@ -279,7 +286,8 @@ public sealed unsafe partial class Bodies
         {
             for (int j = 0; j < Sets[i].Count; ++j)
                 Locations[Sets[i].IndexToHandle[j].Slot].SetIndex = -1;
-            Sets[i].Clear();
+            if (Sets[i].Allocated)
+                Sets[i].Clear();
         }
         owners.ReleaseAll();
         HandlePool.Clear();
@@ -289,7 +297,10 @@ public sealed unsafe partial class Bodies
     {
         EndUses();
         for (int i = 0; i < Sets.Length; ++i)
-            Sets[i].Dispose(Pool);
+        {
+            if (Sets[i].Allocated)
+                Sets[i].Dispose(Pool);
+        }
         Pool.Return(ref Sets);
         Pool.Return(ref Locations);
         owners.Dispose(Pool);

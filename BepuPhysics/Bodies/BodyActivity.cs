@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace BepuPhysics;
 
 /// <summary>How quickly a body may fall asleep.</summary>
@@ -21,8 +23,33 @@ public struct BodyActivity
     public float SleepThreshold;
     /// <summary>Steps that the body must rest before it may sleep.</summary>
     public byte MinimumTimestepsUnderThreshold;
-    /// <summary>Steps that it has rested.</summary>
+    /// <summary>Steps that it has rested, no more than <see cref="MinimumTimestepsUnderThreshold"/>.</summary>
     public byte TimestepsUnderThresholdCount;
-    /// <summary>Whether it has rested long enough.</summary>
+    /// <summary>Whether it has rested long enough: it sleeps as soon as all that it is connected with has.</summary>
     public bool SleepCandidate;
+
+    /// <summary>Takes note of the speed with which a step begins.</summary>
+    /// <param name="speedSquared">Speed squared, linear plus angular.</param>
+    /// <returns>1 if the body has rested long enough, else 0.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal int Note(float speedSquared)
+    {
+        // What is no number does not rest.
+        if (!(speedSquared <= SleepThreshold))
+        {
+            Forget();
+            return 0;
+        }
+        if (TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
+            ++TimestepsUnderThresholdCount;
+        SleepCandidate = TimestepsUnderThresholdCount >= MinimumTimestepsUnderThreshold;
+        return SleepCandidate ? 1 : 0;
+    }
+
+    /// <summary>Begins anew to count rest.</summary>
+    internal void Forget()
+    {
+        TimestepsUnderThresholdCount = 0;
+        SleepCandidate = false;
+    }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 
@@ -7,7 +8,8 @@ namespace BepuPhysics;
 
 /// <summary>A body, for reading and changing it. Cheap to make; its refs are valid until bodies are added or removed.</summary>
 /// <remarks>
-/// Writing through the refs neither checks values nor moves bounds; <see cref="UpdateBounds"/> does the latter, and each step does. A step
+/// Writing through the refs neither checks values nor moves bounds nor wakes the body: set <see cref="Awake"/>. <see cref="UpdateBounds"/> moves
+/// bounds, and so does each step those of bodies that are awake. Impulses, and everything that changes what a body is, wake it. A step
 /// stops bodies whose pose or velocity cannot be simulated, and lists them in the simulation's quarantine. Everything but
 /// <see cref="Exists"/> throws an <see cref="ArgumentException"/> once the body was removed, and an
 /// <see cref="InvalidOperationException"/> for the default value.
@@ -23,8 +25,15 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     public readonly bool Exists => Bodies is not null && Bodies.BodyExists(Handle);
     /// <summary>Where the body is stored.</summary>
     public readonly ref BodyMemoryLocation MemoryLocation => ref Owner.GetLocation(Handle);
-    /// <summary>Whether the body is simulated.</summary>
-    public readonly bool Awake => MemoryLocation.SetIndex == 0;
+    /// <summary>Whether the body is simulated. Setting it wakes the body with its island, or stops both and puts them to sleep.</summary>
+    /// <remarks>Set to true on a body that is awake, it begins anew to count its rest.</remarks>
+    /// <exception cref="InvalidOperationException">A body of the island that is to sleep has a pose, a velocity or an inertia that is no
+    /// number; nothing was changed.</exception>
+    public readonly bool Awake
+    {
+        get => MemoryLocation.SetIndex == 0;
+        set => Owner.SetAwake(Handle, value);
+    }
     /// <summary>Pose and velocity.</summary>
     public readonly ref MotionState MotionState => ref Find(out var index).MotionStates[index];
     /// <summary>Where the body is. Writing it moves the body without a velocity: contacts take a kinematic that is moved so for one at rest.</summary>
@@ -44,7 +53,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     }
     /// <summary>Shape and collision state.</summary>
     public readonly ref Collidable Collidable => ref Find(out var index).Collidables[index];
-    /// <summary>Progress towards sleep.</summary>
+    /// <summary>When the body may sleep, and its progress towards it.</summary>
     public readonly ref BodyActivity Activity => ref Find(out var index).Activity[index];
     /// <summary>Constraints of the body.</summary>
     public readonly BodyConstraints Constraints => Owner.GetConstraints(Handle);
@@ -112,6 +121,16 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         var velocity = Velocity;
         ApplyImpulse(impulse, impulseOffset, ref LocalInertia, ref Pose, ref velocity);
         BodyChecks.Velocity(velocity);
+        Push(velocity);
+    }
+
+    // A velocity that an impulse has made.
+    readonly void Push(in BodyVelocity velocity, [CallerMemberName] string operation = "")
+    {
+        if (Kinematic)
+            return;
+        Owner.WakeToPush(Handle, operation);
+        Activity.Forget();
         Velocity = velocity;
     }
 
@@ -124,7 +143,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         var velocity = Velocity;
         ApplyLinearImpulse(impulse, LocalInertia.InverseMass, ref velocity.Linear);
         BodyChecks.Velocity(velocity);
-        Velocity = velocity;
+        Push(velocity);
     }
 
     /// <summary>Applies an angular impulse, N m s; to a kinematic body none.</summary>
@@ -137,7 +156,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
         var velocity = Velocity;
         ApplyAngularImpulse(angularImpulse, inverseInertia, ref velocity.Angular);
         BodyChecks.Velocity(velocity);
-        Velocity = velocity;
+        Push(velocity);
     }
 
     /// <summary>Applies an impulse at a point to a body of a set. Values are not checked.</summary>

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
@@ -71,6 +72,12 @@ public struct BodySet
     public Buffer<BodyActivity> Activity;
     /// <summary>Where the list of each body's constraints begins (<see cref="Bodies.GetConstraints"/>).</summary>
     internal Buffer<ConstraintList> Constraints;
+    /// <summary>Island of each body that sleeps; only sets of sleeping bodies have it.</summary>
+    internal Buffer<int> Islands;
+    /// <summary>Slot of the body that follows each one in its island, after the last the first; only sets of sleeping bodies have it.</summary>
+    internal Buffer<int> NextOfIsland;
+    // Whether the bodies sleep: what only steps need is not kept of them.
+    bool isAsleep;
 
     /// <summary>Whether the set has memory.</summary>
     public readonly bool Allocated => IndexToHandle.Allocated;
@@ -80,6 +87,9 @@ public struct BodySet
 
     internal readonly int Capacity => IndexToHandle.Length;
 
+    /// <summary>Whether the bodies sleep.</summary>
+    internal readonly bool IsAsleep => isAsleep;
+
     /// <summary>Every column of the set, in one place: what is done to a body as a whole is done to each of them.</summary>
     // The handles tell the capacity, so they come last, should the system refuse memory in between.
     void VisitColumns<TVisitor>(ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
@@ -87,9 +97,17 @@ public struct BodySet
         visitor.Visit(ref MotionStates);
         visitor.Visit(ref LocalInertias);
         visitor.Visit(ref WorldInertias);
-        visitor.Visit(ref Displacements);
-        visitor.Visit(ref Origins);
         visitor.Visit(ref SoundPoses);
+        if (isAsleep)
+        {
+            visitor.Visit(ref Islands);
+            visitor.Visit(ref NextOfIsland);
+        }
+        else
+        {
+            visitor.Visit(ref Displacements);
+            visitor.Visit(ref Origins);
+        }
         visitor.Visit(ref Collidables);
         visitor.Visit(ref Activity);
         visitor.Visit(ref Constraints);
@@ -107,6 +125,32 @@ public struct BodySet
         capacity = (capacity + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
         var resize = new ResizeColumns(capacity, Count, pool);
         VisitColumns(ref resize);
+    }
+
+    /// <summary>Makes room in a set of sleeping bodies.</summary>
+    internal void ReserveAsleep(int capacity, BufferPool pool)
+    {
+        isAsleep = true;
+        if (capacity > Capacity)
+            Resize(Math.Max(Math.Max(64, capacity), 2 * Capacity), pool);
+    }
+
+    /// <summary>Appends a body of another set as it is there: what only steps need of it begins with zero. There must be room.</summary>
+    /// <returns>Its index.</returns>
+    internal int Append(in BodySet from, int index)
+    {
+        var added = Count++;
+        IndexToHandle[added] = from.IndexToHandle[index];
+        MotionStates[added] = from.MotionStates[index];
+        LocalInertias[added] = from.LocalInertias[index];
+        WorldInertias[added] = from.WorldInertias[index];
+        SoundPoses[added] = from.SoundPoses[index];
+        Collidables[added] = from.Collidables[index];
+        Activity[added] = from.Activity[index];
+        Constraints[added] = from.Constraints[index];
+        if (JointCounts.Allocated && from.JointCounts.Allocated)
+            JointCounts[added] = from.JointCounts[index];
+        return added;
     }
 
     /// <summary>Makes room for geometric stiffness, from the first joint on that can add to it.</summary>

@@ -10,6 +10,8 @@ struct ConstraintList
     public int First;
     /// <summary>Number of constraints.</summary>
     public int Count;
+    /// <summary>Number of them that sleep. Kept for kinematic bodies, whose constraints need not all be awake or asleep.</summary>
+    public int AsleepCount;
 }
 
 /// <summary>Which constraints each body has: a ring of edges per body, in the order in which they were added.</summary>

@@ -19,7 +19,6 @@ public sealed partial class Statics
             Invariant.Require(broadPhase.StaticLeaves[target.BroadPhaseIndex] == new Collidables.CollidableReference(handle),
                 "collidable of the leaf of static", handle.Slot);
         }
-        Invariant.Require(Count == broadPhase.StaticTree.LeafCount, "number of static leaves, statics have", Count);
         Invariant.Ids(HandlePool, Indices.Length, "statics", id => Indices[id] >= 0);
         for (int slot = 0; slot < owners.Capacity; ++slot)
             Invariant.Require(owners.IsTaken(slot) == (slot < Indices.Length && Indices[slot] >= 0), "owner of slot", slot);

@@ -2,7 +2,6 @@ using System;
 using System.Diagnostics.CodeAnalysis;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -15,6 +14,8 @@ public sealed unsafe partial class Statics
     readonly BufferPool pool;
     readonly BroadPhase broadPhase;
     readonly Shapes shapes;
+    Bodies bodies = null!;
+    IslandAwakener awakener = null!;
     CollidableTraits traits = null!;
 
     /// <summary>Greatest number of statics.</summary>
@@ -49,7 +50,12 @@ public sealed unsafe partial class Statics
         EnsureSlots(initialCapacity);
     }
 
-    internal void Connect(CollidableTraits traits) => this.traits = traits;
+    internal void Connect(Bodies bodies, IslandAwakener awakener, CollidableTraits traits)
+    {
+        this.bodies = bodies;
+        this.awakener = awakener;
+        this.traits = traits;
+    }
 
     /// <summary>A static by its handle.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
@@ -99,15 +105,36 @@ public sealed unsafe partial class Statics
         return ref StaticsBuffer[Indices[handle.Slot]];
     }
 
-    /// <summary>Adds a static.</summary>
+    /// <summary>Adds a static and wakes the dynamic bodies that it may touch.</summary>
     /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
     /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
     public StaticHandle Add(in StaticDescription description)
+    {
+        var filter = default(StaticsShouldntAwakenKinematics);
+        return Add(description, ref filter);
+    }
+
+    /// <summary>Adds a static and wakes nobody.</summary>
+    /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
+    public StaticHandle AddWithoutAwakeningBodies(in StaticDescription description)
+    {
+        var filter = default(StaticsShouldntAwakenBodies);
+        return Add(description, ref filter);
+    }
+
+    /// <summary>Adds a static and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">A value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">There are <see cref="MaximumCount"/> statics already.</exception>
+    public StaticHandle Add<TAwakeningFilter>(in StaticDescription description, ref TAwakeningFilter filter)
+        where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
         using var change = world.Change("Statics.Add");
         Validate(description);
         MakeRoom();
         var bounds = BoundsOf(description.Pose, description.Shape);
+        awakener.BeginRequests();
+        awakener.Request(bounds, ref filter);
         // All memory has been taken: from here on nothing fails.
         var handle = new StaticHandle(owners.Claim(HandlePool.Take()));
         var index = Count++;
@@ -116,29 +143,48 @@ public sealed unsafe partial class Statics
         StaticsBuffer[index] = new() { Pose = description.Pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
         shapes.BeginUse(description.Shape);
         AddToBroadPhase(index, bounds);
+        awakener.WakeRequested();
         return handle;
     }
 
-    /// <summary>Removes a static.</summary>
+    /// <summary>Removes a static and wakes the dynamic bodies that may have touched it.</summary>
     /// <exception cref="ArgumentException">There is no such static.</exception>
     public void Remove(StaticHandle handle)
     {
-        using var change = world.Change("Statics.Remove");
-        CheckHandle(handle);
-        RemoveStaticAt(Indices[handle.Slot]);
+        var filter = default(StaticsShouldntAwakenKinematics);
+        Remove(handle, ref filter);
     }
 
-    /// <summary>Removes a static by its index; the last one takes its place.</summary>
+    /// <summary>Removes a static and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentException">There is no such static.</exception>
+    public void Remove<TAwakeningFilter>(StaticHandle handle, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
+    {
+        using var change = world.Change("Statics.Remove");
+        CheckHandle(handle);
+        RemoveStaticAt(Indices[handle.Slot], ref filter);
+    }
+
+    /// <summary>Removes a static by its index, where the last one takes its place, and wakes the dynamic bodies that may have touched it.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
     public void RemoveAt(int index)
     {
-        using var change = world.Change("Statics.RemoveAt");
-        CheckIndex(index);
-        RemoveStaticAt(index);
+        var filter = default(StaticsShouldntAwakenKinematics);
+        RemoveAt(index, ref filter);
     }
 
-    void RemoveStaticAt(int index)
+    /// <summary>Removes a static by its index, where the last one takes its place, and wakes the bodies that a filter chooses.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such static.</exception>
+    public void RemoveAt<TAwakeningFilter>(int index, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
+        using var change = world.Change("Statics.RemoveAt");
+        CheckIndex(index);
+        RemoveStaticAt(index, ref filter);
+    }
+
+    void RemoveStaticAt<TAwakeningFilter>(int index, ref TAwakeningFilter filter) where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
+    {
+        awakener.BeginRequests();
+        awakener.Request(BoundsAt(index), ref filter);
         RemoveFromBroadPhase(index);
         shapes.EndUse(StaticsBuffer[index].Shape);
         var handle = IndexToHandle[index];
@@ -153,38 +199,7 @@ public sealed unsafe partial class Statics
         traits.Forget(new(handle));
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, pool);
-    }
-
-    /// <summary>Gives a static another shape.</summary>
-    /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
-    public void SetShape(StaticHandle handle, TypedIndex shape)
-    {
-        using var change = world.Change("Statics.SetShape");
-        CheckHandle(handle);
-        shapes.CheckExists(shape, nameof(shape));
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, target.Pose, shape);
-        shapes.ChangeUse(target.Shape, shape);
-        target.Shape = shape;
-        Replace(index, bounds);
-    }
-
-    /// <summary>Makes a static what a description says.</summary>
-    /// <exception cref="ArgumentException">There is no such static, a value cannot be simulated, or the shape does not exist; nothing was changed.</exception>
-    public void ApplyDescription(StaticHandle handle, in StaticDescription description)
-    {
-        using var change = world.Change("Statics.ApplyDescription");
-        CheckHandle(handle);
-        Validate(description);
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, description.Pose, description.Shape);
-        shapes.ChangeUse(target.Shape, description.Shape);
-        target.Pose = description.Pose;
-        target.Shape = description.Shape;
-        target.Continuity = description.Continuity;
-        Replace(index, bounds);
+        awakener.WakeRequested();
     }
 
     /// <summary>Describes a static as it is now.</summary>
@@ -201,18 +216,6 @@ public sealed unsafe partial class Statics
     {
         GetDescription(handle, out var description);
         return description;
-    }
-
-    /// <summary>Moves the bounds of a static to where its pose says.</summary>
-    /// <exception cref="ArgumentException">There is no such static.</exception>
-    /// <exception cref="InvalidOperationException">Its pose is not finite; nothing was changed.</exception>
-    public void UpdateBounds(StaticHandle handle)
-    {
-        using var change = world.Change("Statics.UpdateBounds");
-        CheckHandle(handle);
-        var index = Indices[handle.Slot];
-        ref var target = ref StaticsBuffer[index];
-        Replace(index, CheckedBounds(index, target.Pose, target.Shape));
     }
 
     // A pool may lend more than was asked for, and not to both alike.
@@ -299,14 +302,6 @@ public sealed unsafe partial class Statics
         return bounds;
     }
 
-    BoundingBox CheckedBounds(int index, in RigidPose pose, TypedIndex shape)
-    {
-        var bounds = BoundsOf(pose, shape);
-        if (!BoxMath.IsValid(bounds.Min, bounds.Max))
-            throw new InvalidOperationException($"There are no finite bounds of {IndexToHandle[index]}: its pose is {pose}.");
-        return bounds;
-    }
-
     void AddToBroadPhase(int index, BoundingBox bounds) =>
         StaticsBuffer[index].BroadPhaseIndex = broadPhase.AddStaticLeaf(new CollidableReference(IndexToHandle[index]), bounds);
 
@@ -314,14 +309,7 @@ public sealed unsafe partial class Statics
     {
         var leaf = StaticsBuffer[index].BroadPhaseIndex;
         if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
-            StaticsBuffer[Indices[moved.StaticHandle.Slot]].BroadPhaseIndex = leaf;
-    }
-
-    // Bounds of still things are not refitted every step, so a static that moved is taken out of its tree and put in anew.
-    void Replace(int index, BoundingBox bounds)
-    {
-        RemoveFromBroadPhase(index);
-        AddToBroadPhase(index, bounds);
+            bodies.FollowStaticLeaf(moved, leaf);
     }
 
     internal void Clear()

@@ -69,12 +69,18 @@ public sealed unsafe partial class BroadPhase
         where TOverlapEnumerator : IBreakableForEach<CollidableReference>
     {
         using var reading = world.Read("BroadPhase.GetOverlaps");
+        FindOverlapping(new(min, max), pool, ref overlapEnumerator);
+    }
+
+    internal void FindOverlapping<TOverlapEnumerator>(in BoundingBox bounds, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
+        where TOverlapEnumerator : IBreakableForEach<CollidableReference>
+    {
         var leafEnumerator = new OverlapLeafEnumerator<TOverlapEnumerator> { Enumerator = overlapEnumerator, Leaves = ActiveLeaves };
-        ActiveTree.GetOverlaps(min, max, pool, ref leafEnumerator);
+        ActiveTree.GetOverlaps(bounds.Min, bounds.Max, pool, ref leafEnumerator);
         if (!leafEnumerator.Stopped)
         {
             leafEnumerator.Leaves = StaticLeaves;
-            StaticTree.GetOverlaps(min, max, pool, ref leafEnumerator);
+            StaticTree.GetOverlaps(bounds.Min, bounds.Max, pool, ref leafEnumerator);
         }
         overlapEnumerator = leafEnumerator.Enumerator;
     }

@@ -33,7 +33,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
     // Whether the leaves are the bodies and statics of a simulation, which alone may add and remove them.
     readonly bool isOwned;
 
-    // Leaves that came or went since the last build of a tree, or (active) since the last update.
+    // What a leaf that comes or goes counts in the static tree, and what a body that falls asleep or wakes: it comes back to where it was.
+    const int WeightOfStatic = 16;
+    const int WeightOfSleeper = 1;
+
+    // Leaves that came or went since the last build of a tree, by weight, or (active) since the last update.
     int activeAdditions;
     int staticChanges;
 
@@ -86,7 +90,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     internal int AddStaticLeaf(CollidableReference collidable, BoundingBox bounds)
     {
         var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves);
-        ++staticChanges;
+        staticChanges += WeightOf(collidable);
         return index;
     }
 
@@ -124,10 +128,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
     internal bool RemoveStaticLeafAt(int index, out CollidableReference movedLeaf)
     {
-        var moved = RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
-        ++staticChanges;
-        return moved;
+        staticChanges += WeightOf(StaticLeaves[index]);
+        return RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
     }
+
+    static int WeightOf(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static ? WeightOfStatic : WeightOfSleeper;
 
     static bool RemoveAt(int index, ref Tree tree, ref Buffer<CollidableReference> leaves, out CollidableReference movedLeaf)
     {
@@ -164,8 +169,13 @@ public sealed unsafe partial class BroadPhase : IDisposable
     public void UpdateStaticBounds(int broadPhaseIndex, Vector3 min, Vector3 max)
     {
         using var change = world.Change("BroadPhase.UpdateStaticBounds");
-        StaticTree.UpdateBounds(broadPhaseIndex, min, max);
-        ++staticChanges;
+        UpdateStaticLeaf(broadPhaseIndex, min, max);
+    }
+
+    internal void UpdateStaticLeaf(int index, Vector3 min, Vector3 max)
+    {
+        StaticTree.UpdateBounds(index, min, max);
+        staticChanges += WeightOf(StaticLeaves[index]);
     }
 
     /// <summary>Fits the active tree to bounds written since the last call and tidies both trees a little. Once in each step, before
@@ -176,6 +186,9 @@ public sealed unsafe partial class BroadPhase : IDisposable
         using var change = world.Change("BroadPhase.Update");
         UpdateTrees();
     }
+
+    /// <summary>Whether something is left to do where no body is awake.</summary>
+    internal bool IsUpdateDue => IsWorthBuilding(staticChanges / WeightOfStatic, StaticTree.LeafCount);
 
     internal void UpdateTrees()
     {
@@ -193,7 +206,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
         // Insertions and removals keep the static tree fitted and fairly good, so changes may add up; the rebuild costs each of them its
         // share.
-        if (IsWorthBuilding(staticChanges, StaticTree.LeafCount))
+        if (IsUpdateDue)
         {
             StaticTree.BinnedBuild(Pool);
             staticChanges = 0;

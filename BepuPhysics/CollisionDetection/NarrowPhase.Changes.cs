@@ -79,12 +79,33 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Pending, i);
         SortByKey();
+        WakeTouched();
         for (int i = 0; i < order.Count; ++i)
         {
             PrefetchPending(i);
             Apply(workers[order[i].Worker].Pending[order[i].Index]);
         }
         WatchBouncingPairs();
+    }
+
+    // Who is touched is in the solver in this very step.
+    void WakeTouched()
+    {
+        if (Simulation.Bodies.Asleep.Count == 0)
+            return;
+        var awakener = Simulation.Awakener;
+        awakener.BeginRequests();
+        awakener.RequestHeldByMovingKinematics();
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var pending = ref workers[order[i].Worker].Pending[order[i].Index];
+            if (pending.Manifold.Count == 0)
+                continue;
+            awakener.Request(pending.Pair.A.Slot);
+            if (pending.Pair.B.Mobility != CollidableMobility.Static)
+                awakener.Request(pending.Pair.B.Slot);
+        }
+        awakener.WakeRequested();
     }
 
     // Only some steps, and some pairs, need a list; no others pay for it.

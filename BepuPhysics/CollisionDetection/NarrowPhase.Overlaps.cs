@@ -126,9 +126,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    // The second leaf is negative for a static.
+    // The second leaf is negative for one of the static tree.
     void Enqueue(int workerIndex, CollidableReference a, CollidableReference b, int leafA, int leafB)
     {
+        // Of two bodies the second one sleeps here.
+        if (leafB < 0 && !Wakes(a))
+            return;
         // The constraint of a pair has its bodies in one order for ever.
         if (ComesSecond(a, b))
             (a, b) = (b, a);

@@ -16,13 +16,19 @@ public abstract partial class NarrowPhase
         int constraintCount = 0;
         int historyCount = 0;
         int childManifoldCount = 0;
-        for (int i = 0; i < Pairs.Pairs.Count; ++i)
+        for (int j = 0; j < Pairs.Pairs.Count + Pairs.Asleep.Count; ++j)
         {
-            Invariant.Require(Pairs.Pairs.IndexOf(Pairs.Pairs.Keys[i]) == i, "place of pair", i);
-            ref var cached = ref Pairs.Pairs.Values[i];
+            // Those that sleep behind the others.
+            var isAsleep = j >= Pairs.Pairs.Count;
+            ref var table = ref isAsleep ? ref Pairs.Asleep : ref Pairs.Pairs;
+            var i = isAsleep ? j - Pairs.Pairs.Count : j;
+            var key = table.Keys[i];
+            Invariant.Require(table.IndexOf(key) == i, "place of pair", j);
+            Invariant.Require(!isAsleep || Pairs.Pairs.IndexOf(key) < 0, "second place of sleeping pair", i);
+            ref var cached = ref table.Values[i];
             var constraintCountBefore = constraintCount;
             var last = 0ul;
-            for (var manifolds = Pairs.ManifoldsOf(i); manifolds.MoveNext();)
+            for (var manifolds = Pairs.ManifoldsOf(ref cached); manifolds.MoveNext();)
             {
                 ref var manifold = ref manifolds.Current;
                 if (cached.IsOfChildren)
@@ -36,8 +42,9 @@ public abstract partial class NarrowPhase
                 if (!manifold.HasConstraint)
                     continue;
                 ++constraintCount;
-                ValidateConstraint(i, manifold, manifolds.Children);
+                ValidateConstraint(i, key, isAsleep, manifold, manifolds.Children);
             }
+            Invariant.Require(!isAsleep || constraintCount > constraintCountBefore, "sleeping pair without contacts", i);
             contactPairCount += constraintCount > constraintCountBefore ? 1 : 0;
             Invariant.Require(!cached.IsOfChildren || cached.ChildConstraintCount == constraintCount - constraintCountBefore,
                 "number of constraints of pair", i, cached.ChildConstraintCount);
@@ -48,15 +55,16 @@ public abstract partial class NarrowPhase
         Invariant.Require(CountContactConstraints() == constraintCount, "number of contact constraints, manifolds are", constraintCount);
     }
 
-    void ValidateConstraint(int index, in CachedManifold manifold, ChildIds children)
+    void ValidateConstraint(int index, CollidablePair pair, bool isAsleep, in CachedManifold manifold, ChildIds children)
     {
         var solver = Simulation.Solver;
-        var pair = Pairs.Pairs.Keys[index];
         Invariant.Require(solver.ConstraintExists(manifold.Constraint), "constraint of pair", index, manifold.Constraint.Slot);
         var location = solver.Locations[manifold.Constraint.Slot];
         Invariant.Require(location.TypeId == manifold.ConstraintTypeId && location.TypeId < ConstraintTypeIds.ContactTypeCount,
             "type of the constraint of pair", index, location.TypeId);
-        Invariant.Require(TryFind(manifold.Constraint, out var knownIndex, out var knownChildren) && knownIndex == index && knownChildren == children,
+        Invariant.Require(solver.IsAsleep(manifold.Constraint.Slot) == isAsleep, "sleep of the constraint of pair", index);
+        Invariant.Require(isAsleep ? IsSame(pairOfConstraint[manifold.Constraint.Slot], pair) :
+            TryFind(manifold.Constraint, out var knownIndex, out var knownChildren) && knownIndex == index && knownChildren == children,
             "pair of constraint", manifold.Constraint.Slot);
         var processor = solver.Processor(location.TypeId);
         Invariant.Require(processor.BodiesPerConstraint == (pair.B.Mobility == CollidableMobility.Static ? 1 : 2),
@@ -86,22 +94,23 @@ public abstract partial class NarrowPhase
         Invariant.Require(MathF.Abs(Exact.Dot(patch.Friction, patch.Normal)) <= rounding * (friction + load), "plane of the friction of pair", index);
     }
 
-    bool IsBody(in ConstraintLocation location, int slot, CollidableReference collidable)
-    {
-        var solver = Simulation.Solver;
-        var reference = solver.Processor(location.TypeId).BodyReference(ref solver.TypeBatchAt(location), location.IndexInTypeBatch, slot);
-        return Simulation.Bodies.ActiveSet.IndexToHandle[reference & EncodedBody.IndexMask] == collidable.BodyHandle;
-    }
+    static bool IsSame(CollidablePair a, CollidablePair b) => a.A == b.A && a.B == b.B;
+
+    bool IsBody(in ConstraintLocation location, int slot, CollidableReference collidable) =>
+        Simulation.Bodies.HandleAt(Simulation.Solver.BodySlotOf(location, slot)) == collidable.BodyHandle;
 
     int CountContactConstraints()
     {
         int count = 0;
-        ref var batches = ref Simulation.Solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
+        for (int i = 0; i < Simulation.Solver.Sets.Length; ++i)
         {
-            ref var typeBatches = ref batches[i].TypeBatches;
-            for (int j = 0; j < typeBatches.Count; ++j)
-                count += typeBatches[j].TypeId < ConstraintTypeIds.ContactTypeCount ? typeBatches[j].ConstraintCount : 0;
+            ref var batches = ref Simulation.Solver.Sets[i].Batches;
+            for (int j = 0; j < batches.Count; ++j)
+            {
+                ref var typeBatches = ref batches[j].TypeBatches;
+                for (int k = 0; k < typeBatches.Count; ++k)
+                    count += typeBatches[k].TypeId < ConstraintTypeIds.ContactTypeCount ? typeBatches[k].ConstraintCount : 0;
+            }
         }
         return count;
     }

@@ -114,12 +114,14 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         }
     }
 
-    /// <summary>Removes all contacts, and what is remembered of all pairs.</summary>
+    /// <summary>Removes all contacts, and what is remembered of all pairs, but for those that sleep.</summary>
     private protected void ForgetContacts()
     {
         for (int i = Pairs.Pairs.Count - 1; i >= 0; --i)
+        {
             RemoveConstraints(i);
-        Pairs.Clear();
+            Pairs.Remove(i, Pool);
+        }
         Restitution.BeginStep();
     }
 

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Threading;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
@@ -7,7 +8,9 @@ using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
 
-/// <summary>First stage of a step: bounds that contain each body wherever it may go within the step, and how far to look for contacts.</summary>
+/// <summary>
+/// First stage of a step: bounds that contain each body wherever it may go within the step, how far to look for contacts, and for how long it has rested.
+/// </summary>
 // A body at velocity v and angular velocity w sweeps its bounds by v dt, and its surface leaves them by no more than the arc |w| dt R of its
 // farthest point, nor by more than R - r, the difference of its greatest and smallest radius: further turning changes nothing.
 // The speculative margin is the same motion as a distance: what may touch within the step is looked for.
@@ -30,16 +33,26 @@ unsafe struct BoundsPredictor : IStagedWork
     public readonly void Execute(int stage, int block, int workerIndex)
     {
         var end = Math.Min((block + 1) * BundlesPerBlock, BundleCount);
+        int ripe = 0;
         for (int bundle = block * BundlesPerBlock; bundle < end; ++bundle)
-            Predict(bundle, workerIndex);
+            ripe += Predict(bundle, workerIndex);
+        // The sum is the same in any order.
+        if (ripe > 0)
+            Interlocked.Add(ref Bodies.RipeCount, ripe);
     }
 
-    readonly void Predict(int bundle, int workerIndex)
+    /// <returns>Number of bodies that have rested long enough to sleep.</returns>
+    readonly int Predict(int bundle, int workerIndex)
     {
-        Integrator.PredictVelocities(bundle, Dt, workerIndex, out var pose, out var velocity);
+        Integrator.PredictVelocities(bundle, Dt, workerIndex, out var pose, out var velocity, out var speedSquared);
         ref var set = ref Bodies.Awake;
         var start = bundle * Vector<float>.Count;
         var count = Math.Min(Vector<float>.Count, set.Count - start);
+        var activities = set.Activity.Memory + start;
+        var speeds = (float*)&speedSquared;
+        int ripe = 0;
+        for (int i = 0; i < count; ++i)
+            ripe += activities[i].Note(speeds[i]);
         var collidables = set.Collidables.Memory + start;
         Span<int> shapeIndices = stackalloc int[Vector<float>.Count];
         int done = 0;
@@ -61,6 +74,7 @@ unsafe struct BoundsPredictor : IStagedWork
             Shapes.GetBatch(type).GetBounds(shapeIndices, pose.Orientation, out var maximumRadius, out var maximumAngularExpansion, out var min, out var max);
             Write(lanes, collidables, pose.Position, velocity, maximumRadius, maximumAngularExpansion, min, max);
         }
+        return ripe;
     }
 
     readonly void Write(

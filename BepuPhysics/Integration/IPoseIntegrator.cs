@@ -1,3 +1,5 @@
+using System.Numerics;
+
 namespace BepuPhysics;
 
 /// <summary>Parts of a step in which bodies are integrated.</summary>
@@ -27,5 +29,12 @@ public interface IPoseIntegrator
     internal void Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex);
 
     /// <summary>Velocities that a bundle of bodies will have after a time, for the prediction of bounds.</summary>
-    internal void PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity);
+    /// <param name="bundle">The bundle.</param>
+    /// <param name="dt">The time, s.</param>
+    /// <param name="workerIndex">Index of the calling worker.</param>
+    /// <param name="pose">Poses of the bodies.</param>
+    /// <param name="velocity">Velocities that they will have.</param>
+    /// <param name="speedSquared">Squared speeds that they have now, linear plus angular; infinite for kinematic bodies that move at all.</param>
+    internal void PredictVelocities(
+        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared);
 }

@@ -111,7 +111,8 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         }
     }
 
-    void IPoseIntegrator.PredictVelocities(int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity)
+    void IPoseIntegrator.PredictVelocities(
+        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared)
     {
         ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
@@ -120,7 +121,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             StopAndRead(unsound, indices, ref pose, ref velocity);
         quarantine.Remember(bundle);
         var before = velocity;
-        IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, new Vector<float>(dt), ref velocity);
+        var kinematic = IsKinematic(localInertia);
+        speedSquared = velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
+        speedSquared = Wide.Select(
+            kinematic & Vector.GreaterThan(speedSquared, Vector<float>.Zero), new Vector<float>(float.PositiveInfinity), speedSquared);
+        IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, new Vector<float>(dt), ref velocity);
         // What the callbacks make of a body is stopped where it is to stay; bounds only have to be bounds.
         var sound = Soundness.OfVelocities(velocity);
         velocity.Linear = Vector3Wide.Select(sound, velocity.Linear, before.Linear);

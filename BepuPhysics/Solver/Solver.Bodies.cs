@@ -25,8 +25,7 @@ public sealed unsafe partial class Solver
         {
             if (slot == constraint.BodyIndexInConstraint)
                 continue;
-            var index = processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask;
-            enumerator.LoopBody(bodies.Sets[location.SetIndex].IndexToHandle[index]);
+            enumerator.LoopBody(bodies.HandleAt(BodySlotOf(location, slot)));
         }
     }
 
@@ -114,12 +113,14 @@ public sealed unsafe partial class Solver
         return true;
     }
 
-    /// <summary>Follows a body that moved to another index of its set.</summary>
+    /// <summary>Follows a body that moved to another index of the active set.</summary>
     internal void UpdateBodyIndex(in BodySet set, int newIndex)
     {
         foreach (var constraint in new BodyConstraints(this, set.Constraints[newIndex]))
         {
             ref var location = ref Locations[constraint.ConnectingConstraintHandle.Slot];
+            if (location.SetIndex != 0)
+                continue;
             ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
                 constraint.BodyIndexInConstraint);
             reference = reference & ~EncodedBody.IndexMask | newIndex;

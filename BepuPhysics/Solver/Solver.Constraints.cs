@@ -45,17 +45,20 @@ public sealed unsafe partial class Solver
         CheckBodies(bodyHandles);
         EnsureRegistered<TDescription>();
         TDescription.Validate(description);
+        for (int i = 0; i < bodyHandles.Length; ++i)
+            awakener.Wake(bodyHandles[i]);
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
         WriteDescription(Locations[handle.Slot], description);
         return handle;
     }
 
-    /// <summary>Removes a constraint.</summary>
+    /// <summary>Removes a constraint and wakes its bodies.</summary>
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public void Remove(ConstraintHandle handle)
     {
         using var change = world.Change("Solver.Remove");
         CheckHandle(handle);
+        WakeBodiesOf(handle);
         RemoveConstraint(handle);
     }
 
@@ -78,10 +81,44 @@ public sealed unsafe partial class Solver
         HandlePool.Return(handle.Slot, pool);
     }
 
-    /// <summary>Changes the description of a constraint; its accumulated impulses stay.</summary>
+    /// <summary>Changes the description of a constraint and wakes its bodies; its accumulated impulses stay.</summary>
     /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
     public void ApplyDescription<TDescription>(ConstraintHandle handle, in TDescription description)
-        where TDescription : unmanaged, IConstraintDescription<TDescription> => ApplyDescriptionWithoutWaking(handle, description);
+        where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        world.CheckWritable("Solver.ApplyDescription");
+        CheckType<TDescription>(handle);
+        TDescription.Validate(description);
+        if (IsAsleep(handle.Slot))
+        {
+            using var change = world.Change("Solver.ApplyDescription");
+            WakeBodiesOf(handle);
+        }
+        // Several threads may change constraints of one body: they write the same.
+        ForgetRest(handle);
+        WriteDescription(Locations[handle.Slot], description);
+    }
+
+    void ForgetRest(ConstraintHandle handle)
+    {
+        ref var location = ref Locations[handle.Slot];
+        for (int i = 0; i < Processor(location.TypeId).BodiesPerConstraint; ++i)
+        {
+            ref var body = ref bodies.Locations[BodySlotOf(location, i)];
+            bodies.SetOf(body).Activity[body.Index].Forget();
+        }
+    }
+
+    void WakeBodiesOf(ConstraintHandle handle)
+    {
+        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        var location = Locations[handle.Slot];
+        var count = Processor(location.TypeId).BodiesPerConstraint;
+        for (int i = 0; i < count; ++i)
+            handles[i] = bodies.HandleAt(BodySlotOf(location, i));
+        for (int i = 0; i < count; ++i)
+            awakener.Wake(handles[i]);
+    }
 
     /// <summary>Changes the description of a constraint without waking its bodies.</summary>
     /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
@@ -169,7 +206,7 @@ public sealed unsafe partial class Solver
             if (!kinematic)
                 dynamics[dynamicCount++] = bodyHandles[i].Slot;
         }
-        var batchIndex = kind == BatchKind.Coloured ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(kind);
+        var batchIndex = kind == BatchKind.Coloured ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(ref ActiveSet, kind);
         ref var batch = ref ActiveSet.Batches[batchIndex];
         if (batch.Kind == BatchKind.Coloured)
         {
@@ -193,15 +230,15 @@ public sealed unsafe partial class Solver
                 return i;
             ++coloured;
         }
-        return coloured < FallbackBatchThreshold ? AddBatch(BatchKind.Coloured) : FindOrCreateBatch(BatchKind.Fallback);
+        return coloured < FallbackBatchThreshold ? AddBatch(ref ActiveSet, BatchKind.Coloured) : FindOrCreateBatch(ref ActiveSet, BatchKind.Fallback);
     }
 
-    int FindOrCreateBatch(BatchKind kind) => FindBatch(kind) is >= 0 and var index ? index : AddBatch(kind);
+    int FindOrCreateBatch(ref ConstraintSet set, BatchKind kind) => FindBatch(set, kind) is >= 0 and var index ? index : AddBatch(ref set, kind);
 
     /// <summary>Index of the batch of a kind of which there is one; -1 where there is none yet.</summary>
-    int FindBatch(BatchKind kind)
+    static int FindBatch(in ConstraintSet set, BatchKind kind)
     {
-        ref var batches = ref ActiveSet.Batches;
+        ref readonly var batches = ref set.Batches;
         for (int i = batches.Count - 1; i >= 0; --i)
         {
             if (batches[i].Kind == kind)
@@ -210,9 +247,9 @@ public sealed unsafe partial class Solver
         return -1;
     }
 
-    int AddBatch(BatchKind kind)
+    int AddBatch(ref ConstraintSet set, BatchKind kind)
     {
-        ref var batches = ref ActiveSet.Batches;
+        ref var batches = ref set.Batches;
         var batch = new ConstraintBatch { Kind = kind, TypeBatches = new QuickList<TypeBatch>(4, pool) };
         if (kind == BatchKind.Coloured)
             batch.DynamicBodies = new IndexSet(pool, Math.Max(64, bodies.ActiveSet.Count));

@@ -67,7 +67,7 @@ public sealed unsafe partial class Solver
     void BuildSplitBodies(ref FallbackParts split)
     {
         ref var batches = ref ActiveSet.Batches;
-        var fallback = FindBatch(BatchKind.Fallback);
+        var fallback = FindBatch(ActiveSet, BatchKind.Fallback);
         if (fallback < 0 || batches[fallback].CountConstraints() == 0)
             return;
         ref var typeBatches = ref batches[fallback].TypeBatches;

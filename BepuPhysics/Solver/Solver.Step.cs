@@ -92,7 +92,7 @@ public sealed unsafe partial class Solver
         BeginBreaking();
         if (set.Count == 0)
         {
-            shuffleState = 0;
+            Rest();
             return;
         }
         var substepDt = BeginStep(dt);
@@ -122,6 +122,13 @@ public sealed unsafe partial class Solver
         {
             Release(ref work);
         }
+    }
+
+    /// <summary>A step without bodies.</summary>
+    internal void Rest()
+    {
+        endsWithVelocities = false;
+        shuffleState = 0;
     }
 
     // The event is alone with the bodies: it may write to them and ask queries.

@@ -19,11 +19,18 @@ public sealed partial class Solver
                 ValidateBatch(setIndex, batchIndex, ref referenceCount);
         }
         int listedCount = 0;
-        for (int i = 0; i < bodies.ActiveSet.Count; ++i)
+        int asleepOfKinematics = 0;
+        for (int setIndex = 0; setIndex < bodies.Sets.Length; ++setIndex)
         {
-            ValidateList(bodies.ActiveSet.Constraints[i], i);
-            listedCount += bodies.ActiveSet.Constraints[i].Count;
+            ref var set = ref bodies.Sets[setIndex];
+            for (int i = 0; i < set.Count; ++i)
+            {
+                ValidateList(set, i, out var asleepCount);
+                asleepOfKinematics += asleepCount;
+                listedCount += set.Constraints[i].Count;
+            }
         }
+        Invariant.Require(asleepOfKinematics == AsleepOfKinematics, "number of sleeping constraints of kinematics", asleepOfKinematics);
         // No edge is in a list twice or in two lists, so none is missing either.
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
         ValidateHubs();
@@ -99,9 +106,15 @@ public sealed partial class Solver
         {
             var reference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, slot);
             var bodyIndex = reference & EncodedBody.IndexMask;
-            Invariant.Require(reference >= 0 && bodyIndex < bodies.ActiveSet.Count, "body of constraint", handle.Slot, slot);
+            var isAsleep = location.SetIndex == AsleepSet;
+            Invariant.Require(reference >= 0 && (isAsleep ? bodies.TryGetHandle(bodyIndex, out _) : bodyIndex < bodies.ActiveSet.Count),
+                "body of constraint", handle.Slot, slot);
             var kinematic = (reference & EncodedBody.KinematicFlag) != 0;
-            Invariant.Require(kinematic == Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]), "kinematic flag of constraint", handle.Slot, slot);
+            var body = BodySlotOf(location, slot);
+            ref var set = ref bodies.SetOf(bodies.HandleAt(body), out var row);
+            Invariant.Require(kinematic == Bodies.IsKinematic(set.LocalInertias[row]), "kinematic flag of constraint", handle.Slot, slot);
+            // Only a kinematic body may be awake while constraints of it sleep, and none sleeps while one of them is awake.
+            Invariant.Require(kinematic ? isAsleep || !set.IsAsleep : isAsleep == set.IsAsleep, "sleep of a body of constraint", handle.Slot, slot);
             for (int other = 0; other < slot; ++other)
             {
                 var otherReference = processor.BodyReference(ref typeBatch, location.IndexInTypeBatch, other);
@@ -110,7 +123,7 @@ public sealed partial class Solver
             if (kinematic)
                 continue;
             anyDynamic = true;
-            ref var isFound = ref found[bodies.ActiveSet.IndexToHandle[bodyIndex].Slot];
+            ref var isFound = ref found[body];
             Invariant.Require(!isFound || Sets[location.SetIndex].Batches[location.BatchIndex].Kind != BatchKind.Coloured,
                 "second constraint in its batch of the body of constraint", handle.Slot, slot);
             isFound = true;
@@ -121,9 +134,12 @@ public sealed partial class Solver
     }
 
     // The list is a ring, both ways, of as many edges as it says, each of a constraint that has the body in the place that the edge says.
-    void ValidateList(ConstraintList list, int bodyIndex)
+    void ValidateList(in BodySet set, int index, out int asleepCount)
     {
+        var list = set.Constraints[index];
+        var bodyIndex = set.IndexToHandle[index].Slot;
         var edge = list.First;
+        int asleep = 0;
         for (int i = 0; i < list.Count; ++i)
         {
             Invariant.Require(i == 0 || edge != list.First, "length of the list of constraints of body", bodyIndex, list.Count);
@@ -134,12 +150,14 @@ public sealed partial class Solver
             ref var location = ref Locations[slot];
             var processor = Processor(location.TypeId);
             var bodySlot = Edges.BodySlot(edge);
-            Invariant.Require(bodySlot < processor.BodiesPerConstraint && bodyIndex == (EncodedBody.IndexMask &
-                processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, bodySlot)),
+            Invariant.Require(bodySlot < processor.BodiesPerConstraint && bodyIndex == BodySlotOf(location, bodySlot),
                 "body of a listed constraint of body", bodyIndex, i);
+            asleep += location.SetIndex == AsleepSet ? 1 : 0;
             edge = Edges.Next(edge);
         }
         Invariant.Require(list.Count == 0 || edge == list.First, "end of the list of constraints of body", bodyIndex);
+        asleepCount = Bodies.IsKinematic(set.LocalInertias[index]) ? asleep : 0;
+        Invariant.Require(list.AsleepCount == asleepCount, "number of sleeping constraints of body", bodyIndex, list.AsleepCount);
     }
 
     void ValidateHubs()

@@ -29,6 +29,7 @@ public sealed unsafe partial class Solver
     readonly TypeProcessor?[] processors = new TypeProcessor?[MaximumTypeCount];
     // Who may write into the columns of a type; null for contacts, which have no description.
     readonly Type?[] descriptionTypes = new Type?[MaximumTypeCount];
+    IslandAwakener awakener = null!;
     Action<ConstraintHandle> contactRemoved = static _ => { };
     // Every type batch takes as much: what is beyond is a mistake.
     internal const int MaximumCapacityPerTypeBatch = 1_000_000;
@@ -39,7 +40,7 @@ public sealed unsafe partial class Solver
     int relaxationIterationCount;
     LoadPathMode loadPath;
 
-    /// <summary>Sets of constraints; set 0 is the active one.</summary>
+    /// <summary>Sets of constraints: 0 is the active one, 1 has all that sleep.</summary>
     public Buffer<ConstraintSet> Sets;
     /// <summary>Greatest number of constraints, contacts included.</summary>
     public const int MaximumCount = 1 << ConstraintHandle.SlotBits;
@@ -162,13 +163,16 @@ public sealed unsafe partial class Solver
         OptionalStages.Add(new BreakStage(this));
         VelocityIterationScheduler = description.VelocityIterationScheduler;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
-        pool.Take(1, out Sets);
+        pool.Take(2, out Sets);
+        Sets[AsleepSet] = default;
         Sets[0] = new ConstraintSet { Batches = new QuickList<ConstraintBatch>(16, pool) };
         initialCapacity = Math.Max(16, initialCapacity);
         HandlePool = new IdPool(initialCapacity, pool);
         owners = new HandleOwners(ConstraintHandle.SlotBits, ConstraintHandle.ValueBits, initialCapacity, pool);
         EnsureSlots(initialCapacity);
     }
+
+    internal void Connect(IslandAwakener awakener) => this.awakener = awakener;
 
     /// <summary>Chooses who is told when a contact constraint is removed by anyone but the narrow phase.</summary>
     internal void OnContactRemoved(Action<ConstraintHandle> action) => contactRemoved = action;
@@ -237,6 +241,7 @@ public sealed unsafe partial class Solver
         HandlePool.Clear();
         ForgetStepLengths();
         shuffleState = 0;
+        AsleepOfKinematics = 0;
         hubsToShuffleForOneSweep = 0;
         hubsToShuffleForSweeps = 0;
     }
@@ -254,7 +259,10 @@ public sealed unsafe partial class Solver
     {
         Clear();
         for (int i = 0; i < Sets.Length; ++i)
-            Sets[i].Batches.Dispose(pool);
+        {
+            if (Sets[i].Batches.Span.Allocated)
+                Sets[i].Batches.Dispose(pool);
+        }
         pool.Return(ref Sets);
         pool.Return(ref Locations);
         Edges.Dispose(pool);

@@ -40,6 +40,7 @@ public class RecordedHashTests
         ["joints"] = () => Run(new RandomScene(5, Ingredients.Contacts | Ingredients.Joints), 60),
         ["hubs"] = () => Run(new RandomScene(6, Ingredients.All), 60),
         ["bounces"] = () => Bounce(60),
+        ["wave"] = () => Run(SmallScenes.Wave(), 350),
     };
 
     public static TheoryData<string> Names() => new(scenes.Keys);

@@ -62,6 +62,19 @@ static class LockOperations
         Change("Events.SetSensor", w => w.Simulation.Events.SetSensor(w.SpareStatic, true));
         list.Add("Events.HitSpeed", (OperationKind.Write, w => w.Simulation.Events.HitSpeed = 2));
         list.Add("GetInterpolatedPose", (OperationKind.Query, w => w.Simulation.Bodies.GetInterpolatedPose(w.Body, .5f)));
+        Change("Awake", w =>
+        {
+            var body = w.Simulation.Bodies[w.Body];
+            body.Awake = true;
+        });
+        Change("Asleep", w =>
+        {
+            var body = w.Simulation.Bodies[w.Spare];
+            body.Awake = false;
+        });
+        Change("AwakenBody", w => w.Simulation.Awakener.AwakenBody(w.Body));
+        Change("AwakenSet", w => w.Simulation.Awakener.AwakenSet(1));
+        Change("AwakenAll", w => w.Simulation.Awakener.AwakenAll());
         list.Add("ApplyImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyImpulse(Vector3.UnitY, Vector3.UnitX)));
         list.Add("ApplyLinearImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyLinearImpulse(Vector3.UnitY)));
         list.Add("ApplyAngularImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyAngularImpulse(Vector3.UnitY)));
@@ -78,6 +91,13 @@ static class LockOperations
     static void Statics(Dictionary<string, (OperationKind, Action<LockedWorld>)> list)
     {
         Change("Statics.Add", w => w.Simulation.Statics.Add(new StaticDescription(new Vector3(0, 70, 0), Quaternion.Identity, w.OtherShape)));
+        Change("Statics.AddWithoutAwakeningBodies", w => w.Simulation.Statics.AddWithoutAwakeningBodies(
+            new StaticDescription(new Vector3(0, 70, 0), Quaternion.Identity, w.OtherShape)));
+        Change("Statics.Remove without waking", w =>
+        {
+            var filter = default(StaticsShouldntAwakenBodies);
+            w.Simulation.Statics.Remove(w.SpareStatic, ref filter);
+        });
         Change("Statics.Remove", w => w.Simulation.Statics.Remove(w.SpareStatic));
         Change("Statics.Remove the ground", w => w.Simulation.Statics.Remove(w.Ground));
         Change("Statics.RemoveAt", w => w.Simulation.Statics.RemoveAt(1));

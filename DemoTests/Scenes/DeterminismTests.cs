@@ -23,6 +23,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("pile", 300)]
     [InlineData("shape-pile", 200)]
     [InlineData("hull-pile", 200)]
+    [InlineData("wave", 350)]
     public void Threads_do_not_change_a_bit(string name, int steps)
     {
         var scene = Scene(name);
@@ -61,6 +62,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("fast-1", 120, 300)]
     [InlineData("fast-2", 120, 300)]
     [InlineData("fast-3", 120, 300)]
+    [InlineData("wave", 350, 350)]
     public void Lanes_do_not_change_a_bit(string name, int steps, int fullSteps)
     {
         steps = IsFull ? fullSteps : steps;
@@ -91,8 +93,11 @@ public sealed class DeterminismTests(ITestOutputHelper output)
 
     static bool IsFast(string name) => name.StartsWith("fast-", StringComparison.Ordinal);
 
-    static SceneDescription Scene(string name) => IsFast(name) ? SmallScenes.Fast(name[^1]) : IsFull ? SceneLibrary.Load(name, 1) : name switch
+    static SceneDescription Scene(string name) => name switch
     {
+        "wave" => SmallScenes.Wave(),
+        _ when IsFast(name) => SmallScenes.Fast(name[^1]),
+        _ when IsFull => SceneLibrary.Load(name, 1),
         "pyramids" => SmallScenes.Pyramids(count: 5, baseCount: 12),
         "cloth-lattice" => SmallScenes.Lattice(width: 24),
         "shape-pile" => SmallScenes.Pile("shape-pile", columns: 4, layers: 8),
@@ -112,7 +117,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         try
         {
             // Another process knows the built-in scenes only; a small one it reads from a file.
-            if (IsFast(scene) || (!IsFull && scene is "shape-pile" or "hull-pile"))
+            if (scene == "wave" || IsFast(scene) || (!IsFull && scene is "shape-pile" or "hull-pile"))
             {
                 File.WriteAllText(file, SmallScenes.Write(Scene(scene)));
                 scene = file;

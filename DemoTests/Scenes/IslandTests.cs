@@ -56,18 +56,18 @@ public class IslandTests
         Assert.Empty(Find(world.Simulation));
     }
 
-    // Values of the bodies' handles, island after island.
+    // Values of the bodies' handles, island after island, as if all of them might sleep.
     static List<int[]> Find(Simulation simulation)
     {
-        var islands = new Islands(simulation.Bodies, simulation.Solver, simulation.BufferPool);
+        ref var set = ref simulation.Bodies.ActiveSet;
+        simulation.BufferPool.Take<RestKind>(System.Math.Max(1, set.Count), out var kinds);
+        for (int i = 0; i < set.Count; ++i)
+            kinds[i] = Bodies.IsKinematic(set.LocalInertias[i]) ? RestKind.Fixed : RestKind.Rests;
+        var islands = new IslandSearch(simulation.Bodies, simulation.Solver, kinds, int.MaxValue, simulation.BufferPool);
+        simulation.BufferPool.Return(ref kinds);
         var found = new List<int[]>();
         for (int i = 0; i < islands.Count; ++i)
-        {
-            var bodies = new List<int>();
-            foreach (var index in islands.BodiesOf(i))
-                bodies.Add(simulation.Bodies.ActiveSet.IndexToHandle[index].Value);
-            found.Add([.. bodies]);
-        }
+            found.Add([.. islands.SlotsOf(i).ToArray().Select(slot => simulation.Bodies.HandleAt(slot).Value)]);
         islands.Dispose(simulation.BufferPool);
         return found;
     }

@@ -14,6 +14,7 @@ public class MemoryTests
 {
     const int CalmSteps = 60;
     const int MostSteps = 600;
+    const string SmallWave = "small wave";
 
     public static TheoryData<string, int> Scenes
     {
@@ -22,9 +23,14 @@ public class MemoryTests
             var data = new TheoryData<string, int>();
             foreach (var scene in SceneLibrary.Scenes)
             {
+                // A hundred thousand bodies take minutes until they sleep: a small wave is there instead.
+                if (scene.Name is "waking-wave" or "settled-city")
+                    continue;
                 data.Add(scene.Name, 1);
                 data.Add(scene.Name, 2);
             }
+            data.Add(SmallWave, 1);
+            data.Add(SmallWave, 2);
             return data;
         }
     }
@@ -33,7 +39,7 @@ public class MemoryTests
     [MemberData(nameof(Scenes))]
     public void Steps_after_the_warm_up_take_no_memory(string name, int threads)
     {
-        using var world = new SceneWorld(SceneLibrary.Load(name, seed: 1), threads);
+        using var world = new SceneWorld(name == SmallWave ? SmallScenes.Wave() : SceneLibrary.Load(name, seed: 1), threads);
         int calm = 0, steps = 0;
         (long Managed, ulong Pools) taken = default, last = default;
         for (; steps < MostSteps && calm < CalmSteps; ++steps)

@@ -17,7 +17,9 @@ sealed class Scramble : IDisposable
 {
     const int MostBodies = 90;
     const float Extent = 7;
-    static readonly BodyActivityDescription neverSleep = new(-1);
+    // Bodies that may sleep do so in the very scramble, and are at rest no sooner than others.
+    readonly BodyActivityDescription activity;
+    readonly bool sleeps;
 
     readonly Random random;
     readonly TestWorld world;
@@ -32,8 +34,10 @@ sealed class Scramble : IDisposable
         public bool Has(BodyHandle body) => A == body || B == body;
     }
 
-    public Scramble(int seed, int threads, SimulationAllocationSizes? sizes)
+    public Scramble(int seed, int threads, SimulationAllocationSizes? sizes, bool sleeps = false)
     {
+        this.sleeps = sleeps;
+        activity = sleeps ? new(.3f, 3) : new(-1);
         random = new Random(seed);
         world = new TestWorld(threads: threads, sizes: sizes);
         Fill();
@@ -44,7 +48,7 @@ sealed class Scramble : IDisposable
     /// <summary>Some changes and a step.</summary>
     public void Round()
     {
-        int changes = random.Next(6);
+        int changes = sleeps && random.Next(4) > 0 ? 0 : random.Next(6);
         for (int i = 0; i < changes; ++i)
             Change();
         if (random.Next(8) == 0)
@@ -111,7 +115,7 @@ sealed class Scramble : IDisposable
 
     void Change()
     {
-        switch (random.Next(19))
+        switch (random.Next(sleeps ? 25 : 19))
         {
             case 0 or 1 or 2:
                 if (bodies.Count < MostBodies)
@@ -148,6 +152,9 @@ sealed class Scramble : IDisposable
                 if (joints.Count > 0)
                     RemoveJoint(random.Next(joints.Count));
                 break;
+            case 15:
+                world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));
+                break;
             case 16:
                 Simulation.Events.Listen(AnyBody(), (EventMask)random.Next(16));
                 break;
@@ -158,8 +165,24 @@ sealed class Scramble : IDisposable
                 if (statics.Count > 1)
                     Simulation.Events.SetSensor(statics[random.Next(1, statics.Count)], random.Next(2) == 0);
                 break;
+            case 19 or 20:
+                SetAwake(world.Bodies[AnyBody()], random.Next(2) == 0);
+                break;
+            case 21:
+                Teleport(world.Bodies[AnyBody()]);
+                break;
+            case 22:
+                world.Bodies[AnyBody()].Velocity = new BodyVelocity(TestWorld.Scatter(random, 2), TestWorld.Scatter(random, 2));
+                break;
+            case 23:
+                if (joints.Count > 0)
+                    TouchJoint(joints[random.Next(joints.Count)]);
+                break;
             default:
-                world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));
+                if (random.Next(4) == 0)
+                    Simulation.Awakener.AwakenAll();
+                else
+                    Simulation.Awakener.AwakenBody(AnyBody());
                 break;
         }
     }
@@ -176,8 +199,36 @@ sealed class Scramble : IDisposable
         var velocity = new BodyVelocity(TestWorld.Scatter(random, 4), TestWorld.Scatter(random, 4));
         CollidableDescription collidable = random.Next(10) == 0 ? default : AnyShape();
         return random.Next(6) == 0
-            ? BodyDescription.CreateKinematic(pose, collidable, neverSleep)
-            : BodyDescription.CreateDynamic(pose, velocity, new Box(1, 1, 1).ComputeInertia(1 + random.NextSingle()), collidable, neverSleep);
+            ? BodyDescription.CreateKinematic(pose, collidable, activity)
+            : BodyDescription.CreateDynamic(pose, velocity, new Box(1, 1, 1).ComputeInertia(1 + random.NextSingle()), collidable, activity);
+    }
+
+    static void SetAwake(BodyReference body, bool value)
+    {
+        body.Awake = value;
+        Assert.Equal(value, body.Awake);
+    }
+
+    // Asleep or not, with and without telling anybody.
+    void Teleport(BodyReference body)
+    {
+        body.Pose.Position = Place();
+        body.Pose.Orientation = TestWorld.Turn(random);
+        if (random.Next(2) == 0)
+            body.UpdateBounds();
+        if (random.Next(2) == 0)
+            body.Awake = true;
+    }
+
+    void TouchJoint(Joint joint)
+    {
+        if (joint.Kind != 0)
+            return;
+        world.Solver.GetDescription<BallSocket>(joint.Handle, out var description);
+        if (random.Next(2) == 0)
+            world.Solver.ApplyDescription(joint.Handle, description);
+        else
+            world.Solver.ApplyDescriptionWithoutWaking(joint.Handle, description);
     }
 
     void AddBody() => bodies.Add(world.Bodies.Add(AnyDescription()));

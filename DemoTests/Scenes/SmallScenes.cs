@@ -4,6 +4,7 @@ using System.Linq;
 using System.Numerics;
 using System.Text;
 using Demos.Scenes;
+using Demos.Scenes.BuiltIn;
 
 namespace DemoTests.Scenes;
 
@@ -88,6 +89,9 @@ static class SmallScenes
     }
 
     /// <summary>The text of a scene without joints; every number comes back as it was.</summary>
+    /// <summary>Stacks that sleep, and a ball that wakes some of them.</summary>
+    public static SceneDescription Wave() => WakingWave.Create("small-wave", stackCount: 200, width: 14);
+
     public static string Write(SceneDescription scene)
     {
         var text = new StringBuilder();

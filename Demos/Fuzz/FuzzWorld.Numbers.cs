@@ -27,6 +27,8 @@ sealed partial class FuzzWorld
     /// <summary>To be called when something was written through a reference.</summary>
     public void NoteWritten(BodyReference body)
     {
+        // No step looks at what sleeps, and writing wakes nobody.
+        body.Awake = true;
         if (!IsFinite(body.MotionState))
             unsoundMotions[body.Handle] = stages;
         if (!IsFinite(body.LocalInertia))

@@ -127,10 +127,13 @@ sealed partial class FuzzWorld : IDisposable
 
     bool IsUsed(TypedIndex shape)
     {
-        for (int i = 0; i < BodyCount; ++i)
+        for (int set = 0; !IsOver && set < Simulation.Bodies.Sets.Length; ++set)
         {
-            if (Simulation.Bodies.ActiveSet.Collidables[i].Shape == shape)
-                return true;
+            for (int i = 0; i < Simulation.Bodies.Sets[set].Count; ++i)
+            {
+                if (Simulation.Bodies.Sets[set].Collidables[i].Shape == shape)
+                    return true;
+            }
         }
         for (int i = 0; i < StaticCount; ++i)
         {

@@ -32,6 +32,10 @@ public static class SceneLibrary
         Chains.Hundredfold,
         Chains.Thousandfold,
         RopeNet.Scene,
+        ManyStatics.Scene,
+        WakingWave.Scene,
+        SettledCity.Scene,
+        SettledCity.Alone,
     ];
 
     /// <summary>Makes the built-in scene of that name, or reads the file.</summary>

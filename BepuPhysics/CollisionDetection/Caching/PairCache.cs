@@ -42,6 +42,9 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         return buffer;
     }
 
+    /// <summary>The pairs whose constraints sleep, with the same records; no memory before there is one.</summary>
+    public QuickDictionary<CollidablePair, CachedPair, CollidablePairComparer> Asleep;
+
     /// <summary>Histories of the pairs that have one; changed in place by the worker that tests the pair.</summary>
     public PairRecords<PairHistory> Histories;
 
@@ -69,10 +72,13 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     public int FindOrAdd(in CollidablePair pair, bool ofChildren, BufferPool pool)
     {
         var index = Pairs.IndexOf(pair);
-        if (index >= 0)
-            return index;
-        index = Pairs.Count;
-        Pairs.Add(pair, new CachedPair(ofChildren), pool);
+        return index >= 0 ? index : Add(pair, new CachedPair(ofChildren), pool);
+    }
+
+    int Add(in CollidablePair pair, in CachedPair value, BufferPool pool)
+    {
+        var index = Pairs.Count;
+        Pairs.Add(pair, value, pool);
         if (Pairs.Count > seen.Length)
         {
             var previous = seen.Length;
@@ -114,7 +120,10 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         ref manifold == PairRecords<ChildManifold>.None ? ref pair.FirstManifold : ref Manifolds.Memory[manifold].Next;
 
     /// <summary>All manifolds of a pair, in the order of children. None may be added or removed meanwhile.</summary>
-    public readonly ManifoldList ManifoldsOf(int index) => new(ref Pairs.Values[index], Manifolds.Memory);
+    public readonly ManifoldList ManifoldsOf(int index) => ManifoldsOf(ref Pairs.Values[index]);
+
+    /// <summary>All manifolds of a pair that may sleep, in the order of children. None may be added or removed meanwhile.</summary>
+    public readonly ManifoldList ManifoldsOf(ref CachedPair pair) => new(ref pair, Manifolds.Memory);
 
     /// <summary>Removes a manifold, and with the last one the pair; the last pair takes its index.</summary>
     /// <param name="index">Index of the pair.</param>
@@ -138,10 +147,36 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     public void Remove(int index, BufferPool pool)
     {
         Empty(ref Pairs.Values[index], ofChildren: false, pool);
+        Drop(index);
+    }
+
+    void Drop(int index)
+    {
         var last = Pairs.Count - 1;
         seen[index] = seen[last];
         seen[last] = 0;
         Pairs.FastRemove(Pairs.Keys[index]);
+    }
+
+    /// <summary>Moves a pair among those that sleep, unless it is there.</summary>
+    public void PutToSleep(in CollidablePair pair, BufferPool pool)
+    {
+        var index = Pairs.IndexOf(pair);
+        if (index < 0)
+            return;
+        if (!Asleep.Keys.Allocated)
+            Asleep = new(64, pool);
+        Asleep.Add(pair, Pairs.Values[index], pool);
+        Drop(index);
+    }
+
+    /// <summary>Moves a pair that sleeps among those of the present step, unless it is there.</summary>
+    public void Awaken(in CollidablePair pair, BufferPool pool)
+    {
+        if (!Asleep.TryGetValue(pair, out var value))
+            return;
+        Add(pair, value, pool);
+        Asleep.FastRemove(pair);
     }
 
     /// <summary>Forgets the manifolds of a pair, which have no constraints any more.</summary>
@@ -195,6 +230,8 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     {
         seen.Clear(0, Pairs.Count);
         Pairs.Clear();
+        if (Asleep.Keys.Allocated)
+            Asleep.Clear();
         Histories.Clear();
         Manifolds.Clear();
     }
@@ -202,6 +239,8 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     public void Dispose(BufferPool pool)
     {
         Pairs.Dispose(pool);
+        if (Asleep.Keys.Allocated)
+            Asleep.Dispose(pool);
         pool.Return(ref seen);
         Histories.Dispose(pool);
         Manifolds.Dispose(pool);

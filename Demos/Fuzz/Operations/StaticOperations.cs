@@ -12,6 +12,12 @@ static class StaticOperations
     public static FuzzOperation[] All { get; } =
     [
         new("Statics.Add", 12, Add),
+        new("Statics.AddWithoutAwakeningBodies", 2, AddQuietly),
+        new("Statics.Remove without waking", 1, w =>
+        {
+            var filter = default(StaticsShouldntAwakenBodies);
+            w.Simulation.Statics.Remove(w.AnyStatic(), ref filter);
+        }),
         new("Statics.Remove", 4, w => w.Simulation.Statics.Remove(w.AnyStatic())),
         new("Statics.RemoveAt", 2, w => w.Simulation.Statics.RemoveAt(w.Random.Below(w.StaticCount + 4) - 2)),
         new("Statics.ApplyDescription", 6, w => w.Simulation.Statics.ApplyDescription(w.AnyStatic(), Describe(w))),
@@ -57,6 +63,14 @@ static class StaticOperations
             return;
         StaticDescription description = Describe(w);
         w.Statics.Live.Add(w.Simulation.Statics.Add(description));
+    }
+
+    static void AddQuietly(FuzzWorld w)
+    {
+        if (w.Statics.Live.Count >= MaximumStatics)
+            return;
+        StaticDescription description = Describe(w);
+        w.Statics.Live.Add(w.Simulation.Statics.AddWithoutAwakeningBodies(description));
     }
 
     static StaticDescription Describe(FuzzWorld w)

@@ -16,10 +16,12 @@ static class StepOperations
         {
             float dt = Dt(w);
             ThreadDispatcher? dispatcher = w.AnyDispatcher();
+            w.Simulation.Sleep(dispatcher);
             w.Look(() => w.Simulation.PredictBoundingBoxes(dt, dispatcher), looksAtInertias: true);
             w.Look(() => w.Simulation.CollisionDetection(dt, dispatcher));
             w.Look(() => w.Simulation.Solve(dt, dispatcher));
         }),
+        new("Sleep", 2, w => w.Simulation.Sleep(w.AnyDispatcher())),
         new("PredictBoundingBoxes", 1, w =>
         {
             w.Look(() => w.Simulation.PredictBoundingBoxes(w.Random.Spoil(Dt(w)), w.AnyDispatcher()), looksAtInertias: true);

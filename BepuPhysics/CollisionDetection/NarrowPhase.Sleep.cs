@@ -1,0 +1,37 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs of which one body at least sleeps. Their contacts, if they have any, sleep too, or one of the two has to wake.
+public abstract partial class NarrowPhase
+{
+    /// <summary>Moves the pair of a contact constraint among those that sleep.</summary>
+    internal void PutToSleep(int constraint) => Pairs.PutToSleep(pairOfConstraint[constraint], Pool);
+
+    /// <summary>Moves the pair of a contact constraint among those that are tested in each step.</summary>
+    internal void Awaken(int constraint) => Pairs.Awaken(pairOfConstraint[constraint], Pool);
+
+    /// <summary>Whether there is nothing to do: no body is awake, and nothing is left to be forgotten of those that were.</summary>
+    internal bool IsAtRest => Simulation.Bodies.Awake.Count == 0 && Pairs.Pairs.Count == 0;
+
+    /// <summary>What a step does in which there is nothing to do.</summary>
+    internal void Rest()
+    {
+        SkippedPairCount = 0;
+        Restitution.BeginStep();
+    }
+
+    /// <summary>Whether a kinematic body that is awake moves, be it only that a game has put it elsewhere since the last step. Before the solver.</summary>
+    // The last step put it where its origin and its displacement say.
+    internal static bool Moves(in BodySet set, int index)
+    {
+        ref var motion = ref set.MotionStates[index];
+        return motion.Velocity.Linear != Vector3.Zero || motion.Velocity.Angular != Vector3.Zero ||
+            set.Origins[index].Position + set.Displacements[index].Linear != motion.Pose.Position;
+    }
+
+    /// <summary>Whether a body that is awake wakes one that sleeps by touching it.</summary>
+    private protected bool Wakes(CollidableReference awake) =>
+        awake.Mobility == CollidableMobility.Dynamic || Moves(Simulation.Bodies.Awake, Simulation.Bodies.Locations[awake.Slot].Index);
+}

@@ -1,0 +1,216 @@
+using System;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+/// <summary>Puts islands of bodies to sleep that have rested long enough.</summary>
+/// <remarks>
+/// A body rests while its speed is under its threshold, and may sleep when it has for as many steps as its description says. An island sleeps when all of
+/// its dynamic bodies may and no kinematic body that moves touches it; a kinematic body sleeps when all that it holds does, and it has no velocity at all.
+/// What sleeps costs no step anything.
+/// </remarks>
+// A step in which no body may sleep ends here after one comparison. Where some may and others hold them awake, islands are looked for in every eighth
+// step; otherwise in each, as long as some are found.
+public sealed unsafe class IslandSleeper
+{
+    // Bodies that are put to sleep in one step, or as many of those that are awake; an island that has more goes as a whole.
+    const int LeastBodiesPerStep = 512;
+    const int ShareOfAwake = 16;
+    const int StepsAfterFinding = 2;
+    const int StepsInVain = 7;
+
+    readonly Bodies bodies;
+    readonly Solver solver;
+    readonly SleepingIslands islands;
+    readonly BufferPool pool;
+    int stepsToWait;
+
+    internal IslandSleeper(Bodies bodies, Solver solver, SleepingIslands islands, BufferPool pool)
+    {
+        this.bodies = bodies;
+        this.solver = solver;
+        this.islands = islands;
+        this.pool = pool;
+    }
+
+    /// <summary>Puts islands to sleep, if there are such as may.</summary>
+    internal void Update()
+    {
+        if (bodies.RipeCount == 0)
+            return;
+        if (stepsToWait > 0)
+        {
+            --stepsToWait;
+            return;
+        }
+        var limit = Math.Max(LeastBodiesPerStep, bodies.Awake.Count / ShareOfAwake);
+        var kinematics = new QuickList<int>(16, pool);
+        pool.TakeAtLeast<RestKind>(Math.Max(1, bodies.Awake.Count), out var kinds);
+        Classify(kinds, ref kinematics);
+        var search = new IslandSearch(bodies, solver, kinds, limit, pool);
+        int asleep = 0;
+        for (int i = 0; i < search.Count; ++i)
+        {
+            var slots = search.SlotsOf(i);
+            islands.PutToSleep(slots);
+            asleep += slots.Length;
+        }
+        var hasMore = search.HasMore;
+        search.Dispose(pool);
+        pool.Return(ref kinds);
+        PutKinematicsToSleep(kinematics, limit, ref asleep, ref hasMore);
+        kinematics.Dispose(pool);
+        stepsToWait = hasMore ? 0 : asleep > 0 ? StepsAfterFinding : StepsInVain;
+    }
+
+    // What a game has written since the last step counts: a body that was given a velocity rests no more.
+    void Classify(in Buffer<RestKind> kinds, ref QuickList<int> kinematics)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = 0; i < set.Count; ++i)
+        {
+            ref var motion = ref set.MotionStates[i];
+            ref var activity = ref set.Activity[i];
+            var speed = Exact.LengthSquared(motion.Velocity.Linear) + Exact.LengthSquared(motion.Velocity.Angular);
+            if (!Bodies.IsKinematic(set.LocalInertias[i]))
+            {
+                kinds[i] = activity.SleepCandidate && speed <= activity.SleepThreshold && IsSound(ref set, i) ? RestKind.Rests : RestKind.Holds;
+                continue;
+            }
+            kinds[i] = speed == 0 ? RestKind.Fixed : RestKind.Holds;
+            if (activity.SleepCandidate && speed == 0 && activity.SleepThreshold >= 0 && IsSound(ref set, i))
+                kinematics.Add(set.IndexToHandle[i].Slot, pool);
+        }
+    }
+
+    void PutKinematicsToSleep(in QuickList<int> kinematics, int limit, ref int asleep, ref bool hasMore)
+    {
+        var slots = kinematics.Span.AsSpan()[..kinematics.Count];
+        slots.Sort();
+        for (int i = 0; i < slots.Length; ++i)
+        {
+            if (!HoldsOnlySleepers(slots[i]))
+                continue;
+            if (asleep >= limit)
+            {
+                hasMore = true;
+                return;
+            }
+            islands.PutToSleep(slots.Slice(i, 1));
+            ++asleep;
+        }
+    }
+
+    bool HoldsOnlySleepers(int kinematic)
+    {
+        ref var constraints = ref bodies.Awake.Constraints[bodies.Locations[kinematic].Index];
+        return constraints.AsleepCount == constraints.Count;
+    }
+
+    /// <summary>Puts a body that exists to sleep with its island, whether it rests or not; a kinematic body with all islands that it holds.</summary>
+    /// <exception cref="InvalidOperationException">A pose, a velocity or an inertia is no number; nothing was changed.</exception>
+    internal void Sleep(BodyHandle body)
+    {
+        if (bodies.IsAsleep(body.Slot))
+            return;
+        var found = new QuickList<int>(16, pool);
+        var ends = new QuickList<int>(16, pool);
+        pool.TakeAtLeast<byte>(bodies.Awake.Count, out var isFound);
+        isFound.Clear(0, bodies.Awake.Count);
+        try
+        {
+            var index = bodies.Locations[body.Slot].Index;
+            var isKinematic = Bodies.IsKinematic(bodies.Awake.LocalInertias[index]);
+            if (isKinematic)
+                GatherHeldBy(body.Slot, isFound, ref found, ref ends);
+            else
+                Gather(body.Slot, isFound, ref found, ref ends);
+            if (isKinematic)
+            {
+                found.Add(body.Slot, pool);
+                ends.Add(found.Count, pool);
+            }
+            for (int i = 0; i < found.Count; ++i)
+                CheckSound(found[i]);
+            for (int i = 0, start = 0; i < ends.Count; start = ends[i++])
+            {
+                var island = found.Span.AsSpan()[start..ends[i]];
+                island.Sort();
+                islands.PutToSleep(island);
+            }
+        }
+        finally
+        {
+            found.Dispose(pool);
+            ends.Dispose(pool);
+            pool.Return(ref isFound);
+        }
+    }
+
+    void CheckSound(int slot)
+    {
+        if (!IsSound(ref bodies.Awake, bodies.Locations[slot].Index))
+        {
+            throw new InvalidOperationException(
+                $"{bodies.HandleAt(slot)} cannot be put to sleep: its pose, velocity or inertia is no number. Nothing was changed.");
+        }
+    }
+
+    // What a game has written since the last step the next one looks at, if the body is awake then.
+    static bool IsSound(ref BodySet set, int index)
+    {
+        ref var motion = ref set.MotionStates[index];
+        return Soundness.IsSound(motion.Pose) && Soundness.IsSound(motion.Velocity) && Soundness.IsSound(set.LocalInertias[index]);
+    }
+
+    void GatherHeldBy(int kinematic, Buffer<byte> isFound, ref QuickList<int> found, ref QuickList<int> ends)
+    {
+        var list = bodies.Awake.Constraints[bodies.Locations[kinematic].Index];
+        var edge = list.First;
+        for (int i = 0; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+        {
+            ref var location = ref solver.Locations[solver.Edges.ConstraintSlot(edge)];
+            for (int j = 0; location.SetIndex == 0 && j < solver.Processor(location.TypeId).BodiesPerConstraint; ++j)
+                Gather(solver.BodySlotOf(location, j), isFound, ref found, ref ends);
+        }
+    }
+
+    // The dynamic bodies that constraints connect with one of them.
+    void Gather(int first, Buffer<byte> isFound, ref QuickList<int> found, ref QuickList<int> ends)
+    {
+        var next = found.Count;
+        Find(first, isFound, ref found);
+        if (found.Count == next)
+            return;
+        for (; next < found.Count; ++next)
+        {
+            var list = bodies.Awake.Constraints[bodies.Locations[found[next]].Index];
+            var edge = list.First;
+            for (int i = 0; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+            {
+                ref var location = ref solver.Locations[solver.Edges.ConstraintSlot(edge)];
+                for (int j = 0; j < solver.Processor(location.TypeId).BodiesPerConstraint; ++j)
+                    Find(solver.BodySlotOf(location, j), isFound, ref found);
+            }
+        }
+        ends.Add(found.Count, pool);
+    }
+
+    void Find(int slot, Buffer<byte> isFound, ref QuickList<int> found)
+    {
+        var index = bodies.Locations[slot].Index;
+        if (bodies.IsAsleep(slot) || isFound[index] != 0 || Bodies.IsKinematic(bodies.Awake.LocalInertias[index]))
+            return;
+        isFound[index] = 1;
+        found.Add(slot, pool);
+    }
+
+    /// <summary>Begins anew, as a new simulation does.</summary>
+    internal void Clear()
+    {
+        stepsToWait = 0;
+        bodies.RipeCount = 0;
+    }
+}

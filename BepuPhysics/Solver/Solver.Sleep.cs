@@ -1,0 +1,99 @@
+using System;
+using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics;
+
+// Constraints that sleep. All of them lie in one set beside the active one, in columns like all constraints, but have no colours: a batch for those
+// that the sweeps solve, and one for each kind of those that they leave out. There they refer to bodies by slots, so that nothing has to follow the
+// bodies in memory. A constraint sleeps if its dynamic bodies do; a kinematic body may be awake while some that it holds sleep.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Set of the constraints that sleep.</summary>
+    internal const int AsleepSet = 1;
+
+    /// <summary>Number of constraints that sleep, for each of their kinematic bodies.</summary>
+    internal int AsleepOfKinematics { get; private set; }
+
+    /// <summary>Whether a constraint that exists sleeps.</summary>
+    internal bool IsAsleep(int slot) => Locations[slot].SetIndex == AsleepSet;
+
+    /// <summary>Slot of a body of a constraint that exists.</summary>
+    internal int BodySlotOf(in ConstraintLocation location, int bodySlot)
+    {
+        var reference = EncodedBody.IndexMask &
+            Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, bodySlot);
+        return location.SetIndex == AsleepSet ? reference : bodies.Awake.IndexToHandle[reference].Slot;
+    }
+
+    /// <summary>Moves a constraint of the active set among those that sleep. Before its bodies.</summary>
+    internal void PutToSleep(int constraint)
+    {
+        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
+        var old = Locations[constraint];
+        var processor = Processor(old.TypeId);
+        ref var typeBatch = ref TypeBatchAt(old);
+        var handle = typeBatch.IndexToHandle[old.IndexInTypeBatch];
+        for (int i = 0; i < processor.BodiesPerConstraint; ++i)
+        {
+            var slot = BodySlotOf(old, i);
+            var isKinematic = (processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag) != 0;
+            encoded[i] = isKinematic ? slot | EncodedBody.KinematicFlag : slot;
+            if (isKinematic)
+                CountAsleep(slot, 1);
+        }
+        processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+        var kind = KindOf(old) == BatchKind.Coloured ? BatchKind.Fallback : KindOf(old);
+        RemoveFromBatch(old);
+        ref var set = ref Sets[AsleepSet];
+        if (!set.Batches.Span.Allocated)
+            set.Batches = new QuickList<ConstraintBatch>(2, pool);
+        var batchIndex = FindOrCreateBatch(ref set, kind);
+        var index = processor.Allocate(
+            ref set.Batches[batchIndex].FindOrCreate(old.TypeId, pool), handle, encoded[..processor.BodiesPerConstraint], MinimumCapacityPerTypeBatch, pool);
+        Locations[constraint] = new() { SetIndex = AsleepSet, BatchIndex = batchIndex, TypeId = old.TypeId, IndexInTypeBatch = index };
+        processor.WriteColumn(ref TypeBatchAt(Locations[constraint]), index, column);
+    }
+
+    /// <summary>Moves a constraint that sleeps into the active set, with its impulses. After its bodies.</summary>
+    internal void Awaken(int constraint)
+    {
+        Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        var old = Locations[constraint];
+        var processor = Processor(old.TypeId);
+        ref var typeBatch = ref TypeBatchAt(old);
+        var handle = typeBatch.IndexToHandle[old.IndexInTypeBatch];
+        for (int i = 0; i < processor.BodiesPerConstraint; ++i)
+        {
+            var slot = BodySlotOf(old, i);
+            handles[i] = bodies.HandleAt(slot);
+            if ((processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag) != 0)
+                CountAsleep(slot, -1);
+        }
+        processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+        var kind = KindOf(old) == BatchKind.Fallback ? BatchKind.Coloured : KindOf(old);
+        RemoveFromBatch(old);
+        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, kind);
+        Locations[constraint] = location;
+        processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+        if (processor.MakesHubs && kind != BatchKind.Disabled)
+            MarkHubs(location);
+    }
+
+    /// <summary>Follows a body of the active set that is about to leave it, or has just come.</summary>
+    internal void CountHubOfSleeper(int bodyIndex, bool isLeaving)
+    {
+        if (!bodies.Awake.JointCounts.Allocated)
+            return;
+        var degree = Degree(bodyIndex);
+        CountHub(isLeaving ? degree : 0, isLeaving ? 0 : degree);
+    }
+
+    void CountAsleep(int kinematic, int change)
+    {
+        AsleepOfKinematics += change;
+        bodies.SetOf(bodies.Locations[kinematic]).Constraints[bodies.Locations[kinematic].Index].AsleepCount += change;
+    }
+}
