@@ -39,7 +39,8 @@ public class CompoundContactTests
     }
 
     // Zeros of either sign are the same place.
-    static string Bits(Vector3 v) => string.Join(",", MemoryMarshal.Cast<Vector3, int>(new ReadOnlySpan<Vector3>(ref v)).ToArray().Select(i => i == int.MinValue ? 0 : i));
+    static string Bits(Vector3 v) =>
+        string.Join(",", MemoryMarshal.Cast<Vector3, int>(new ReadOnlySpan<Vector3>(ref v)).ToArray().Select(i => i == int.MinValue ? 0 : i));
 
     static void Compare(CompoundWorkshop workshop, TypedIndex a, TypedIndex b, float spread, bool isTurned, int count, BodyVelocity velocityB = default)
     {

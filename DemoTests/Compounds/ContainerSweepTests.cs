@@ -88,7 +88,8 @@ public class ContainerSweepTests
             var moverIsA = pair % 2 == 0;
             var velocityA = new BodyVelocity(workshop.NextVector(20), workshop.NextVector(pair % 3 * 8));
             var velocityB = new BodyVelocity(workshop.NextVector(20), workshop.NextVector(pair % 5 * 4));
-            batcher.Add(moverIsA ? mover : container, moverIsA ? container : mover, offset, turnA, turnB, velocityA, velocityB, margin, float.MaxValue, new(pair));
+            batcher.Add(moverIsA ? mover : container, moverIsA ? container : mover, offset, turnA, turnB, velocityA, velocityB, margin, float.MaxValue,
+                new(pair));
             var (a, b) = (workshop.ChildrenOf(moverIsA ? mover : container), workshop.ChildrenOf(moverIsA ? container : mover));
             for (int sample = 0; sample <= Samples; ++sample)
             {
@@ -98,7 +99,8 @@ public class ContainerSweepTests
                     for (int j = 0; j < b.Length; ++j)
                     {
                         var placeA = ((Point)velocityA.Linear * t) + ((Point)a[i].LocalPosition).Turned(turnA).Turned((Point)velocityA.Angular * t);
-                        var placeB = (Point)offset + ((Point)velocityB.Linear * t) + ((Point)b[j].LocalPosition).Turned(turnB).Turned((Point)velocityB.Angular * t);
+                        var placeB = (Point)offset + ((Point)velocityB.Linear * t) +
+                            ((Point)b[j].LocalPosition).Turned(turnB).Turned((Point)velocityB.Angular * t);
                         var (ball, place) = moverIsA ? (placeA, placeB) : (placeB, placeA);
                         var (child, turn, spin) = moverIsA ? (b[j], turnB, velocityB.Angular) : (a[i], turnA, velocityA.Angular);
                         var distance = Distance(ball, place, Quaternion.Concatenate(child.LocalOrientation, turn), (Point)spin * t, half);

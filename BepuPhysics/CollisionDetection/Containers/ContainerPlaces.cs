@@ -15,7 +15,8 @@ static unsafe class ContainerPlaces
     public static void SetA<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
         where TContainer : unmanaged, IContainer
     {
-        Find(container, index, shapes, scratch, children.OrientationA, ref children.NameA, out children.TypeA, out children.ShapeA, out children.ConeA, out var pose);
+        Find(container, index, shapes, scratch, children.OrientationA, ref children.NameA, out children.TypeA, out children.ShapeA,
+            out children.ConeA, out var pose);
         children.OffsetA = pose.Position;
         children.OrientationA = pose.Orientation;
     }
@@ -24,7 +25,8 @@ static unsafe class ContainerPlaces
     public static void SetB<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
         where TContainer : unmanaged, IContainer
     {
-        Find(container, index, shapes, scratch, children.OrientationB, ref children.NameB, out children.TypeB, out children.ShapeB, out children.ConeB, out var pose);
+        Find(container, index, shapes, scratch, children.OrientationB, ref children.NameB, out children.TypeB, out children.ShapeB,
+            out children.ConeB, out var pose);
         children.OffsetB += pose.Position;
         children.OrientationB = pose.Orientation;
     }

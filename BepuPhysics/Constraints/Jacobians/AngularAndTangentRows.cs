@@ -29,7 +29,8 @@ struct AngularAndTangentRows : IJacobian<AngularAndTangentRows, TwoBodies, Rows5
     }
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own: the kernel has no budget left for it.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void ApplyImpulse(in AngularAndTangentRows rows, ref TwoBodies bodies, in Rows5 impulse)
     {
         var linear = rows.Tangents.TangentX * impulse.Angular.X + rows.Tangents.TangentY * impulse.Angular.Y;
