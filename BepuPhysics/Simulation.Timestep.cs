@@ -101,7 +101,9 @@ public sealed partial class Simulation
         using var stage = world.Stage(operation: "Simulation.Solve");
         if (NarrowPhase.IsAtRest)
         {
+            NarrowPhase.BeginEvents();
             Solver.Rest();
+            NarrowPhase.EndEvents();
             return;
         }
         using var timer = Profiler.Time(Solver);

@@ -35,6 +35,9 @@ public sealed partial class Bodies
         awakener.Wake(handle);
     }
 
+    /// <summary>Wakes a body and all that it has constraints with.</summary>
+    internal void WakeAround(BodyHandle handle) => awakener.WakeAround(handle);
+
     /// <summary>Handle of the body that has a slot.</summary>
     internal BodyHandle HandleAt(int slot) => new(owners.ValueAt(slot));
 

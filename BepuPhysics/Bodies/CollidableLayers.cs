@@ -62,6 +62,7 @@ public sealed class CollidableLayers
     void Set(CollidableReference collidable, CollisionLayers value)
     {
         using var change = world.Change("CollidableLayers.Set");
+        traits.WakeAround(collidable);
         traits.Layers.Set(collidable, value, pool);
     }
 }

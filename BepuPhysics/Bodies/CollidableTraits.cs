@@ -32,6 +32,15 @@ sealed class CollidableTraits(Bodies bodies, Statics statics, BufferPool pool)
         Listeners.Abandon();
     }
 
+    /// <summary>Wakes what may collide otherwise when what is known of a collidable changes: itself and all that touches it.</summary>
+    internal void WakeAround(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            statics.WakeAround(collidable.StaticHandle);
+        else
+            bodies.WakeAround(collidable.BodyHandle);
+    }
+
     /// <summary>Refuses a collidable that is none.</summary>
     /// <exception cref="System.ArgumentException">There is no such collidable.</exception>
     internal CollidableReference Existing(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static

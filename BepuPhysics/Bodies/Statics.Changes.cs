@@ -75,6 +75,15 @@ public sealed unsafe partial class Statics
         Replace(index, bounds);
     }
 
+    /// <summary>Wakes the dynamic bodies whose bounds meet those of a static.</summary>
+    internal void WakeAround(StaticHandle handle)
+    {
+        var filter = default(StaticsShouldntAwakenKinematics);
+        awakener.BeginRequests();
+        awakener.Request(BoundsAt(Indices[handle.Slot]), ref filter);
+        awakener.WakeRequested();
+    }
+
     BoundingBox CheckedBounds(int index, in RigidPose pose, TypedIndex shape)
     {
         var bounds = BoundsOf(pose, shape);

@@ -111,7 +111,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             shapeB = setB.Collidables[locationB.Index].Shape;
             margin += setB.Collidables[locationB.Index].SpeculativeMargin;
             poseB = ref setB.MotionStates[locationB.Index].Pose;
-            if (Simulation.Solver.HasApart && Simulation.Solver.KeepsApart(locationA, locationB))
+            if (Simulation.Solver.HasApart && Simulation.Solver.KeepsApart(pair.A.BodyHandle, pair.B.BodyHandle))
                 return;
         }
         var ownMargin = margin;

@@ -105,6 +105,8 @@ public sealed class ContactEvents : IDisposable
                 Tell(previous[before++], null);
             else if (order > 0)
                 Tell(null, current[now++]);
+            else if (current[now].IsAsleep)
+                current[now++] = previous[before++];
             else
                 Tell(previous[before++], current[now++]);
         }

@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -95,9 +96,16 @@ public sealed unsafe partial class Solver
         var processor = Processor(location.TypeId);
         if (!processor.HasSeparation)
             throw new ArgumentException($"{handle} is of a type that does not say where it holds its bodies.", nameof(handle));
-        ref var set = ref bodies.Awake;
-        var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
-        return processor.Separation(ref TypeBatchAt(location), awake, location.IndexInTypeBatch);
+        // Of bodies in whatever sets, so the constraint is shown copies of their poses, its own in all lanes.
+        var motions = stackalloc MotionState[MaximumBodiesPerConstraint];
+        var references = stackalloc Vector<int>[MaximumBodiesPerConstraint];
+        for (int i = 0; i < processor.BodiesPerConstraint; ++i)
+        {
+            ref var body = ref bodies.Locations[BodySlotOf(location, i)];
+            motions[i] = bodies.SetOf(body).MotionStates[body.Index];
+            references[i] = new Vector<int>(i);
+        }
+        return processor.Separation(ref TypeBatchAt(location), new SolverBodies(motions, null, null, null), references, location.IndexInTypeBatch);
     }
 
     int PlaceOfBreakable(int slot) => (uint)slot < (uint)breakablePlaces.Length ? breakablePlaces[slot] : 0;
@@ -127,6 +135,8 @@ public sealed unsafe partial class Solver
         for (int i = start; i < end; ++i)
         {
             ref var one = ref breakable[i];
+            if (IsAsleep(one.Handle.Slot))
+                continue;
             ref var location = ref Locations[one.Handle.Slot];
             ref var batch = ref TypeBatchAt(location);
             var processor = Processor(location.TypeId);

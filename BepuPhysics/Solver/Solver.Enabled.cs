@@ -31,6 +31,7 @@ public sealed unsafe partial class Solver
         CheckJoint(handle);
         if (KindOf(Locations[handle.Slot]) != BatchKind.Disabled == enabled)
             return;
+        WakeBodiesOf(handle);
         if (!enabled)
             ForgetImpulses(handle);
         // One of the bodies is dynamic, or it would have been removed.

@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
@@ -47,13 +46,14 @@ public sealed unsafe partial class Solver
         }
     }
 
-    /// <summary>Whether a constraint says that two bodies of the active set do not collide.</summary>
-    internal bool KeepsApart(in BodyMemoryLocation a, in BodyMemoryLocation b)
+    /// <summary>Whether a constraint says that two bodies do not collide.</summary>
+    internal bool KeepsApart(BodyHandle a, BodyHandle b)
     {
-        ref var all = ref bodies.Awake.Constraints;
-        var (of, other) = all[a.Index].Count <= all[b.Index].Count ? (a.Index, b.Index) : (b.Index, a.Index);
-        var edge = all[of].First;
-        for (int i = all[of].Count; i > 0; --i, edge = Edges.Next(edge))
+        ref readonly var ofA = ref ConstraintsOf(a);
+        ref readonly var ofB = ref ConstraintsOf(b);
+        var (list, other) = ofA.Count <= ofB.Count ? (ofA, b) : (ofB, a);
+        var edge = list.First;
+        for (int i = list.Count; i > 0; --i, edge = Edges.Next(edge))
         {
             var slot = Edges.ConstraintSlot(edge);
             if (apart.Contains(slot) && Connects(Locations[slot], other))
@@ -62,12 +62,17 @@ public sealed unsafe partial class Solver
         return false;
     }
 
-    bool Connects(in ConstraintLocation location, int bodyIndex)
+    ref readonly ConstraintList ConstraintsOf(BodyHandle body)
     {
-        var processor = Processor(location.TypeId);
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        ref var location = ref bodies.Locations[body.Slot];
+        return ref bodies.SetOf(location).Constraints[location.Index];
+    }
+
+    bool Connects(in ConstraintLocation location, BodyHandle body)
+    {
+        for (int i = 0; i < Processor(location.TypeId).BodiesPerConstraint; ++i)
         {
-            if ((processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask) == bodyIndex)
+            if (BodySlotOf(location, i) == body.Slot)
                 return true;
         }
         return false;

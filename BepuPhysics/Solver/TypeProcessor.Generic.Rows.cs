@@ -50,10 +50,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override bool HasSeparation => TConstraint.HasSeparation;
 
     /// <inheritdoc/>
-    internal override ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, int index)
+    internal override ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, Vector<int>* references, int index)
     {
         var bundle = index / Vector<float>.Count;
-        var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
         Gather(references, PlaceMask, bodies, BodyAccess.Pose, new Substep(0, 1), out _, out var slots);
         TConstraint.Separation(slots, ((TPrestep*)batch.Prestep.Memory)[bundle], out var linear, out var angular);
         return new() { Linear = linear[index % Vector<float>.Count], Angular = angular[index % Vector<float>.Count] };

@@ -5,7 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 // Rows for solvers other than the sweeps. Nothing here runs in a sweep, and the sweeps run nothing of it.
-public abstract partial class TypeProcessor
+public abstract unsafe partial class TypeProcessor
 {
     /// <summary>Number of rows of a constraint; 0 where the type is a game's own that does not tell them, and can only be swept over.</summary>
     internal abstract int RowCount { get; }
@@ -34,7 +34,11 @@ public abstract partial class TypeProcessor
     internal abstract bool HasSeparation { get; }
 
     /// <summary>How far the bodies of a constraint are from where it holds them.</summary>
-    internal abstract ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, int index);
+    /// <param name="batch">Where the constraint is.</param>
+    /// <param name="bodies">Bodies with poses.</param>
+    /// <param name="references">Where its bodies are among these: a vector for each body.</param>
+    /// <param name="index">Index of the constraint in the batch.</param>
+    internal abstract ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, Vector<int>* references, int index);
 
     /// <summary>Replaces the accumulated impulses of some constraints of a bundle; the velocities of the bodies are the caller's to change.</summary>
     /// <param name="batch">Where the constraints are.</param>

@@ -1,3 +1,4 @@
+using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
@@ -41,6 +42,8 @@ public sealed unsafe partial class CollisionEvents
         {
             for (int i = 0; i < cache.Pairs.Count; ++i)
                 NoteContacts(cache.Pairs.Keys[i]);
+            for (int i = 0; i < cache.Asleep.Count; ++i)
+                NoteContacts(cache.Asleep.Keys[i]);
         }
         hasNewListener = false;
         for (int i = 0; i < sensed.Count; ++i)
@@ -69,7 +72,8 @@ public sealed unsafe partial class CollisionEvents
                 ++fresh;
             pair.BounceImpulse = 0;
             pair.FirstManifold = stage.Manifolds.Count;
-            pair.Exists = pair.IsSensor ? isNoted : ListContacts(ref pair, ref cache);
+            pair.IsAsleep = (!isNoted || !pair.IsSensor) && Sleeps(pair.Pair, ref cache, pair.IsSensor);
+            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isNoted : ListContacts(ref pair, ref cache));
             pair.ManifoldCount = stage.Manifolds.Count - pair.FirstManifold;
             if (pair.Exists)
                 pair.Mask = MaskOf(pair.Pair);
@@ -78,6 +82,13 @@ public sealed unsafe partial class CollisionEvents
         }
         (pairs, spare) = (spare, pairs);
     }
+
+    // What sleeps is not looked at, and stays as it was: contacts are among those that sleep, and of what a sensor has seen nobody is awake.
+    bool Sleeps(in CollidablePair pair, ref PairCache cache, bool isSensor) => isSensor
+        ? Sleeps(pair.A) && (pair.B.Mobility == CollidableMobility.Static || Sleeps(pair.B))
+        : cache.Asleep.Count > 0 && cache.Asleep.IndexOf(pair) >= 0;
+
+    bool Sleeps(CollidableReference body) => bodies.BodyExists(body.BodyHandle) && bodies.IsAsleep(body.Slot);
 
     // Lists the contacts that a pair has, if it still is one.
     bool ListContacts(ref ListenedPair pair, ref PairCache cache)
@@ -138,6 +149,11 @@ public sealed unsafe partial class CollisionEvents
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
+            if (pair.IsAsleep)
+            {
+                pairs[kept++] = pair;
+                continue;
+            }
             var described = Describe(pair, out var touches);
             if (pair.Touches && !touches)
                 Tell(ref ended, EventMask.End, pair, described);

@@ -122,6 +122,7 @@ public sealed unsafe partial class CollisionEvents
     {
         using var change = world.Change("CollisionEvents.SetSensor");
         traits.Existing(collidable);
+        traits.WakeAround(collidable);
         Set(collidable, (byte)(traits.Listeners[collidable] & ~SensorBit | (isSensor ? SensorBit : 0)));
         UsesSensors |= isSensor;
     }

@@ -7,6 +7,8 @@ struct ContactSnapshot
 {
     public CollidablePair Pair;
     public bool Touches;
+    /// <summary>Whether none of the two is awake: there are no contacts to be seen, and nothing has changed.</summary>
+    public bool IsAsleep;
     /// <summary>Whether all contacts share a normal.</summary>
     public bool IsConvex;
     public NonconvexContactManifold Contacts;
@@ -47,9 +49,12 @@ public sealed unsafe partial class CollisionEvents
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            if (pair.IsSensor || pair.ManifoldCount == 0)
+            if (pair.IsSensor || (pair.ManifoldCount == 0 && !pair.IsAsleep))
                 continue;
-            var snapshot = new ContactSnapshot { Pair = pair.Pair, Touches = pair.Touches, IsConvex = pair.ManifoldCount == 1 };
+            var snapshot = new ContactSnapshot
+            {
+                Pair = pair.Pair, Touches = pair.Touches, IsConvex = pair.ManifoldCount == 1, IsAsleep = pair.IsAsleep,
+            };
             snapshot.Contacts.OffsetB = pair.OffsetB;
             for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)
             {

@@ -15,6 +15,8 @@ struct ListenedPair
     public bool Touches;
     /// <summary>Whether it has contacts, or is seen, in this step.</summary>
     public bool Exists;
+    /// <summary>Whether none of the two is awake: nothing is told of it until one is.</summary>
+    public bool IsAsleep;
     public int FirstManifold;
     public int ManifoldCount;
     /// <summary>Where the centre of A was when collisions were detected, and that of B relative to it.</summary>
