@@ -35,7 +35,6 @@ public sealed unsafe partial class Solver
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public BreakThreshold GetBreakThreshold(ConstraintHandle handle)
     {
-        using var reading = world.Read("Solver.GetBreakThreshold");
         CheckHandle(handle);
         return PlaceOfBreakable(handle.Slot) is > 0 and var place ? breakable[place - 1].Threshold : BreakThreshold.Unbreakable;
     }

@@ -11,7 +11,6 @@ public sealed unsafe partial class Solver
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public bool IsEnabled(ConstraintHandle handle)
     {
-        using var reading = world.Read("Solver.IsEnabled");
         CheckHandle(handle);
         return KindOf(Locations[handle.Slot]) != BatchKind.Disabled;
     }

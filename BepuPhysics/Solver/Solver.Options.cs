@@ -17,7 +17,6 @@ public sealed unsafe partial class Solver
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
     public bool GetCollideConnected(ConstraintHandle handle)
     {
-        using var reading = world.Read("Solver.GetCollideConnected");
         CheckHandle(handle);
         return !apart.Contains(handle.Slot);
     }

@@ -128,9 +128,6 @@ static class LockOperations
         list.Add("Solver.ApplyDescription", (OperationKind.Write, w => w.Simulation.Solver.ApplyDescription(
             w.Joint, new BallSocket { LocalOffsetA = new Vector3(1, 0, 0), LocalOffsetB = new Vector3(-2, 0, 0) })));
         list.Add("Solver.GetSeparation", (OperationKind.Query, w => w.Simulation.Solver.GetSeparation(w.Joint)));
-        list.Add("Solver.IsEnabled", (OperationKind.Query, w => w.Simulation.Solver.IsEnabled(w.Joint)));
-        list.Add("Solver.GetCollideConnected", (OperationKind.Query, w => w.Simulation.Solver.GetCollideConnected(w.Joint)));
-        list.Add("Solver.GetBreakThreshold", (OperationKind.Query, w => w.Simulation.Solver.GetBreakThreshold(w.Joint)));
         list.Add("EnumerateAccumulatedImpulses", (OperationKind.Query, w => w.Simulation.Solver.GetAccumulatedImpulseMagnitude(w.Joint)));
 
         void Change(string name, Action<LockedWorld> act) => list.Add(name, (OperationKind.Change, act));
