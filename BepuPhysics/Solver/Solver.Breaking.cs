@@ -96,7 +96,9 @@ public sealed unsafe partial class Solver
         if (!processor.HasSeparation)
             throw new ArgumentException($"{handle} is of a type that does not say where it holds its bodies.", nameof(handle));
         // Of bodies in whatever sets, so the constraint is shown copies of their poses, its own in all lanes.
-        var motions = stackalloc MotionState[MaximumBodiesPerConstraint];
+        const int Alignment = 64;
+        var memory = stackalloc byte[MaximumBodiesPerConstraint * sizeof(MotionState) + Alignment];
+        var motions = (MotionState*)(((nuint)memory + Alignment - 1) & ~(nuint)(Alignment - 1));
         var references = stackalloc Vector<int>[MaximumBodiesPerConstraint];
         for (int i = 0; i < processor.BodiesPerConstraint; ++i)
         {

@@ -45,6 +45,7 @@ public partial class MigrationPageTests
         ["a mesh with triangles"] = "MeshBuildTests.Triangles_without_a_surface_are_left_out_and_a_mesh_of_nothing_else_is_refused",
         ["Mesh.Scale"] = "MeshBuildTests",
         ["inertia of a mesh"] = "MeshInertiaTests.What_encloses_nothing_or_is_inside_out_has_no_closed_inertia",
+        ["ContactEvents"] = "ContactEventHandlerTests",
         ["deep overlaps"] = "DepthSearchAccuracyTests",
         ["a pair of shapes"] = "BatchingTests.UnregisteredPairIsRefusedByName",
         ["bad numbers"] = "BadInputTests.X13_IsRefused",
