@@ -52,9 +52,9 @@ static class SleepCommand
             $"after that: mean {run.MeanAfterwards:0.0000} ms, p99 {run.PercentileAfterwards(.99):0.0000} ms, worst {run.PercentileAfterwards(1):0.0000} ms"));
         if (run.Simulation.Bodies.ActiveSet.Count == 0)
             output.WriteLine(FormattableString.Invariant($"a step in which all sleep: {run.MeasureAsleep():0.000} us"));
+        output.WriteLine($"{run.Simulation.Awakener.SleepingIslandCount} islands sleep");
         output.WriteLine(FormattableString.Invariant(
-            $"{run.Simulation.Awakener.SleepingIslandCount} islands sleep; {run.PoolBytes / 1e6:0.0} MB, " +
-            $"{run.PoolBytes / Math.Max(1.0, run.BodyCount):0} B a body"));
+            $"{run.PoolBytes / 1e6:0.0} MB, {run.PoolBytes / Math.Max(1.0, run.BodyCount):0} B a body"));
         output.WriteLine(FormattableString.Invariant($"cost of the static tree over that of a new one: {run.CompareTree():0.000}"));
         output.WriteLine($"hash {run.Simulation.StateHash():x16}");
     }
