@@ -128,8 +128,11 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
     internal bool RemoveStaticLeafAt(int index, out CollidableReference movedLeaf)
     {
-        staticChanges += WeightOf(StaticLeaves[index]);
-        return RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
+        // An index of no leaf is refused by the tree.
+        var weight = (uint)index < (uint)StaticTree.LeafCount ? WeightOf(StaticLeaves[index]) : 0;
+        var moved = RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
+        staticChanges += weight;
+        return moved;
     }
 
     static int WeightOf(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static ? WeightOfStatic : WeightOfSleeper;
