@@ -42,8 +42,10 @@ public static class MeshInertiaHelper
     /// <param name="inertiaTensor">Inertia tensor around the origin, of the sign of the volume.</param>
     public static void ComputeTetrahedronContribution(Vector3 a, Vector3 b, Vector3 c, out float volume, out Symmetric3x3 inertiaTensor)
     {
-        volume = ComputeTetrahedronVolume(a, b, c);
-        ComputeTetrahedronContribution(a, b, c, volume, out inertiaTensor);
+        var integrals = default(MassIntegrals);
+        AddSolid(ref integrals, a, b, c);
+        volume = (float)integrals.Measure;
+        inertiaTensor = Tensor(integrals, volume);
     }
 
     /// <summary>Area of a triangle.</summary>
@@ -78,8 +80,10 @@ public static class MeshInertiaHelper
     /// <param name="inertiaTensor">Inertia tensor around the origin.</param>
     public static void ComputeTriangleContribution(Vector3 a, Vector3 b, Vector3 c, out float area, out Symmetric3x3 inertiaTensor)
     {
-        area = ComputeTriangleArea(a, b, c);
-        ComputeTriangleContribution(a, b, c, area, out inertiaTensor);
+        var integrals = default(MassIntegrals);
+        integrals.AddTriangle(Widen(a), Widen(b), Widen(c));
+        area = (float)integrals.Measure;
+        inertiaTensor = Tensor(integrals, area);
     }
 
     /// <summary>Volume and inertia tensor of what a closed surface encloses.</summary>

@@ -174,7 +174,10 @@ public class ConstraintOptionTests
         // About the vertical axis it turns freely; the moment of the load, about z, is borne by one of the rows about axes.
         var hinge = world.Solver.Add(wall, arm, new Hinge
         {
-            LocalOffsetA = Vector3.Zero, LocalOffsetB = new Vector3(-1, 0, 0), LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY,
+            LocalOffsetA = Vector3.Zero,
+            LocalOffsetB = new Vector3(-1, 0, 0),
+            LocalHingeAxisA = Vector3.UnitY,
+            LocalHingeAxisB = Vector3.UnitY,
         });
         world.Step(200);
         var moment = Gravity * 1 * Dt;
