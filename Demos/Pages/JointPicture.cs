@@ -18,6 +18,7 @@ sealed class JointPicture
     const float ArrowLength = 0.55f, FrameLength = 0.3f;
 
     static readonly string[] colours = ["#1f5fa8", "#c4501b", "#6b6b6b", "#7a4aa0"];
+    static readonly string[] measures = ["Distance", "Area", "Volume"];
 
     readonly JointFacts facts;
     readonly object description;
@@ -94,7 +95,7 @@ sealed class JointPicture
             view.Line([place, anchors.First(pair => !IsWheel(pair.Key) && pair.Key.Name[^1] == wheel.Name[^1]).Value], Colour, true);
         if (wheels.Length > 1)
             view.Line(wheels.Select(pair => pair.Value), Colour, true);
-        if (facts.Fields.Any(field => new[] { "Distance", "Area", "Volume" }.Any(word => field.Name.Contains(word, StringComparison.Ordinal))))
+        if (facts.Fields.Any(field => measures.Any(word => field.Name.Contains(word, StringComparison.Ordinal))))
         {
             for (int i = 0; i < facts.BodyCount; ++i)
             {

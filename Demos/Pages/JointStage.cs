@@ -4,7 +4,6 @@ using System.Numerics;
 using System.Reflection;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
 
 namespace Demos.Pages;
