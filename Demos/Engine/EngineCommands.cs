@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.CommandLine;
 using Demos.Fuzz;
 using Demos.Mechanisms;
+using Demos.Pages;
 using Demos.Sleeping;
 using Demos.Towers;
 
@@ -14,5 +15,8 @@ static class EngineCommands
     /// <summary>The commands.</summary>
     /// <param name="guard">Runs an action and turns what is wrong with the input into a message.</param>
     public static IEnumerable<Command> Create(Func<ParseResult, Func<int>, int> guard) =>
-        [FuzzCommand.Create(guard), TowersCommand.Create(guard), MechanismCommand.Create(guard), SleepCommand.Create(guard)];
+        [
+            FuzzCommand.Create(guard), TowersCommand.Create(guard), MechanismCommand.Create(guard), SleepCommand.Create(guard),
+            ConstraintPagesCommand.Create(guard),
+        ];
 }

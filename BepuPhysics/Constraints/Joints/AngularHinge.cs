@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps an axis of body B along an axis of body A, wherever the bodies are: the rotation of a hinge without its point.</summary>
+/// <remarks>Use <see cref="Hinge"/> where a point is held too.</remarks>
 public struct AngularHinge : ITwoBodyConstraintDescription<AngularHinge>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

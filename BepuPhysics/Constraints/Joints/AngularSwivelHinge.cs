@@ -7,6 +7,7 @@ namespace BepuPhysics.Constraints;
 /// <summary>
 /// Keeps an axis of body A and an axis of body B at right angles, wherever the bodies are: they can turn about both, as a universal joint does.
 /// </summary>
+/// <remarks>Use <see cref="SwivelHinge"/> where a point is held too.</remarks>
 public struct AngularSwivelHinge : ITwoBodyConstraintDescription<AngularSwivelHinge>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

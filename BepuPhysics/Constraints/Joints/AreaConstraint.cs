@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the area of the triangle between the centres of three bodies.</summary>
+/// <remarks>For the triangles of cloth and soft surfaces; <see cref="VolumeConstraint"/> is for what is filled.</remarks>
 public struct AreaConstraint : IThreeBodyConstraintDescription<AreaConstraint>
 {
     /// <summary>Twice the area, m^2: the length of ab x ac; not negative.</summary>

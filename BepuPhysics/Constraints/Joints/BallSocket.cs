@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps a point of body A on a point of body B.</summary>
+/// <remarks>Use <see cref="Hinge"/> or <see cref="SwivelHinge"/> where it may not turn freely, and a <see cref="SwingLimit"/> and
+/// <see cref="TwistLimit"/> beside it for shoulders and hips; <see cref="BallSocketServo"/> has a greatest force.</remarks>
 public struct BallSocket : ITwoBodyConstraintDescription<BallSocket>
 {
     /// <summary>Anchor in A's frame, m.</summary>

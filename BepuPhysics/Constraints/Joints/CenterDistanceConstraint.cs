@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the centres of two bodies at a distance from each other.</summary>
+/// <remarks>Cheaper than a <see cref="DistanceServo"/>, which has anchors, and all that lattices of particles need;
+/// <see cref="CenterDistanceLimit"/> has a range.</remarks>
 public struct CenterDistanceConstraint : ITwoBodyConstraintDescription<CenterDistanceConstraint>
 {
     /// <summary>Distance between the centres, m; not negative.</summary>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps a point and an axis of body A on a point and an axis of body B, so that they can only turn about the axis.</summary>
+/// <remarks>For doors, wheels and elbows. A <see cref="TwistLimit"/> or <see cref="TwistServo"/> beside it limits or drives the angle, an
+/// <see cref="AngularAxisMotor"/> turns it. Use <see cref="SwivelHinge"/> for two axes, <see cref="BallSocket"/> for none.</remarks>
 public struct Hinge : ITwoBodyConstraintDescription<Hinge>
 {
     /// <summary>Anchor in A's frame, m.</summary>

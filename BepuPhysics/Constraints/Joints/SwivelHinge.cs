@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps a point of body A on a point of body B and an axis of A at right angles to one of B: a universal joint.</summary>
+/// <remarks>For cardan shafts and gimbals. Use <see cref="Hinge"/> where only one axis is free, <see cref="BallSocket"/> where all are.</remarks>
 public struct SwivelHinge : ITwoBodyConstraintDescription<SwivelHinge>
 {
     /// <summary>Anchor in A's frame, m.</summary>

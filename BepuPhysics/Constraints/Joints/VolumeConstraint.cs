@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the volume of the tetrahedron between the centres of four bodies.</summary>
+/// <remarks>For the tetrahedra of soft bodies, with a <see cref="CenterDistanceConstraint"/> along their edges; <see cref="AreaConstraint"/> is
+/// for surfaces.</remarks>
 public struct VolumeConstraint : IFourBodyConstraintDescription<VolumeConstraint>
 {
     /// <summary>Six times the volume, m^3: (ab x ac) ad from body to body; its sign says which way the tetrahedron winds.</summary>

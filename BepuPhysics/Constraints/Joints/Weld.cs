@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the pose of body B fixed relative to body A.</summary>
+/// <remarks>Bodies that never come apart are cheaper and stiffer as one body. Use <see cref="AngularServo"/> and <see cref="BallSocketServo"/>
+/// for a connection that gives way beyond a force.</remarks>
 public struct Weld : ITwoBodyConstraintDescription<Weld>
 {
     /// <summary>Offset from the centre of A to the centre of B in A's frame, m.</summary>

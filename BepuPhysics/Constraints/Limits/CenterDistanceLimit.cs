@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the distance between the centres of two bodies in a range.</summary>
+/// <remarks>Use <see cref="DistanceLimit"/> where it is fastened to points of the bodies.</remarks>
 public struct CenterDistanceLimit : ITwoBodyConstraintDescription<CenterDistanceLimit>
 {
     /// <summary>Least distance, m; 0 for a rope, which keeps only the greatest.</summary>

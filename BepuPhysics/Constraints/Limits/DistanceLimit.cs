@@ -10,6 +10,8 @@ namespace BepuPhysics.Constraints;
 /// <param name="minimumDistance">Least distance, m; not negative.</param>
 /// <param name="maximumDistance">Greatest distance, m; not below the least.</param>
 /// <param name="springSettings">Stiffness of the limits.</param>
+/// <remarks>For ropes, with a least distance of zero. Use <see cref="DistanceServo"/> for a rod or a spring, <see cref="Pulley"/> for a rope
+/// that runs over wheels.</remarks>
 public struct DistanceLimit(Vector3 localOffsetA, Vector3 localOffsetB, float minimumDistance, float maximumDistance, in SpringSettings springSettings) :
     ITwoBodyConstraintDescription<DistanceLimit>
 {

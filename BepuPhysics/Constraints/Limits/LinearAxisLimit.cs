@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the distance of a point of body B from a plane of body A in a range: the ends of a slider.</summary>
+/// <remarks>Use it beside a <see cref="Slider"/> or <see cref="PointOnLineServo"/>; alone it leaves all other motions free.</remarks>
 public struct LinearAxisLimit : ITwoBodyConstraintDescription<LinearAxisLimit>
 {
     /// <summary>A point of the plane in A's frame, m.</summary>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the angle between an axis of body A and an axis of body B below a maximum.</summary>
+/// <remarks>A cone in which an arm or a leg may swing; beside a <see cref="BallSocket"/>. Use <see cref="TwistLimit"/> for turns about the axis
+/// itself.</remarks>
 public struct SwingLimit : ITwoBodyConstraintDescription<SwingLimit>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps the angle by which body B is turned against body A about their twist axes in a range.</summary>
+/// <remarks>Beside a <see cref="Hinge"/> it limits the angle of a door or a knee, beside a <see cref="BallSocket"/> the twist of a limb. Use
+/// <see cref="SwingLimit"/> for the angle between axes.</remarks>
 public struct TwistLimit : ITwoBodyConstraintDescription<TwistLimit>
 {
     /// <summary>Rotation from the joint's frame to A's; its Z axis is the twist axis, X is angle 0, Y a quarter turn; unit length.</summary>

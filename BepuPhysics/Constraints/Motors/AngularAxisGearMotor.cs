@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body B about an axis of body A at a multiple of the velocity of A.</summary>
+/// <remarks>It holds velocities, so angles drift under load. Use <see cref="Gear"/> for wheels that keep their place.</remarks>
 public struct AngularAxisGearMotor : ITwoBodyConstraintDescription<AngularAxisGearMotor>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

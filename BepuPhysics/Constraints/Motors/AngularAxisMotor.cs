@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body A against body B about an axis of A at a velocity.</summary>
+/// <remarks>For wheels and fans, beside a <see cref="Hinge"/>. Use <see cref="TwistMotor"/> where the axes of both bodies count,
+/// <see cref="TwistServo"/> to reach an angle.</remarks>
 public struct AngularAxisMotor : ITwoBodyConstraintDescription<AngularAxisMotor>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

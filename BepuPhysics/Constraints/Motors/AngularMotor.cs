@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body A against body B at an angular velocity.</summary>
+/// <remarks>With a target of zero it is a brake, or the friction of a joint. Use <see cref="AngularAxisMotor"/> for one axis,
+/// <see cref="AngularServo"/> to reach an orientation.</remarks>
 public struct AngularMotor : ITwoBodyConstraintDescription<AngularMotor>
 {
     /// <summary>Angular velocity of A less that of B, in A's frame, rad/s.</summary>

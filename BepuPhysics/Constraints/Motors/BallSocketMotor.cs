@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Moves a point of body B at a velocity, seen from body A.</summary>
+/// <remarks>Use <see cref="BallSocketServo"/> to reach a place, <see cref="LinearAxisMotor"/> to move along one axis only.</remarks>
 public struct BallSocketMotor : ITwoBodyConstraintDescription<BallSocketMotor>
 {
     /// <summary>The point in B's frame, m.</summary>

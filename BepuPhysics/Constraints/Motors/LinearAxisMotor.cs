@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Moves a point of body B along an axis of body A at a velocity.</summary>
+/// <remarks>For lifts and conveyors, beside a <see cref="Slider"/> or <see cref="PointOnLineServo"/>. Use <see cref="LinearAxisServo"/> to reach
+/// a place.</remarks>
 public struct LinearAxisMotor : ITwoBodyConstraintDescription<LinearAxisMotor>
 {
     /// <summary>Anchor in A's frame, m.</summary>

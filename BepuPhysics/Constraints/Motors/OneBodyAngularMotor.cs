@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns a body at an angular velocity of the world.</summary>
+/// <remarks>With a target of zero it damps rotation. Use <see cref="OneBodyAngularServo"/> to reach an orientation, <see cref="AngularMotor"/>
+/// between two bodies.</remarks>
 public struct OneBodyAngularMotor : IOneBodyConstraintDescription<OneBodyAngularMotor>
 {
     /// <summary>Angular velocity in world axes, rad/s.</summary>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Moves a point of a body at a velocity of the world.</summary>
+/// <remarks>With a target of zero it is a brake. Use <see cref="OneBodyLinearServo"/> to reach a place, <see cref="BallSocketMotor"/> between
+/// two bodies.</remarks>
 public struct OneBodyLinearMotor : IOneBodyConstraintDescription<OneBodyLinearMotor>
 {
     /// <summary>The point in the body's frame, m.</summary>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body A against body B about the axis half way between one of A and one of B, at a velocity.</summary>
+/// <remarks>Beside a <see cref="BallSocket"/> or <see cref="SwivelHinge"/>, whose bodies have no axis in common. Use
+/// <see cref="AngularAxisMotor"/> beside a <see cref="Hinge"/>.</remarks>
 public struct TwistMotor : ITwoBodyConstraintDescription<TwistMotor>
 {
     /// <summary>Axis in A's frame; unit length.</summary>

@@ -5,13 +5,15 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body B to an orientation relative to body A, the shorter way.</summary>
+/// <remarks>For muscles of ragdolls that take a pose. Use <see cref="TwistServo"/> for one angle, <see cref="OneBodyAngularServo"/> for an
+/// orientation in the world.</remarks>
 public struct AngularServo : ITwoBodyConstraintDescription<AngularServo>
 {
     /// <summary>Orientation of B in A's frame: the rotation from B's frame to A's; unit length.</summary>
     public Quaternion TargetRelativeRotationLocalA;
     /// <summary>Stiffness of the pull; the default is rigid.</summary>
     public SpringSettings SpringSettings;
-    /// <summary>Limits of speed and torque.</summary>
+    /// <summary>Limits of speed and torque; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
 
     /// <inheritdoc/>

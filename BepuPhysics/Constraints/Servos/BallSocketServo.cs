@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Pulls a point of body B to a point of body A.</summary>
+/// <remarks>Use <see cref="BallSocket"/> where nothing limits the force, which is cheaper; <see cref="OneBodyLinearServo"/> to pull to a point
+/// of the world.</remarks>
 public struct BallSocketServo : ITwoBodyConstraintDescription<BallSocketServo>
 {
     /// <summary>Anchor in A's frame, m.</summary>
@@ -13,7 +15,7 @@ public struct BallSocketServo : ITwoBodyConstraintDescription<BallSocketServo>
     public Vector3 LocalOffsetB;
     /// <summary>Stiffness of the pull; the default is rigid.</summary>
     public SpringSettings SpringSettings;
-    /// <summary>Limits of speed and force.</summary>
+    /// <summary>Limits of speed and force; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
 
     /// <inheritdoc/>

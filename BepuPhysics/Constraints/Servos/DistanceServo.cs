@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Brings a point of body A and a point of body B to a distance from each other.</summary>
+/// <remarks>For rods, springs and pistons. Use <see cref="DistanceLimit"/> for a rope, <see cref="CenterDistanceConstraint"/> without anchors
+/// and forces to limit.</remarks>
 public struct DistanceServo : ITwoBodyConstraintDescription<DistanceServo>
 {
     /// <summary>Anchor in A's frame, m.</summary>
@@ -13,7 +15,7 @@ public struct DistanceServo : ITwoBodyConstraintDescription<DistanceServo>
     public Vector3 LocalOffsetB;
     /// <summary>Distance between the anchors, m; not negative.</summary>
     public float TargetDistance;
-    /// <summary>Limits of speed and force.</summary>
+    /// <summary>Limits of speed and force; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
     /// <summary>Stiffness of the connection; the default is rigid.</summary>
     public SpringSettings SpringSettings;

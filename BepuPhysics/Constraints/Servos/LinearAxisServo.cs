@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps a point of body B at a distance from a plane of body A: a spring strut, a lift.</summary>
+/// <remarks>The suspension of a wheel, beside a <see cref="PointOnLineServo"/>. Use <see cref="LinearAxisLimit"/> for a range,
+/// <see cref="LinearAxisMotor"/> for a velocity.</remarks>
 public struct LinearAxisServo : ITwoBodyConstraintDescription<LinearAxisServo>
 {
     /// <summary>A point of the plane in A's frame, m.</summary>
@@ -15,7 +17,7 @@ public struct LinearAxisServo : ITwoBodyConstraintDescription<LinearAxisServo>
     public Vector3 LocalPlaneNormal;
     /// <summary>Distance of B's anchor from the plane along the normal, m; negative behind it.</summary>
     public float TargetOffset;
-    /// <summary>Limits of speed and force.</summary>
+    /// <summary>Limits of speed and force; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
     /// <summary>Stiffness of the connection; the default is rigid.</summary>
     public SpringSettings SpringSettings;

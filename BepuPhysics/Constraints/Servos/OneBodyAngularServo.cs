@@ -5,13 +5,14 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns a body to an orientation in the world, the shorter way.</summary>
+/// <remarks>Keeps characters upright and held things turned. Use <see cref="AngularServo"/> for an orientation against another body.</remarks>
 public struct OneBodyAngularServo : IOneBodyConstraintDescription<OneBodyAngularServo>
 {
     /// <summary>Orientation in the world; unit length.</summary>
     public Quaternion TargetOrientation;
     /// <summary>Stiffness of the pull; the default is rigid.</summary>
     public SpringSettings SpringSettings;
-    /// <summary>Limits of speed and torque.</summary>
+    /// <summary>Limits of speed and torque; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
 
     /// <inheritdoc/>

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Pulls a point of a body to a point of the world.</summary>
+/// <remarks>For what is grabbed with a mouse or a hand: change the target as it moves. Use <see cref="BallSocketServo"/> for a point of another
+/// body.</remarks>
 public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearServo>
 {
     /// <summary>Point that is pulled, in the body's frame, m.</summary>
@@ -13,7 +15,7 @@ public struct OneBodyLinearServo : IOneBodyConstraintDescription<OneBodyLinearSe
     public Vector3 Target;
     /// <summary>Stiffness of the pull; the default is rigid.</summary>
     public SpringSettings SpringSettings;
-    /// <summary>Limits of speed and force.</summary>
+    /// <summary>Limits of speed and force; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
 
     /// <inheritdoc/>

@@ -5,6 +5,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Keeps a point of body B on a line of body A, along which it slides freely.</summary>
+/// <remarks>Use <see cref="Slider"/> where the bodies may not turn against each other either.</remarks>
 public struct PointOnLineServo : ITwoBodyConstraintDescription<PointOnLineServo>
 {
     /// <summary>A point of the line in A's frame, m.</summary>
@@ -13,7 +14,7 @@ public struct PointOnLineServo : ITwoBodyConstraintDescription<PointOnLineServo>
     public Vector3 LocalOffsetB;
     /// <summary>Direction of the line in A's frame; unit length.</summary>
     public Vector3 LocalDirection;
-    /// <summary>Limits of speed and force.</summary>
+    /// <summary>Limits of speed and force; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
     /// <summary>Stiffness of the connection; the default is rigid.</summary>
     public SpringSettings SpringSettings;

@@ -5,6 +5,8 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>Turns body B against body A about their twist axes to an angle, the shorter way around.</summary>
+/// <remarks>For steering and joints of robots, beside a <see cref="Hinge"/>. Use <see cref="AngularServo"/> for all three angles,
+/// <see cref="TwistLimit"/> for a range.</remarks>
 public struct TwistServo : ITwoBodyConstraintDescription<TwistServo>
 {
     /// <summary>Rotation from the joint's frame to A's; its Z axis is the twist axis, X is angle 0, Y a quarter turn; unit length.</summary>
@@ -15,7 +17,7 @@ public struct TwistServo : ITwoBodyConstraintDescription<TwistServo>
     public float TargetAngle;
     /// <summary>Stiffness of the pull; the default is rigid.</summary>
     public SpringSettings SpringSettings;
-    /// <summary>Limits of speed and torque.</summary>
+    /// <summary>Limits of speed and torque; <see cref="ServoSettings.Default"/> has none, all zero moves nothing.</summary>
     public ServoSettings ServoSettings;
 
     /// <inheritdoc/>
