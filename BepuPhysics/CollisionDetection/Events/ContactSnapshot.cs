@@ -53,7 +53,10 @@ public sealed unsafe partial class CollisionEvents
                 continue;
             var snapshot = new ContactSnapshot
             {
-                Pair = pair.Pair, Touches = pair.Touches, IsConvex = pair.ManifoldCount == 1, IsAsleep = pair.IsAsleep,
+                Pair = pair.Pair,
+                Touches = pair.Touches,
+                IsConvex = pair.ManifoldCount == 1,
+                IsAsleep = pair.IsAsleep,
             };
             snapshot.Contacts.OffsetB = pair.OffsetB;
             for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)
