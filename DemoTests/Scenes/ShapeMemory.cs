@@ -24,7 +24,8 @@ static class ShapeMemory
             simulation.Statics.RemoveAt(simulation.Statics.Count - 1);
         foreach (var shape in hulls)
         {
-            if (shape.Exists && shape.Type == ConvexHull.Id)
+            // Shapes that own memory. Children of compounds are of simple types here.
+            if (shape.Exists && shape.Type is ConvexHull.Id or Compound.Id or BigCompound.Id or Mesh.Id or HeightField.Id)
                 simulation.Shapes.RemoveAndDispose(shape, simulation.BufferPool);
         }
     }
