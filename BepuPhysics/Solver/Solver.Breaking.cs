@@ -95,7 +95,7 @@ public sealed unsafe partial class Solver
         if (!processor.HasSeparation)
             throw new ArgumentException($"{handle} is of a type that does not say where it holds its bodies.", nameof(handle));
         ref var set = ref bodies.Awake;
-        var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+        var awake = new SolverBodies(set);
         return processor.Separation(ref TypeBatchAt(location), awake, location.IndexInTypeBatch);
     }
 
