@@ -17,6 +17,7 @@ public static partial class DefaultTypes
         registry.Register(new ContainerPairTask<Compound, Mesh>());
         registry.Register(new ContainerPairTask<BigCompound, Mesh>());
         registry.Register(new ContainerPairTask<Mesh, Mesh>());
+        RegisterContainer<HeightField>(registry);
     }
 
     static void RegisterContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer

@@ -26,18 +26,7 @@ public static partial class DefaultTypes
         RegisterSearches(registry);
         RegisterHalfSpaces(registry);
         RegisterContainers(registry);
-        RegisterHeightFields(registry);
         return registry;
-    }
-
-    static void RegisterHeightFields(CollisionTaskRegistry registry)
-    {
-        registry.Register(new ConvexContainerTask<Sphere, SphereWide, HeightField>());
-        registry.Register(new ConvexContainerTask<Capsule, CapsuleWide, HeightField>());
-        registry.Register(new ConvexContainerTask<Box, BoxWide, HeightField>());
-        registry.Register(new ConvexContainerTask<Triangle, TriangleWide, HeightField>());
-        registry.Register(new ConvexContainerTask<Cylinder, CylinderWide, HeightField>());
-        registry.Register(new ConvexContainerTask<ConvexHull, ConvexHullWide, HeightField>());
     }
 
     static void RegisterHalfSpaces(CollisionTaskRegistry registry)

@@ -9,7 +9,7 @@ static class BodyChecks
 {
     const float LeastInverseMass = 1 / Limits.MaximumMass, GreatestInverseMass = 1 / Limits.MinimumMass;
 
-    internal static bool HasUnitLength(float lengthSquared) => MathF.Abs(lengthSquared - 1) <= UnitTolerance.Described;
+    internal static bool HasUnitLength(float lengthSquared) => UnitTolerance.Holds(lengthSquared, UnitTolerance.Described);
 
     internal static void Position(Vector3 value, string name) => Bounded(value, Limits.MaximumPosition, name);
 

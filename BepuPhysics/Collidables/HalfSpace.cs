@@ -37,7 +37,7 @@ public struct HalfSpace(Vector3 normal) : IConvexShape
     /// <inheritdoc/>
     public readonly void Validate()
     {
-        if (!(MathF.Abs(Exact.Dot(Normal, Normal) - 1) <= UnitLengthTolerance))
+        if (!UnitTolerance.Holds(Exact.Dot(Normal, Normal), UnitLengthTolerance))
             throw new ArgumentException($"The normal of a half-space must be a direction, of length one, not {Normal}.", nameof(Normal));
     }
 

@@ -391,7 +391,7 @@ public abstract unsafe class ShapeBatch
                 throw new InvalidOperationException($"There is no index left for another shape of type {TypeId}.");
             // Before the index is taken, so that nothing has changed if there is no memory.
             if (UsedSlotCount == Capacity)
-                ResizeShapes((int)Math.Min(Capacity * 2L, TypedIndex.MaximumIndexCount));
+                ResizeShapes((int)Math.Min(Math.Max(1, Capacity * 2L), TypedIndex.MaximumIndexCount));
         }
         var index = ids.Take();
         Check.That(!Exists(index));

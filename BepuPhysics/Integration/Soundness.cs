@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -54,7 +53,7 @@ static class Soundness
 
     /// <summary>Whether one pose is sound.</summary>
     internal static bool IsSound(in RigidPose pose) => Exact.LengthSquared(pose.Position) <= GreatestSquare &&
-        MathF.Abs(Exact.Dot(pose.Orientation, pose.Orientation) - 1) <= UnitTolerance.Sound;
+        UnitTolerance.Holds(Exact.Dot(pose.Orientation, pose.Orientation), UnitTolerance.Sound);
 
     /// <summary>Whether one velocity is sound.</summary>
     internal static bool IsSound(in BodyVelocity velocity) =>

@@ -51,7 +51,7 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
         var start = (int)((long)bundleCount * block / blockCount);
         var end = (int)((long)bundleCount * (block + 1) / blockCount);
         ref var set = ref bodies.Awake;
-        var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+        var awake = new SolverBodies(set);
         // The substep that would be next: bodies have moved since collision detection.
         var next = new Substep(substep.Index + 1, substep.Dt);
         float greatest = 0;

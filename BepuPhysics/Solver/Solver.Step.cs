@@ -109,7 +109,7 @@ public sealed unsafe partial class Solver
         // Callbacks and substep events are the game's and may throw.
         try
         {
-            work.Bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+            work.Bodies = new SolverBodies(set);
             BuildBlocks(ref work);
             BuildStages(ref work);
             BuildSplitBodies(ref work.Split);

@@ -10,6 +10,9 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     const int FloatsPerRow = 8;
     const int FloatsPerMotion = 16;
 
+    /// <summary>The bodies of a set.</summary>
+    internal SolverBodies(in BodySet set) : this(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory) { }
+
     readonly float* motions = (float*)motions;
     readonly float* inertias = (float*)inertias;
     readonly float* displacements = (float*)displacements;

@@ -1,3 +1,5 @@
+using System;
+
 namespace BepuPhysics;
 
 /// <summary>How far a squared length may be from one and still be that of a unit vector or quaternion, by who has written it.</summary>
@@ -18,4 +20,7 @@ static class UnitTolerance
 
     /// <summary>Orientations that a game has written into a body's memory: beyond, they are no rotations any more, and the body is stopped.</summary>
     public const float Sound = 0.5f;
+
+    /// <summary>Whether a squared length is one, to within a tolerance; NaN is not.</summary>
+    public static bool Holds(float lengthSquared, float tolerance) => MathF.Abs(lengthSquared - 1) <= tolerance;
 }

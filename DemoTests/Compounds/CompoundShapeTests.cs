@@ -115,6 +115,26 @@ public sealed class CompoundShapeTests : IDisposable
         Assert.InRange(hitCount, 10, int.MaxValue);
     }
 
+    /// <summary>The least piece of a pool's memory holds several small shapes, and no big compound.</summary>
+    [Fact]
+    public void A_batch_that_was_made_for_no_shapes_has_room_for_large_ones()
+    {
+        var shapes = new Shapes(workshop.Pool, 0);
+        var sphere = shapes.Add(new Sphere(1));
+        var names = new List<TypedIndex>();
+        for (int i = 0; i < 5; ++i)
+        {
+            names.Add(shapes.Add(new BigCompound(Children(sphere, sphere), shapes, workshop.Pool)));
+            Assert.InRange(shapes[BigCompound.Id]!.Capacity, i + 1, int.MaxValue);
+        }
+        foreach (var name in names)
+        {
+            Assert.Equal(2, shapes.GetShape<BigCompound>(name.Index).ChildCount);
+            shapes.RemoveAndDispose(name, workshop.Pool);
+        }
+        shapes.Dispose();
+    }
+
     [Fact]
     public void A_child_stays_as_long_as_a_compound_has_it()
     {

@@ -22,7 +22,7 @@ public struct CompoundChild(in RigidPose pose, TypedIndex shapeIndex)
 
     // What is no rotation stays what it is, to be refused by name.
     static Quaternion Normalized(Quaternion value) =>
-        MathF.Abs(Exact.Dot(value, value) - 1) <= UnitTolerance.Described ? Exact.Normalize(value) : value;
+        UnitTolerance.Holds(Exact.Dot(value, value), UnitTolerance.Described) ? Exact.Normalize(value) : value;
 
     /// <summary>Pose of the child, to be read or changed where it is.</summary>
     /// <remarks>Change its fields, not all of it at once: a pose is padded, and the shape lies where its padding would be.</remarks>

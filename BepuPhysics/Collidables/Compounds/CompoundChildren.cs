@@ -33,7 +33,7 @@ static unsafe class CompoundChildren
         var position = child.LocalPosition;
         if (!(MathF.Abs(position.X) <= Limit && MathF.Abs(position.Y) <= Limit && MathF.Abs(position.Z) <= Limit))
             throw new ArgumentException($"The coordinates of child {index} must be from {-Limit} to {Limit} m, not {position}.", nameof(child));
-        if (!(MathF.Abs(Exact.Dot(child.LocalOrientation, child.LocalOrientation) - 1) <= UnitTolerance.Combined))
+        if (!UnitTolerance.Holds(Exact.Dot(child.LocalOrientation, child.LocalOrientation), UnitTolerance.Combined))
             throw new ArgumentException($"The orientation of child {index} must be of unit length, not {child.LocalOrientation}.", nameof(child));
     }
 

@@ -22,8 +22,9 @@ public unsafe partial struct HeightField
     {
         Find(index, out var x, out var z, out var isSecond);
         var center = new Vector3(x * CellWidth, Heights[z * SampleCountX + x], z * CellLength);
-        *(Triangle*)scratch = GetTriangle(x, z, isSecond, center.X, center.Y, center.Z);
-        child = new() { TypeId = Triangle.Id, Shape = scratch, Pose = new(center), Cone = GetCone(x, z, isSecond) };
+        ref var triangle = ref *(Triangle*)scratch;
+        triangle = GetTriangle(x, z, isSecond, center.X, center.Y, center.Z);
+        child = new() { TypeId = Triangle.Id, Shape = scratch, Pose = new(center), Cone = GetCone(x, z, isSecond, triangle, center) };
     }
 
     // In the order of their numbers.

@@ -45,8 +45,7 @@ readonly struct HalfSpaceFaceTester<TShapeWide, TSupport, TFeature> : ISearching
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void MeasureReaches(in TShapeWide a, in HalfSpaceWide b, ref PairMeasuresWide measures)
     {
-        TSupport.GetExtents(a, out var center, out _, out var outer);
-        measures.ReachA = center.Length() + outer + TSupport.Margin(a);
+        measures.ReachA = PairMeasuresWide.Reach<TShapeWide, TSupport>(a);
         measures.ReachB = Wide.Max(measures.ReachB, measures.ReachA * new Vector<float>(2));
     }
 }

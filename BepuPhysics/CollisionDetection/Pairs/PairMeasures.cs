@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -27,4 +28,13 @@ struct PairMeasuresWide : IWide<PairMeasures>
     public Vector<float> ReachB;
     /// <inheritdoc cref="PairMeasures.Evaluations"/>
     public Vector<int> Evaluations;
+
+    /// <summary>Distance from the centre of a shape to its farthest point, m.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> Reach<TShapeWide, TSupport>(in TShapeWide shape)
+        where TShapeWide : unmanaged where TSupport : unmanaged, ISupport<TShapeWide>
+    {
+        TSupport.GetExtents(shape, out var center, out _, out var outer);
+        return center.Length() + outer + TSupport.Margin(shape);
+    }
 }

@@ -48,15 +48,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void MeasureReaches(in TShapeWideA a, in TShapeWideB b, ref PairMeasuresWide measures)
     {
-        measures.ReachA = Reach<TShapeWideA, TSupportA>(a);
-        measures.ReachB = Reach<TShapeWideB, TSupportB>(b);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Reach<TShapeWide, TSupport>(in TShapeWide shape)
-        where TShapeWide : unmanaged where TSupport : unmanaged, ISupport<TShapeWide>
-    {
-        TSupport.GetExtents(shape, out var center, out _, out var outer);
-        return center.Length() + outer + TSupport.Margin(shape);
+        measures.ReachA = PairMeasuresWide.Reach<TShapeWideA, TSupportA>(a);
+        measures.ReachB = PairMeasuresWide.Reach<TShapeWideB, TSupportB>(b);
     }
 }

@@ -48,7 +48,7 @@ static unsafe class PatchReduction
             GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].AreKnown ? placed[patches[i].Slot].InnerRadius() : 0;
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
-        Fill(ref memory, results, patches, reduces, greatest, frames, pool);
+        Fill(ref memory, results, patches, reduces, greatest, ref frames, pool);
         Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
         for (int i = 0; i < count; ++i)
         {
@@ -70,7 +70,7 @@ static unsafe class PatchReduction
         }
     }
 
-    static void Fill(ref SeamMemory memory, Span<ChildResult> results, in PatchSet patches, int reduces, int greatest, in Frames frames, BufferPool pool)
+    static void Fill(ref SeamMemory memory, Span<ChildResult> results, in PatchSet patches, int reduces, int greatest, ref Frames frames, BufferPool pool)
     {
         ref var candidates = ref memory.Candidates;
         candidates.Count = 0;
@@ -86,9 +86,9 @@ static unsafe class PatchReduction
             if (lane < 0 || (reduces & 1 << lane) == 0)
                 continue;
             ref var result = ref results[child.Slot];
-            var axisX = Read(frames.X, lane);
-            var axisY = Read(frames.Y, lane);
-            var origin = Read(frames.Origin, lane);
+            var axisX = Lanes.Read<Vector3, Vector3Wide>(ref frames.X, lane);
+            var axisY = Lanes.Read<Vector3, Vector3Wide>(ref frames.Y, lane);
+            var origin = Lanes.Read<Vector3, Vector3Wide>(ref frames.Origin, lane);
             ref readonly var patch = ref patches[lane];
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
@@ -106,8 +106,6 @@ static unsafe class PatchReduction
             }
         }
     }
-
-    static Vector3 Read(in Vector3Wide wide, int lane) => new(wide.X[lane], wide.Y[lane], wide.Z[lane]);
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     static void Choose(FaceCandidate* candidates, int count, Vector<float> size, out ContactChoice deepest, out ContactChoice farthest,

@@ -109,7 +109,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     void Find(int block, in Substep substep)
     {
         ref var set = ref bodies.Awake;
-        var awake = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+        var awake = new SolverBodies(set);
         var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
         var start = FirstBundle(block);
