@@ -209,7 +209,9 @@ public unsafe partial struct Mesh : IDisposableShape
     /// </remarks>
     internal readonly void GetCone(int triangle, out TriangleCone cone)
     {
-        cone = new() { Cosines = Vector3.One };
+        var cosines = stackalloc float[] { 1, 1, 1 };
+        var sines = stackalloc float[] { 0, 0, 0 };
+        var freeMask = 0;
         var edges = Header->Edges + 3 * triangle;
         var isUniform = MathF.Abs(scale.X) == MathF.Abs(scale.Y) && MathF.Abs(scale.X) == MathF.Abs(scale.Z);
         var isMirrored = IsMirrored;
@@ -220,15 +222,18 @@ public unsafe partial struct Mesh : IDisposableShape
             var target = isMirrored ? 2 - edge : edge;
             if (value == MeshEdges.Free)
             {
-                cone.FreeMask |= 1 << target;
+                freeMask |= 1 << target;
                 continue;
             }
             if (value == 0)
                 continue;
             var turn = isUniform ? MeshEdges.Turn(value) : ScaleTurn(triangle, edge, MeshEdges.Turn(value));
-            cone.Cosines[target] = turn.X;
-            cone.Sines[target] = turn.Y;
+            cosines[target] = turn.X;
+            sines[target] = turn.Y;
         }
+        cone.Cosines = *(Vector3*)cosines;
+        cone.Sines = *(Vector3*)sines;
+        cone.FreeMask = freeMask;
     }
 
     readonly Vector2 ScaleTurn(int triangle, int edge, Vector2 turn)

@@ -29,13 +29,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
         OverlapFinder.Compile<Overlaps>();
+        var expands = false;
         foreach (var a in shapeTypes)
         {
             foreach (var b in shapeTypes)
             {
-                if (a <= b && CollisionTaskRegistry.TryGetTask(a, b, out var task))
-                    Precompilation.Compile(task.GetType(), nameof(CollisionTask.Execute), typeof(Completion));
+                if (a > b || !CollisionTaskRegistry.TryGetTask(a, b, out var task))
+                    continue;
+                expands |= task.Expands;
+                Precompilation.Compile(task.GetType(), nameof(CollisionTask.Execute), typeof(Completion));
             }
         }
+        // Made on first use, which is in a step otherwise.
+        if (expands)
+            GC.KeepAlive(DirectedTasks.Registry);
     }
 }

@@ -112,10 +112,14 @@ unsafe struct ChildPairs(BufferPool pool)
     }
 
     /// <summary>Gives a child the next slot of its parent.</summary>
-    public readonly WaitingChild TakeSlot(int parent, in ChildResult child, in ChildShapes shapes)
+    public readonly WaitingChild TakeSlot(int parent, ChildIds ids, bool keepsHistory, in ChildShapes shapes)
     {
         ref var target = ref parents[parent];
-        target.Slots[PatchSet.Capacity + target.SlotCount] = child;
+        // The manifold is the test's to write.
+        ref var result = ref target.Slots[PatchSet.Capacity + target.SlotCount];
+        result.Children = ids;
+        result.KeepsHistory = keepsHistory;
+        result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
             target.Placed[target.SlotCount].Write(shapes, target.MoverIsB);
         ++target.WaitCount;

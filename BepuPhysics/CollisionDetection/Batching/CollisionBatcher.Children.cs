@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -64,11 +63,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
         if (task.Expands)
             throw new InvalidOperationException($"Children of a shape must be convex: {task.Description}.");
-        Unsafe.SkipInit(out ChildResult result);
-        result.Children = ids;
-        result.KeepsHistory = task.KeepsHistories;
-        result.OffsetA = children.OffsetA;
-        var slot = Children->TakeSlot(parent, result, children);
+        var slot = Children->TakeSlot(parent, ids, task.KeepsHistories, children);
         var history = PairInput.NoHistory;
         if (task.KeepsHistories &&
             TCallbacks.Recall(ref Callbacks, pair.PairId, ids, children, pair.SpeculativeMargin, out history, ref Children->Slot(slot).Manifold))

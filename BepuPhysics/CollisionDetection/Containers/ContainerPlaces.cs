@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 
@@ -8,8 +9,20 @@ namespace BepuPhysics.CollisionDetection;
 static unsafe class ContainerPlaces
 {
     /// <summary>Two shapes without children, which are to be replaced by children.</summary>
-    public static ChildShapes Parents(in ParentPair pair) =>
-        new() { OffsetB = pair.OffsetB, OrientationA = pair.OrientationA, OrientationB = pair.OrientationB, NameA = pair.NameA, NameB = pair.NameB };
+    // Written in place, field by field: as a value it would be copied for each child that is found.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void SetParents(in ParentPair pair, out ChildShapes children)
+    {
+        Unsafe.SkipInit(out children);
+        children.OffsetA = default;
+        children.OffsetB = pair.OffsetB;
+        children.OrientationA = pair.OrientationA;
+        children.OrientationB = pair.OrientationB;
+        children.NameA = pair.NameA;
+        children.NameB = pair.NameB;
+        children.ConeA = default;
+        children.ConeB = default;
+    }
 
     /// <summary>Replaces A, which is a container, by a child of it.</summary>
     public static void SetA<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)

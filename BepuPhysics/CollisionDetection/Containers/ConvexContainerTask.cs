@@ -60,7 +60,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     {
         ref var entry = ref Entries(batch)[found.Parent];
         var scratch = batch.Bundles.Memory + ScratchStart;
-        children = ContainerPlaces.Parents(entry.Pair);
+        ContainerPlaces.SetParents(entry.Pair, out children);
         if (entry.Pair.Flipped)
         {
             ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);

@@ -52,9 +52,6 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
     internal override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB, in Quaternion orientationA,
         in Quaternion orientationB, in PairInput pair)
     {
-        // What a lane without a pair holds must not be a hull that is gone.
-        if (batch.Count == 0)
-            Unsafe.InitBlockUnaligned(batch.Bundles.Memory, 0, (uint)BatchByteCount);
         Write(ref batch, (TShapeA*)shapeA, (TShapeB*)shapeB, offsetB, orientationA, orientationB, pair, needsOrientationA: true, needsOrientationB: true);
     }
 
@@ -88,9 +85,12 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         DirectionalDepth<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Measure(
             bundle.A, bundle.B, localOffsetB, localAxesB, localNormal, TakesPointOfB(bundle.A, bundle.B), done, out var depth, out var point);
         var least = depth;
-        if (TFeatureA.MaximumVertexCount > 2)
+        // Where the direction itself has decided, or nothing but the depth is asked for, no other is looked along.
+        var isOpen = Vector.AndNot(~Vector.LessThanOrEqual(depth, greatest) & Vector.GreaterThan(greatest, new Vector<float>(float.MinValue)), done);
+        var looksOn = Vector.LessThanAny(isOpen, Vector<int>.Zero);
+        if (TFeatureA.MaximumVertexCount > 2 && looksOn)
             MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, -Facing<TShapeWideA, TFeatureA>(bundle.A, -localNormal, done), done, ref least);
-        if (TFeatureB.MaximumVertexCount > 2)
+        if (TFeatureB.MaximumVertexCount > 2 && looksOn)
         {
             var facing = Facing<TShapeWideB, TFeatureB>(bundle.B, localAxesB * localNormal, done);
             MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, Matrix3x3Wide.TransposeTimes(localAxesB, facing), done, ref least);

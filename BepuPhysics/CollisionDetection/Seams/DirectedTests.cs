@@ -8,6 +8,8 @@ namespace BepuPhysics.CollisionDetection;
 unsafe struct DirectedTests(BufferPool pool)
 {
     PairBatches batches;
+    // A bit for each task whose batch has pairs: there are fewer tasks than bits.
+    ulong waiting;
     QuickList<DirectedPair> pairs = new(InitialCapacity, pool);
 
     const int InitialCapacity = 32;
@@ -33,9 +35,18 @@ unsafe struct DirectedTests(BufferPool pool)
         var registry = DirectedTasks.Registry;
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
         if (!batches.Has(taskIndex))
+        {
             batches.Take(task, taskIndex, registry.TaskCount, pool);
+            // What a lane without a pair holds must not be a hull that is gone. Those of this step are not.
+            batches[taskIndex].Bundles.Clear(0, task.BatchByteCount);
+        }
         var input = new PairInput(speculativeMargin, pairs.Count, flipped, PairInput.NoHistory);
-        pairs.Add(new() { Normal = normal, GreatestDepth = greatestDepth, Owner = owner }, pool);
+        // The rest is written when the pair is looked at.
+        ref var pair = ref pairs.Allocate(pool);
+        pair.Normal = normal;
+        pair.GreatestDepth = greatestDepth;
+        pair.Owner = owner;
+        waiting |= 1ul << taskIndex;
         ref var batch = ref batches[taskIndex];
         fixed (byte* a = children.ShapeA.Bytes, b = children.ShapeB.Bytes)
         {
@@ -49,12 +60,12 @@ unsafe struct DirectedTests(BufferPool pool)
     }
 
     /// <summary>Looks at all pairs.</summary>
-    public readonly void Execute()
+    public void Execute()
     {
-        for (int i = batches.First; i < batches.End; ++i)
+        for (; waiting != 0; waiting &= waiting - 1)
         {
-            if (batches[i].Count > 0)
-                ((IDirectedTask)DirectedTasks.Registry[i]).Execute(ref batches[i], pairs.Span.Memory);
+            var taskIndex = BitOperations.TrailingZeroCount(waiting);
+            ((IDirectedTask)DirectedTasks.Registry[taskIndex]).Execute(ref batches[taskIndex], pairs.Span.Memory);
         }
     }
 

@@ -75,10 +75,13 @@ static unsafe class PatchReduction
         ref var candidates = ref memory.Candidates;
         candidates.Count = 0;
         candidates.EnsureCapacity(greatest, pool);
-        FaceCandidate none = default;
-        none.Depth = new Vector<float>(IContactCandidate.None);
         for (int i = 0; i < greatest; ++i)
-            candidates.AddUnsafely(none);
+        {
+            ref var candidate = ref candidates.AllocateUnsafely();
+            candidate.X = candidate.Y = candidate.Weight = Vector<float>.Zero;
+            candidate.Name = Vector<int>.Zero;
+            candidate.Depth = new Vector<float>(IContactCandidate.None);
+        }
         Span<int> counts = [0, 0, 0, 0];
         foreach (ref var child in memory.Ranked.AsSpan())
         {
@@ -90,6 +93,7 @@ static unsafe class PatchReduction
             var axisY = Lanes.Read<Vector3, Vector3Wide>(ref frames.Y, lane);
             var origin = Lanes.Read<Vector3, Vector3Wide>(ref frames.Origin, lane);
             ref readonly var patch = ref patches[lane];
+            var preference = frames.Size[lane] * DepthPreference;
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
@@ -100,7 +104,7 @@ static unsafe class PatchReduction
                 var isRemembered = isFirst || (patch.IsKnown && feature == patch.Memory.Second);
                 GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, axisX);
                 GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, axisY);
-                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? frames.Size[lane] * DepthPreference : 0);
+                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? preference : 0);
                 GatherScatter.Get(ref candidate.Weight, lane) = isRemembered ? SpanPreference : 1;
                 GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
             }

@@ -103,7 +103,7 @@ static class TriangleNeighbours
             child.Class = 1;
             ref var result = ref results[child.Slot];
             result.Replace(test);
-            if (Exact.Dot(isA ? -test.Normal : test.Normal, Create(placed[child.Slot], isA).Normal) < LeastCosine)
+            if (Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(placed[child.Slot], isA))) < LeastCosine)
                 result.Manifold.Count = 0;
         }
     }
@@ -116,10 +116,30 @@ static class TriangleNeighbours
         ? new(placed.ShapeA.Read<Triangle>(), placed.OrientationA, placed.ConeA, isA)
         : new(placed.ShapeB.Read<Triangle>(), placed.OrientationB, placed.ConeB, isA);
 
+    // A vector along the normal of a triangle, by the operations that its surface finds it by.
+    static Vector3 FaceVector(in PlacedChildren placed, bool isA)
+    {
+        var triangle = isA ? placed.ShapeA.Read<Triangle>() : placed.ShapeB.Read<Triangle>();
+        var orientation = isA ? placed.OrientationA : placed.OrientationB;
+        return Exact.Cross(Exact.Rotate(triangle.B - triangle.A, orientation), Exact.Rotate(triangle.A - triangle.C, orientation));
+    }
+
+    // Along the triangle's normal, as faces touch. No bound leans towards the normal, so that what is as near to it is beyond none.
+    static bool IsFaceNormal(in PlacedChildren placed, in Vector3 direction, bool isA)
+    {
+        var normal = FaceVector(placed, isA);
+        var along = Exact.Dot(direction, normal);
+        var across = Exact.Cross(direction, normal);
+        // All but the square of the sine of the angle between the two.
+        return along > 0 && Exact.Dot(across, across) < Beyond * Beyond / 4 * Exact.Dot(normal, normal);
+    }
+
     static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, float margin, int owner, BufferPool pool)
     {
-        var surface = Create(placed, isA);
         var direction = isA ? -normal : normal;
+        if (IsFaceNormal(placed, direction, isA))
+            return;
+        var surface = Create(placed, isA);
         // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
         if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine || surface.Violated(direction) == default)
             return;
