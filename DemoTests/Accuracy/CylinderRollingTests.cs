@@ -33,7 +33,7 @@ public class CylinderRollingTests(ITestOutputHelper output)
         var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         using var solids = new Solids(world);
-        var slope = new Slope(solids, angle, floor);
+        var slope = new Incline(solids, angle, floor);
         var body = world.AddDynamic(new Cylinder(Radius, Length), 1, slope.CrossPose(Radius));
         var line = new StraightLine(world, body, slope.Downhill);
         world.Run(time, line.Look);
@@ -84,7 +84,7 @@ public class CylinderRollingTests(ITestOutputHelper output)
         var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         using var solids = new Solids(world);
-        var slope = new Slope(solids, angle, floor);
+        var slope = new Incline(solids, angle, floor);
         // One of its sides lies on the slope.
         var body = solids.Create("64-gon prism").Place(slope.CrossPose(Radius * Math.Cos(Math.PI / 64)));
         var line = new StraightLine(world, body, slope.Downhill);

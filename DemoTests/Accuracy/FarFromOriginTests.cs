@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics.Collidables;
 using Demos.Accuracy;
 using Demos.References;
-using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -52,7 +51,7 @@ public class FarFromOriginTests(ITestOutputHelper output)
     {
         const double angle = Math.PI / 9, gravity = 9.81f;
         using var world = new AccuracyWorld(settings);
-        var slope = new Slope(world, angle, origin);
+        var slope = new Incline(world, angle, origin);
         var body = world.AddDynamic(new Sphere(.5f), 1, slope.Pose(0, .5));
         var start = world.Position(body);
         world.Run(Math.Sqrt(2 * 5 / SlidingOracle.RollingDistance(gravity, angle, Math.Sqrt(2))));

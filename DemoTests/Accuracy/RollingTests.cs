@@ -4,7 +4,6 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using Demos.Accuracy;
 using Demos.References;
-using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -24,7 +23,7 @@ public class RollingTests(ITestOutputHelper output)
         var settings = AccuracySettings.For(effort);
         double angle = Math.PI / 9;
         using var world = new AccuracyWorld(settings);
-        var slope = new Slope(world, angle);
+        var slope = new Incline(world, angle);
         var body = world.AddDynamic(new Sphere((float)Radius), 1, slope.Pose(0, Radius));
         var start = world.Position(body);
         world.Run(5);

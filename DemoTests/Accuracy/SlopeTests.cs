@@ -3,7 +3,6 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using Demos.Accuracy;
 using Demos.References;
-using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -125,7 +124,7 @@ public class SlopeTests(ITestOutputHelper output)
     {
         using var world = new AccuracyWorld(settings with { Friction = (float)Friction });
         // A kinematic slope has contacts with two bodies, a static one with one.
-        var slope = new Slope(world, angle, kinematic: shape.EndsWith("kinematic", StringComparison.Ordinal));
+        var slope = new Incline(world, angle, kinematic: shape.EndsWith("kinematic", StringComparison.Ordinal));
         var body = shape switch
         {
             "box" or "box on kinematic" => world.AddDynamic(new Box(1, .6f, .8f), 1, slope.Pose(0, .3)),
@@ -144,7 +143,7 @@ public class SlopeTests(ITestOutputHelper output)
     {
         using var world = new AccuracyWorld(settings with { Friction = (float)Friction });
         using var solids = new Solids(world);
-        var slope = new Slope(solids, angle, floor);
+        var slope = new Incline(solids, angle, floor);
         var body = name switch
         {
             // Radii as in Solids.
