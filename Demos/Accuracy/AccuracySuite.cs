@@ -12,6 +12,8 @@ static class AccuracySuite
     public static IReadOnlyList<AccuracyCase> All { get; } =
     [
         .. SlopeCases.All,
+        .. RollingCases.All,
+        .. CylinderRollingCases.All,
         .. RestCases.All,
         .. StackCases.All,
         .. PendulumCases.All,
