@@ -18,6 +18,7 @@ static class AccuracySuite
         .. StackCases.All,
         .. PendulumCases.All,
         .. ChainCases.All,
+        .. RestingCases.All,
         .. StepCases.All,
     ];
 
