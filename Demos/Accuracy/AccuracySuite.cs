@@ -14,6 +14,7 @@ static class AccuracySuite
         .. SlopeCases.All,
         .. RollingCases.All,
         .. CylinderRollingCases.All,
+        .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,
         .. PendulumCases.All,
