@@ -11,6 +11,7 @@ static class AccuracySuite
     /// <summary>All cases at both efforts, family by family.</summary>
     public static IReadOnlyList<AccuracyCase> All { get; } =
     [
+        .. FreeFlightCases.All,
         .. SlopeCases.All,
         .. RollingCases.All,
         .. CylinderRollingCases.All,
