@@ -21,6 +21,7 @@ static class AccuracySuite
         .. PendulumCases.All,
         .. ChainCases.All,
         .. RestingCases.All,
+        .. CoinCases.All,
         .. StepCases.All,
     ];
 
