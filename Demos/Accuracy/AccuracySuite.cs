@@ -22,7 +22,10 @@ static class AccuracySuite
         .. ChainCases.All,
         .. RestingCases.All,
         .. CoinCases.All,
+        .. ScaleCases.All,
+        .. FarFromOriginCases.All,
         .. StepCases.All,
+        .. OverlapCases.All,
     ];
 
     /// <summary>A case at both efforts.</summary>
