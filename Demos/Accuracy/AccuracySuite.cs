@@ -22,6 +22,8 @@ static class AccuracySuite
         .. ChainCases.All,
         .. RestingCases.All,
         .. CoinCases.All,
+        .. FastTurnCases.All,
+        .. HubCases.All,
         .. ScaleCases.All,
         .. FarFromOriginCases.All,
         .. StepCases.All,
