@@ -2,6 +2,7 @@ using System;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
+using Demos.Accuracy;
 using Demos.Terminal;
 using Xunit;
 
@@ -40,7 +41,26 @@ public sealed class AccuracyCommandTests : IDisposable
         Assert.Equal(["case", "scene", "effort", "settings", "met", "knownMiss", "figures"], first.EnumerateObject().Select(member => member.Name));
         Assert.Equal(.005, first.GetProperty("figures")[0].GetProperty("limit").GetDouble());
         Assert.Equal(JsonValueKind.Null, first.GetProperty("figures")[2].GetProperty("limit").ValueKind);
-        Assert.Equal(4, File.ReadAllLines(page).Length);
+        Assert.Equal(2, File.ReadAllLines(page).Count(line => line.StartsWith("| C4 |", StringComparison.Ordinal)));
+    }
+
+    [Fact]
+    public void A_page_keeps_the_rows_of_what_is_not_run()
+    {
+        string page = Path.Combine(folder, "Accuracy.md");
+        static CaseResult Row(string id, string scene, string settings, double value) =>
+            new CaseResult(id, scene, settings) { KnownMiss = null }.Note("way", value, "m");
+        static string[] Rows(string path) => [.. File.ReadAllLines(path).Where(line => line.StartsWith("| Z", StringComparison.Ordinal))];
+
+        AccuracyPage.Update(page, [Row("Z1", "b", "s4", 1), Row("Z1", "a", "s4", 2), Row("Z1", "a", "s16", 3), Row("Z2", "a", "s4", 4)], true);
+        AccuracyPage.Update(page, [Row("Z1", "a", "s4", 5)], false);
+        Assert.Equal(["a | s16 | way 3", "a | s4 | way 5", "b | s4 | way 1", "a | s4 | way 4"], Rows(page).Select(Short));
+
+        // The whole family at one setting: a scene that is no more has no row.
+        AccuracyPage.Update(page, [Row("Z1", "c", "s4", 6)], true);
+        Assert.Equal(["a | s16 | way 3", "c | s4 | way 6", "a | s4 | way 4"], Rows(page).Select(Short));
+
+        static string Short(string row) => row[7..row.IndexOf(" m ", StringComparison.Ordinal)];
     }
 
     static (int Status, string Output, string Error) Run(params string[] arguments)

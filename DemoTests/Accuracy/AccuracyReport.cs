@@ -1,27 +1,27 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Threading;
+using Demos.Accuracy;
 
 namespace DemoTests.Accuracy;
 
 /// <summary>
-/// Collects the rows of a test run. When the environment variable PHYSICS_ACCURACY_REPORT names a file, the sorted table is kept there.
+/// Collects the results of a test run. When the environment variable PHYSICS_ACCURACY_REPORT names a file, their rows are kept there, with those that it
+/// has of other cases.
 /// </summary>
 static class AccuracyReport
 {
-    const string Header = "| case | scene | settings | measured | must | verdict |\n|---|---|---|---|---|---|\n";
-    static readonly SortedSet<string> rows = new(StringComparer.Ordinal);
+    static readonly List<CaseResult> results = [];
     static readonly Lock gate = new();
 
-    public static void Add(string row)
+    public static void Add(CaseResult result)
     {
         lock (gate)
         {
-            rows.Add(row);
+            results.Add(result);
             // Written again with each row: a run that is stopped, or dies, leaves what it has measured.
             if (Environment.GetEnvironmentVariable("PHYSICS_ACCURACY_REPORT") is { Length: > 0 } path)
-                File.WriteAllText(path, Header + string.Join('\n', rows) + '\n');
+                AccuracyPage.Update(path, results, isWhole: false);
         }
     }
 }

@@ -1,19 +1,25 @@
+using System.Collections.Generic;
 using System.Linq;
+using System.Reflection;
 using Demos.Accuracy;
 using Xunit;
 using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>Judges the cases that <c>Demos accuracy</c> runs.</summary>
+/// <summary>Families of the suite that have no tests beside their cases, and that no family is left out.</summary>
 public class AccuracySuiteTests(ITestOutputHelper output)
 {
-    public static TheoryData<string> Cases => [.. AccuracySuite.All.Select(subject => subject.Name)];
+    [Theory, SuiteData("C4", "C5", "C6", "J1", "J3", "X5", "X6")]
+    public void Case(string name) => SuiteCases.Judge(name, output);
 
-    [Theory, MemberData(nameof(Cases))]
-    public void Case(string name)
+    [Fact]
+    public void Every_family_is_judged_by_one_test()
     {
-        AccuracyCase subject = AccuracySuite.All.Single(subject => subject.Name == name);
-        subject.Measure().Finish(output);
+        IEnumerable<string> judged = typeof(AccuracySuiteTests).Assembly.GetTypes()
+            .SelectMany(type => type.GetMethods())
+            .SelectMany(method => method.GetCustomAttribute<SuiteDataAttribute>()?.Families ?? []);
+
+        Assert.Equal(AccuracySuite.All.Select(subject => subject.Id).Distinct().Order(), judged.Order());
     }
 }

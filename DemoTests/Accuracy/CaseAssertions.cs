@@ -11,7 +11,7 @@ static class CaseAssertions
     public static void Finish(this CaseResult result, ITestOutputHelper output)
     {
         output.WriteLine(result.Row);
-        AccuracyReport.Add(result.Row);
+        AccuracyReport.Add(result);
         Assert.True(result.Failure is null, result.Failure);
     }
 }

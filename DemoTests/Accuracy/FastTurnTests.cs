@@ -1,96 +1,11 @@
-using System;
-using System.Numerics;
-using BepuPhysics;
-using BepuPhysics.Collidables;
-using Demos.Accuracy;
-using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>
-/// Bodies that turn far within a step meet contacts whose arms and normals are those of its beginning. A box that spins on the ground,
-/// between two walls that are nearer than its diagonal, or in a corner only loses energy, however fast (E1).
-/// </summary>
+/// <summary>What turns far within a step gains no energy (E1).</summary>
 public class FastTurnTests(ITestOutputHelper output)
 {
-    const int SeedCount = 24;
-    static readonly Vector3 size = new(.2f, .3f, .6f);
-
-    public enum Place
-    {
-        Ground,
-        Slot,
-        Corner,
-    }
-
-    public static TheoryData<Place, int, int, float> Cases()
-    {
-        var cases = new TheoryData<Place, int, int, float>();
-        foreach (var place in Enum.GetValues<Place>())
-            foreach (int substeps in new[] { 1, 4, 16 })
-                foreach (int relaxations in new[] { 0, 1 })
-                    foreach (float spin in new[] { 20f, 60, 200, 1000 })
-                        cases.Add(place, substeps, relaxations, spin);
-        return cases;
-    }
-
-    [Theory]
-    [MemberData(nameof(Cases))]
-    public void E1_ASpinningBoxGainsNoEnergy(Place place, int substeps, int relaxations, float spin)
-    {
-        var settings = new AccuracySettings { SubstepCount = substeps, RelaxationCount = relaxations };
-        double worst = 0;
-        for (int seed = 0; seed < SeedCount; ++seed)
-            worst = Tally.Most(worst, Gain(settings, place, spin, new Random(seed)));
-        new CaseResult("E1", FormattableString.Invariant($"{place}, {spin} rad/s"), settings)
-            .Limit("energy gained", worst, .05, "%")
-            .Finish(output);
-    }
-
-    /// <summary>Greatest rise of the energy over its least value so far, as a part of what there was at the beginning.</summary>
-    static double Gain(AccuracySettings settings, Place place, float spin, Random random)
-    {
-        using var world = new AccuracyWorld(settings);
-        world.AddGround();
-        AddWalls(world, place);
-        var orientation = Quaternion.CreateFromAxisAngle(Direction(random), random.NextSingle() * 3);
-        var pose = new RigidPose(new Vector3(0, place == Place.Ground ? .8f : .5f, 0), orientation);
-        var body = world.AddDynamic(new Box(size.X, size.Y, size.Z), 1, pose, new BodyVelocity(default, Direction(random) * spin));
-        var inertia = new Double3(Moment(size.Y, size.Z), Moment(size.X, size.Z), Moment(size.X, size.Y));
-        double start = world.Energy(body, 1, inertia), least = start, gain = 0;
-        world.Run(3, () =>
-        {
-            double energy = world.Energy(body, 1, inertia);
-            gain = Tally.Most(gain, energy - least);
-            least = Math.Min(least, energy);
-        });
-        return gain / start;
-    }
-
-    static void AddWalls(AccuracyWorld world, Place place)
-    {
-        // The box is 0.7 m from corner to corner.
-        const float narrow = .34f, wide = .36f;
-        switch (place)
-        {
-            case Place.Slot:
-                world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(-.5f - narrow, 2, 0)));
-                world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(.5f + narrow, 2, 0)));
-                break;
-            case Place.Corner:
-                world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(-.5f - wide, 2, 0)));
-                world.AddStatic(new Box(4, 4, 1), new RigidPose(new Vector3(0, 2, -.5f - wide)));
-                break;
-        }
-    }
-
-    static double Moment(double a, double b) => (a * a + b * b) / 12;
-
-    static Vector3 Direction(Random random)
-    {
-        double z = 2 * random.NextDouble() - 1, angle = 2 * Math.PI * random.NextDouble(), across = Math.Sqrt(1 - z * z);
-        return new((float)(across * Math.Cos(angle)), (float)(across * Math.Sin(angle)), (float)z);
-    }
+    [Theory, SuiteData("E1")]
+    public void Case(string name) => SuiteCases.Judge(name, output);
 }

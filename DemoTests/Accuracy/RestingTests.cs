@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using BepuPhysics;
 using Demos.Accuracy;
@@ -8,67 +7,11 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>What rests stays at rest (R1): ten of each shape on each other for a minute, and every shape on every floor.</summary>
+/// <summary>What rests stays at rest (R1), and the back of a one-sided triangle carries nothing.</summary>
 public class RestingTests(ITestOutputHelper output)
 {
-    public static TheoryData<string, Effort> Piles()
-    {
-        var data = new TheoryData<string, Effort>();
-        foreach (var effort in Enum.GetValues<Effort>())
-        {
-            foreach (string name in RestingPile.Names)
-                data.Add(name, effort);
-        }
-        return data;
-    }
-
-    [Theory]
-    [MemberData(nameof(Piles))]
-    public void R1_TenRestForAMinute(string name, Effort effort)
-    {
-        var settings = AccuracySettings.For(effort);
-        using var world = new AccuracyWorld(settings);
-        using var solids = new Solids(world);
-        var pile = new RestingPile(solids, name);
-        pile.Run(60);
-        pile.Judge(new CaseResult("R1", $"ten: {name}", settings)).Finish(output);
-    }
-
-    public static TheoryData<string, string, Effort> FloorCases()
-    {
-        var data = new TheoryData<string, string, Effort>();
-        foreach (var effort in Enum.GetValues<Effort>())
-        {
-            foreach (string floor in (ReadOnlySpan<string>)[.. Floors.Flat, Floors.Boxes])
-            {
-                foreach (string name in (ReadOnlySpan<string>)[.. Solids.Standing, "sphere", "lying capsule", "lying cylinder"])
-                    data.Add(name, floor, effort);
-            }
-        }
-        return data;
-    }
-
-    /// <summary>One solid on a floor, and for those that stand a second one on it, turned against each other.</summary>
-    [Theory]
-    [MemberData(nameof(FloorCases))]
-    public void R1_SolidsRestOnFloors(string name, string floor, Effort effort)
-    {
-        var settings = AccuracySettings.For(effort);
-        using var world = new AccuracyWorld(settings);
-        using var solids = new Solids(world);
-        Floors.Add(solids, floor, RigidPose.Identity, -20, 20, 20);
-        var pile = new RestingPile(solids);
-        if (name is "lying capsule" or "lying cylinder")
-            pile.AddLying(name == "lying capsule" ? "capsule" : "wheel", new(0, .2, 0), yaw: .3);
-        else
-            pile.AddStanding(name, yaw: .3);
-        if (Array.IndexOf(Solids.Standing, name) >= 0)
-            pile.AddStanding(name, yaw: .9);
-        pile.Run(20);
-        // Nothing resists what rolls across the gap of two boxes of 40 m: their rounding is a slope of 2e-6 there, and that is millimetres in
-        // twenty seconds. Everything else rests, with few substeps too.
-        pile.Judge(new CaseResult("R1", $"{name} on {floor}", settings)).Finish(output);
-    }
+    [Theory, SuiteData("R1")]
+    public void Case(string name) => SuiteCases.Judge(name, output);
 
     /// <summary>The back of a one-sided triangle is not there: what falls on it falls as freely as beside it.</summary>
     [Theory]

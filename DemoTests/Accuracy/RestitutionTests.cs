@@ -1,84 +1,11 @@
-using System;
-using System.Numerics;
-using BepuPhysics;
-using BepuPhysics.Collidables;
-using Demos.Accuracy;
-using Demos.References;
 using Xunit;
 using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>Bounces (C3): the height of the first rebound is e^2 of the drop, and a tumbling box never gains energy.</summary>
+/// <summary>Bounces (C3).</summary>
 public class RestitutionTests(ITestOutputHelper output)
 {
-    const double Gravity = 9.81f;
-    const double DropHeight = 2;
-
-    public static TheoryData<string, float, Effort> Drops()
-    {
-        var drops = new TheoryData<string, float, Effort>();
-        foreach (var effort in Enum.GetValues<Effort>())
-            foreach (string shape in new[] { "sphere", "capsule", "box" })
-                foreach (float restitution in new[] { 0, .5f, 1 })
-                    drops.Add(shape, restitution, effort);
-        return drops;
-    }
-
-    [Theory]
-    [MemberData(nameof(Drops))]
-    public void C3_ReboundHeight(string shape, float restitution, Effort effort)
-    {
-        var settings = AccuracySettings.For(effort) with { Restitution = restitution };
-        using var world = new AccuracyWorld(settings);
-        world.AddGround();
-        const float lowest = .25f;
-        var start = new Vector3(0, (float)DropHeight + lowest, 0);
-        var lying = Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2);
-        var body = shape switch
-        {
-            "sphere" => world.AddDynamic(new Sphere(lowest), 1, new RigidPose(start)),
-            // Lying: two contacts share the blow.
-            "capsule" => world.AddDynamic(new Capsule(lowest, 1), 1, new RigidPose(start, lying)),
-            "box" => world.AddDynamic(new Box(1, 2 * lowest, .8f), 1, new RigidPose(start)),
-            _ => throw new ArgumentOutOfRangeException(nameof(shape), shape, null),
-        };
-        double impactSpeed = Math.Sqrt(2 * Gravity * DropHeight);
-        double fallTime = Math.Sqrt(2 * DropHeight / Gravity);
-        double peak = 0;
-        bool landed = false;
-        world.Run(FallingOracle.ReboundPeakTime(Gravity, DropHeight, restitution) + .3, () =>
-        {
-            landed |= world.Time > fallTime / 2 && world.LinearVelocity(body).Y > -.1 * impactSpeed;
-            if (landed)
-                peak = Tally.Most(peak, world.Position(body).Y - lowest);
-        });
-        Assert.True(landed, "The body must have come down.");
-        new CaseResult("C3", FormattableString.Invariant($"{shape}, e = {restitution}"), settings)
-            .Limit("rebound error", (peak - FallingOracle.ReboundHeight(DropHeight, restitution)) / DropHeight, .05)
-            .Note("kept", peak / DropHeight, "%")
-            .Finish(output);
-    }
-
-    [Theory]
-    [InlineData(0, Effort.Accurate)]
-    [InlineData(.5f, Effort.Accurate)]
-    [InlineData(0, Effort.Default)]
-    [InlineData(.5f, Effort.Default)]
-    public void C3_TumblingBoxGainsNoEnergy(float friction, Effort effort)
-    {
-        var settings = AccuracySettings.For(effort) with { Restitution = 1, Friction = friction };
-        using var world = new AccuracyWorld(settings);
-        world.AddGround(extent: 1000);
-        var body = world.AddDynamic(
-            new Box(1, .6f, .4f), 1, new RigidPose(new Vector3(0, 3, 0), Quaternion.CreateFromYawPitchRoll(.3f, .5f, .7f)),
-            new BodyVelocity(new Vector3(1, 0, .5f), new Vector3(2, 3, 1)));
-        var inertia = TorqueFreeBody.BoxInertia(1, 1, .6, .4);
-        double start = world.Energy(body, 1, inertia), most = start;
-        world.Run(20, () => most = Tally.Most(most, world.Energy(body, 1, inertia)));
-        new CaseResult("C3", FormattableString.Invariant($"tumbling box, e = 1, mu {friction}"), settings)
-            .Limit("energy gained", most / start - 1, .05, "%")
-            .Note("energy left", world.Energy(body, 1, inertia) / start, "%")
-            .Finish(output);
-    }
+    [Theory, SuiteData("C3")]
+    public void Case(string name) => SuiteCases.Judge(name, output);
 }

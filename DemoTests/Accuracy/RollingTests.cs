@@ -1,64 +1,11 @@
-using System;
-using System.Numerics;
-using BepuPhysics;
-using BepuPhysics.Collidables;
-using Demos.Accuracy;
-using Demos.References;
-using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>A solid sphere rolls down a slope, and slides until it rolls (C2).</summary>
+/// <summary>What rolls (C2): spheres, cylinders and prisms.</summary>
 public class RollingTests(ITestOutputHelper output)
 {
-    const double Gravity = 9.81f;
-    const double Radius = .5;
-
-    [Theory]
-    [InlineData(Effort.Accurate)]
-    [InlineData(Effort.Default)]
-    public void C2_RollingDownTwentyDegrees(Effort effort)
-    {
-        var settings = AccuracySettings.For(effort);
-        double angle = Math.PI / 9;
-        using var world = new AccuracyWorld(settings);
-        var slope = new Slope(world, angle);
-        var body = world.AddDynamic(new Sphere((float)Radius), 1, slope.Pose(0, Radius));
-        var start = world.Position(body);
-        world.Run(5);
-        double rolled = Double3.Dot(world.Position(body) - start, slope.Downhill);
-        double slip = world.LinearVelocity(body).Length - world.AngularVelocity(body).Length * Radius;
-        new CaseResult("C2", "rolling on 20 degrees", settings)
-            .Limit("distance", rolled / SlidingOracle.RollingDistance(Gravity, angle, 5) - 1, .02, "%")
-            .Limit("slip", slip / world.LinearVelocity(body).Length, .02, "%")
-            .Finish(output);
-    }
-
-    [Theory]
-    [InlineData(.5f, Effort.Accurate)]
-    [InlineData(.1f, Effort.Accurate)]
-    [InlineData(.5f, Effort.Default)]
-    [InlineData(.1f, Effort.Default)]
-    public void C2_SlidingUntilItRolls(float friction, Effort effort)
-    {
-        const double startSpeed = 5;
-        var settings = AccuracySettings.For(effort) with { Friction = friction };
-        using var world = new AccuracyWorld(settings);
-        world.AddGround();
-        var body = world.AddDynamic(
-            new Sphere((float)Radius), 1, new Vector3(0, (float)Radius, 0), new BodyVelocity(new Vector3((float)startSpeed, 0, 0)));
-        double onTheWay = 0;
-        world.Run(6, () => onTheWay = Tally.Worst(
-            onTheWay, world.LinearVelocity(body).X - SlidingOracle.SlidingSphereSpeed(Gravity, friction, startSpeed, world.Time)));
-        double speed = world.LinearVelocity(body).X, expected = startSpeed * 5 / 7;
-        double distance = SlidingOracle.SlidingSphereDistance(Gravity, friction, startSpeed, world.Time);
-        new CaseResult("C2", FormattableString.Invariant($"sliding to rolling, mu {friction}"), settings)
-            .Limit("final speed", speed / expected - 1, .02, "%")
-            .Limit("slip", (speed + world.AngularVelocity(body).Z * Radius) / expected, .02, "%")
-            .Limit("speed on the way", onTheWay / startSpeed, .02, "%")
-            .Limit("distance", world.Position(body).X / distance - 1, .02, "%")
-            .Finish(output);
-    }
+    [Theory, SuiteData("C2")]
+    public void Case(string name) => SuiteCases.Judge(name, output);
 }

@@ -7,7 +7,6 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
 using Demos.Accuracy;
-using DemoTests.Accuracy;
 using Xunit;
 using Harness = DemoTests.CollisionDetection.FaceHarness<
     DemoTests.CollisionDetection.FaceTestPolygon, DemoTests.CollisionDetection.FaceTestPolygonWide, DemoTests.CollisionDetection.FaceTestFeature,

@@ -108,6 +108,38 @@ public class ShapeSceneTests(ITestOutputHelper output)
             .Finish(output);
     }
 
+    [Fact]
+    public void The_coins_lie_flat_and_still()
+    {
+        const float halfHeight = .03f;
+        var scene = SceneLibrary.Load("coins", 1);
+        using var world = new SceneWorld(scene, 1);
+        for (int i = 0; i < scene.Steps; ++i)
+            world.Step();
+        double spin = 0, speed = 0, height = 0, lean = 0;
+        int unsettled = 0;
+        ref var set = ref world.Simulation.Bodies.ActiveSet;
+        for (int i = 0; i < set.Count; ++i)
+        {
+            ref var state = ref set.MotionStates[i];
+            double bodySpin = ((Double3)state.Velocity.Angular).Length;
+            var up = ((DoubleQuaternion)state.Pose.Orientation).Rotate(new(0, 1, 0));
+            spin = Tally.Most(spin, bodySpin);
+            speed = Tally.Most(speed, ((Double3)state.Velocity.Linear).Length);
+            height = Tally.Worst(height, state.Pose.Position.Y - halfHeight);
+            lean = Tally.Most(lean, Math.Atan2(Math.Sqrt(up.X * up.X + up.Z * up.Z), Math.Abs(up.Y)) * 180 / Math.PI);
+            if (bodySpin >= .001)
+                ++unsettled;
+        }
+        new CaseResult("R4", "scene coins", Settings)
+            .Limit("unsettled", unsettled, 0)
+            .Limit("spin", spin, .001, "rad/s")
+            .Limit("speed", speed, .001, "m/s")
+            .Limit("height", height, .001, "m")
+            .Limit("lean", lean, .5, "degrees")
+            .Finish(output);
+    }
+
     static bool IsInside(Double3 position, double halfWidth) =>
         position.IsFinite && position.Y > 0 && Math.Abs(position.X) < halfWidth && Math.Abs(position.Z) < halfWidth;
 

@@ -24,11 +24,11 @@ static class AccuracyCommand
         };
         var effort = new Option<string>("--effort")
         {
-            Description = "default (what a game gets without thinking), accurate (16 relaxed substeps) or both.",
+            Description = "default (what a game gets without thinking), accurate (16 relaxed substeps), or both and the cases with settings of their own.",
             DefaultValueFactory = _ => BothEfforts,
         };
         var json = new Option<string?>("--json") { Description = "File to write the figures to, as JSON.", HelpName = "FILE" };
-        var page = new Option<string?>("--page") { Description = "File to write the table to, as a page.", HelpName = "FILE" };
+        var page = new Option<string?>("--page") { Description = "Page to write the rows into; it keeps those of other cases.", HelpName = "FILE" };
         var command = new Command("accuracy", "Runs scenes whose truth is known and judges the errors.");
         command.Arguments.Add(families);
         foreach (Option option in (Option[])[effort, json, page])
@@ -68,10 +68,7 @@ static class AccuracyCommand
         if (jsonPath is not null)
             File.WriteAllText(jsonPath, ToJson(results, isComplete));
         if (pagePath is not null)
-        {
-            using var writer = new StreamWriter(pagePath);
-            table.WriteMarkdown(writer);
-        }
+            AccuracyPage.Update(pagePath, [.. results.Select(entry => entry.Result)], isComplete);
         return failed > 0 ? DemosCommand.Unsound : isComplete ? DemosCommand.Finished : DemosCommand.Stopped;
     }
 
@@ -85,7 +82,8 @@ static class AccuracyCommand
         if (effort != BothEfforts && !Enum.GetValues<Effort>().Any(value => IsNamed(value, effort)))
             throw new SceneException($"--effort cannot be '{effort}'");
         return [.. AccuracySuite.All.Where(subject =>
-            (families.Length == 0 || families.Contains(subject.Id)) && (effort == BothEfforts || IsNamed(subject.Effort, effort)))];
+            (families.Length == 0 || families.Contains(subject.Id)) &&
+            (effort == BothEfforts || (subject.Effort is Effort value && IsNamed(value, effort))))];
     }
 
     static bool IsNamed(Effort value, string word) => string.Equals(value.ToString(), word, StringComparison.OrdinalIgnoreCase);
@@ -95,7 +93,7 @@ static class AccuracyCommand
     static string ToJson(List<(AccuracyCase Case, CaseResult Result)> results, bool isComplete) => JsonSerializer.Serialize(
         new AccuracyRunJson(EngineDefaults.Name, isComplete,
         [
-            .. results.Select(entry => new AccuracyCaseJson(entry.Case.Id, entry.Case.Scene, entry.Case.Effort.ToString(), entry.Result.Settings,
+            .. results.Select(entry => new AccuracyCaseJson(entry.Case.Id, entry.Case.Scene, entry.Case.Effort?.ToString(), entry.Result.Settings,
                 entry.Result.IsMet, entry.Result.KnownMiss,
                 [.. entry.Result.Figures.Select(figure => new AccuracyFigureJson(figure.Quantity, Known(figure.Value), Known(figure.Limit), figure.Unit))])),
         ]),

@@ -11,11 +11,23 @@ static class AccuracySuite
     /// <summary>All cases at both efforts, family by family.</summary>
     public static IReadOnlyList<AccuracyCase> All { get; } =
     [
+        .. FreeFlightCases.All,
+        .. SlopeCases.All,
+        .. RollingCases.All,
+        .. CylinderRollingCases.All,
+        .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,
         .. PendulumCases.All,
         .. ChainCases.All,
+        .. RestingCases.All,
+        .. CoinCases.All,
+        .. FastTurnCases.All,
+        .. HubCases.All,
+        .. ScaleCases.All,
+        .. FarFromOriginCases.All,
         .. StepCases.All,
+        .. OverlapCases.All,
     ];
 
     /// <summary>A case at both efforts.</summary>

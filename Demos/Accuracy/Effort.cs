@@ -1,6 +1,6 @@
 namespace Demos.Accuracy;
 
-/// <summary>What a run pays. Thresholds are asserted for <see cref="Accurate"/>; both are reported.</summary>
+/// <summary>What a run pays. Both are judged by the same limits.</summary>
 public enum Effort
 {
     /// <summary>What a game gets without thinking about it.</summary>

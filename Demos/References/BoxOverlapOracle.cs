@@ -1,7 +1,6 @@
 using System;
-using Demos.References;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>Overlap of two boxes by the separating axis theorem with all fifteen axes, in double precision.</summary>
 public static class BoxOverlapOracle

@@ -1,6 +1,6 @@
 using System;
 
-namespace DemoTests.Support;
+namespace Demos.References;
 
 /// <summary>
 /// Closed forms of dry friction after Coulomb: blocks on slopes, spheres that slide and roll. SI units, angles in radians.

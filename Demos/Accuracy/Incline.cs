@@ -2,19 +2,18 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Accuracy;
 using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>A long plank, static or kinematic, tilted about Z so that it falls towards +X; its surface passes through an origin.</summary>
-sealed class Slope
+sealed class Incline
 {
     readonly double angle;
     readonly Vector3 origin;
 
     /// <summary>Adds the plank: 10 m of it lie uphill of the origin, 130 m downhill.</summary>
-    public Slope(AccuracyWorld world, double angle, Vector3 origin = default, bool kinematic = false)
+    public Incline(AccuracyWorld world, double angle, Vector3 origin = default, bool kinematic = false)
     {
         this.angle = angle;
         this.origin = origin;
@@ -26,7 +25,7 @@ sealed class Slope
     }
 
     /// <summary>A static slope of the same extent whose surface is one of <see cref="Floors.Flat"/>.</summary>
-    public Slope(Solids solids, double angle, string floor)
+    public Incline(Solids solids, double angle, string floor)
     {
         this.angle = angle;
         Floors.Add(solids, floor, Pose(0, 0), -10, 130, 10);

@@ -3,10 +3,9 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Accuracy;
 using Demos.References;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Bodies that are put where they can rest, and how far they come from there.</summary>
 sealed class RestingPile

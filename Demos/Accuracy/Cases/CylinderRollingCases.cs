@@ -1,99 +1,80 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Accuracy;
 using Demos.References;
-using Xunit;
-using Xunit.Abstractions;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy.Cases;
 
 /// <summary>Cylinders and prisms that roll straight on (C2): how far they come, and whether they keep their line.</summary>
 /// <remarks>
 /// Nothing turns a rolling cylinder: any deviation is an error of the contacts. One of a millimetre for each metre is a constant curvature that
 /// takes it half a metre aside in thirty, or a steady tilt of .06 degrees; half a degree of the axis is ten such metres.
 /// </remarks>
-public class CylinderRollingTests(ITestOutputHelper output)
+static class CylinderRollingCases
 {
     const double Gravity = 9.81f;
     const float Radius = .5f;
     const float Length = 1;
+    static readonly (string Floor, double Yaw)[] level =
+        [(Floors.Box, 0), (Floors.Box, .5), (Floors.Hull, .5), (Floors.Triangle, .5), (Floors.Pair, .5)];
 
-    [Theory]
-    [InlineData(Floors.Box, Effort.Accurate)]
-    [InlineData(Floors.Hull, Effort.Accurate)]
-    [InlineData(Floors.Triangle, Effort.Accurate)]
-    [InlineData(Floors.Box, Effort.Default)]
-    [InlineData(Floors.Hull, Effort.Default)]
-    [InlineData(Floors.Triangle, Effort.Default)]
-    public void C2_CylinderDownTwentyDegrees(string floor, Effort effort)
+    public static IEnumerable<AccuracyCase> All { get; } =
+    [
+        .. new[] { Floors.Box, Floors.Hull, Floors.Triangle }.SelectMany(floor => AccuracySuite.AtBothEfforts("C2",
+            $"cylinder rolling on 20 degrees, {floor}", (settings, result) => RunDownTwentyDegrees(settings, floor, result))),
+        .. level.SelectMany(start => AccuracySuite.AtBothEfforts("C2",
+            FormattableString.Invariant($"cylinder rolling at 5 m/s, yaw {start.Yaw}, {start.Floor}"),
+            (settings, result) => RunOnTheLevel(settings, start.Floor, start.Yaw, result))),
+        .. new[] { Floors.Box, Floors.Triangle }.SelectMany(floor => AccuracySuite.AtBothEfforts("C2",
+            $"prism of 64 sides rolling on 20 degrees, {floor}", (settings, result) => RunPrism(settings, floor, result))),
+    ];
+
+    static void RunDownTwentyDegrees(AccuracySettings settings, string floor, CaseResult result)
     {
         const double angle = Math.PI / 9, time = 5;
-        var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         using var solids = new Solids(world);
-        var slope = new Slope(solids, angle, floor);
+        var slope = new Incline(solids, angle, floor);
         var body = world.AddDynamic(new Cylinder(Radius, Length), 1, slope.CrossPose(Radius));
         var line = new StraightLine(world, body, slope.Downhill);
         world.Run(time, line.Look);
         // Two thirds: a solid cylinder has half of m r2 about its axis.
         double expected = 2 / 3d * Gravity * Math.Sin(angle) * time * time / 2;
-        line.Judge(new CaseResult("C2", $"cylinder rolling on 20 degrees, {floor}", settings))
-            .Limit("distance", line.Way / expected - 1, .02, "%")
-            .Finish(output);
+        line.Judge(result).Limit("distance", line.Way / expected - 1, .02, "%");
     }
 
-    [Theory]
-    [InlineData(Floors.Box, 0, Effort.Accurate)]
-    [InlineData(Floors.Box, .5, Effort.Accurate)]
-    [InlineData(Floors.Hull, .5, Effort.Accurate)]
-    [InlineData(Floors.Triangle, .5, Effort.Accurate)]
-    [InlineData(Floors.Pair, .5, Effort.Accurate)]
-    [InlineData(Floors.Box, 0, Effort.Default)]
-    [InlineData(Floors.Box, .5, Effort.Default)]
-    [InlineData(Floors.Hull, .5, Effort.Default)]
-    [InlineData(Floors.Triangle, .5, Effort.Default)]
-    [InlineData(Floors.Pair, .5, Effort.Default)]
-    public void C2_CylinderOnThePlane(string floor, double yaw, Effort effort)
+    /// <summary>Two triangles know nothing of each other: the edge between them is one to stumble over.</summary>
+    static void RunOnTheLevel(AccuracySettings settings, string floor, double yaw, CaseResult result)
     {
-        var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         using var solids = new Solids(world);
         var line = Start(solids, floor, yaw, pose => world.AddDynamic(new Cylinder(Radius, Length), 1, pose));
         world.Run(10, line.Look);
-        line.Judge(new CaseResult("C2", FormattableString.Invariant($"cylinder rolling at 5 m/s, yaw {yaw}, {floor}"), settings))
-            .Limit("distance", line.Way / 50 - 1, .02, "%")
-            // Two triangles know nothing of each other: the edge between them is one to stumble over.
-            .Finish(output);
+        line.Judge(result).Limit("distance", line.Way / 50 - 1, .02, "%");
     }
 
     /// <summary>
-    /// Not judged: a polygon does not roll without loss. At each corner its angular speed about the new corner is 1 - 2/3 (1 - cos t) of that about
+    /// A polygon does not roll without loss. At each corner its angular speed about the new corner is 1 - 2/3 (1 - cos t) of that about
     /// the old one, where t is the angle between neighbours, which for 64 corners is a decay over 15 m at a radius of half a metre; and
     /// faster than sqrt(g r), 2.2 m/s, it leaves the ground between corners.
     /// </summary>
-    [Theory]
-    [InlineData(Floors.Box, Effort.Accurate)]
-    [InlineData(Floors.Triangle, Effort.Accurate)]
-    [InlineData(Floors.Box, Effort.Default)]
-    [InlineData(Floors.Triangle, Effort.Default)]
-    public void C2_PrismRolls(string floor, Effort effort)
+    static void RunPrism(AccuracySettings settings, string floor, CaseResult result)
     {
         const double angle = Math.PI / 9, time = 5;
-        var settings = AccuracySettings.For(effort);
         using var world = new AccuracyWorld(settings);
         using var solids = new Solids(world);
-        var slope = new Slope(solids, angle, floor);
+        var slope = new Incline(solids, angle, floor);
         // One of its sides lies on the slope.
         var body = solids.Create("64-gon prism").Place(slope.CrossPose(Radius * Math.Cos(Math.PI / 64)));
         var line = new StraightLine(world, body, slope.Downhill);
         world.Run(time, line.Look);
         double round = 2 / 3d * Gravity * Math.Sin(angle) * time * time / 2;
-        line.Judge(new CaseResult("C2", $"prism of 64 sides rolling on 20 degrees, {floor}", settings))
+        line.Judge(result)
             .Limit("distance", line.Way / PrismDistance(angle, time) - 1, .05, "%")
-            .Note("against a round one", line.Way / round - 1, "%")
-            .Finish(output);
+            .Note("against a round one", line.Way / round - 1, "%");
     }
 
     /// <summary>Way of the prism while it pivots about one corner after the other, every one of them without bounce.</summary>

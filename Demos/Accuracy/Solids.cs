@@ -3,9 +3,8 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using Demos.Accuracy;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Solids of the suite by name. Owns the memory of their hulls: to be disposed before the world.</summary>
 sealed class Solids(AccuracyWorld world) : IDisposable

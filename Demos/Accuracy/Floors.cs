@@ -3,7 +3,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 
-namespace DemoTests.Accuracy;
+namespace Demos.Accuracy;
 
 /// <summary>Static floors of every kind, their surfaces through the origin of a pose, its Y axis their normal.</summary>
 static class Floors
@@ -11,13 +11,10 @@ static class Floors
     public const string Box = "box";
     public const string Hull = "hull";
     public const string Triangle = "triangle";
-    public const string TwoSided = "two-sided triangle";
-    public const string Back = "back of a two-sided triangle";
     public const string Pair = "two triangles";
     public const string Boxes = "two boxes";
-    public const string Plane = "half-space";
 
-    public static readonly string[] Flat = [Box, Hull, Triangle, TwoSided, Back, Pair, Plane];
+    public static readonly string[] Flat = [Box, Hull, Triangle, .. EngineFloors.Flat, Pair];
 
     /// <summary>Adds a floor of at least this size.</summary>
     /// <param name="solids">Owner of the floor's hull, if it has one.</param>
@@ -31,9 +28,7 @@ static class Floors
         var world = solids.World;
         // A triangle narrows towards its tip; where the floor ends it is still as wide as the others.
         float tip = 2 * to - from;
-        var near = new Vector3(from, 0, -2 * halfWidth);
-        var far = new Vector3(from, 0, 2 * halfWidth);
-        var end = new Vector3(tip, 0, 0);
+        var triangle = new Triangle(new(from, 0, -2 * halfWidth), new(tip, 0, 0), new(from, 0, 2 * halfWidth));
         switch (kind)
         {
             case Box:
@@ -50,13 +45,7 @@ static class Floors
                 world.AddStatic(hull, surface with { Position = Place(surface, middle) });
                 break;
             case Triangle:
-                world.AddStatic(new Triangle(near, end, far), surface);
-                break;
-            case TwoSided:
-                world.AddStatic(new Triangle(near, end, far) { TwoSided = true }, surface);
-                break;
-            case Back:
-                world.AddStatic(new Triangle(near, far, end) { TwoSided = true }, surface);
+                world.AddStatic(triangle, surface);
                 break;
             case Pair:
                 // The edge between them runs straight under what lies at the origin, and not along an axis.
@@ -64,9 +53,6 @@ static class Floors
                 var second = new Vector3(to, 0, halfWidth);
                 world.AddStatic(new Triangle(first, second, new(from, 0, halfWidth)), surface);
                 world.AddStatic(new Triangle(first, new(to, 0, -halfWidth), second), surface);
-                break;
-            case Plane:
-                world.AddStatic(new HalfSpace(Vector3.UnitY), surface);
                 break;
             case Boxes:
                 // Side by side; they meet under the X axis.
@@ -77,7 +63,9 @@ static class Floors
                 }
                 break;
             default:
-                throw new ArgumentOutOfRangeException(nameof(kind), kind, null);
+                if (!EngineFloors.TryAdd(world, kind, surface, triangle))
+                    throw new ArgumentOutOfRangeException(nameof(kind), kind, null);
+                break;
         }
     }
 
