@@ -84,16 +84,20 @@ struct MassIntegrals
     }
 
     /// <summary>Moments and products of inertia per mass, around the centre of mass or around the origin.</summary>
-    public readonly void GetMoments(bool aroundCenter, out double xx, out double yx, out double yy, out double zx, out double zy, out double zz)
+    public readonly InertiaTensor GetMoments(bool aroundCenter)
     {
         var (x, y, z) = aroundCenter ? Center : default;
         double sumXX = secondXX / Measure - x * x, sumYY = secondYY / Measure - y * y, sumZZ = secondZZ / Measure - z * z;
-        xx = sumYY + sumZZ;
-        yy = sumXX + sumZZ;
-        zz = sumXX + sumYY;
-        yx = ProductOrZero(secondYX / Measure - y * x, xx, yy);
-        zx = ProductOrZero(secondZX / Measure - z * x, xx, zz);
-        zy = ProductOrZero(secondZY / Measure - z * y, yy, zz);
+        double xx = sumYY + sumZZ, yy = sumXX + sumZZ, zz = sumXX + sumYY;
+        return new()
+        {
+            XX = xx,
+            YX = ProductOrZero(secondYX / Measure - y * x, xx, yy),
+            YY = yy,
+            ZX = ProductOrZero(secondZX / Measure - z * x, xx, zz),
+            ZY = ProductOrZero(secondZY / Measure - z * y, yy, zz),
+            ZZ = zz,
+        };
     }
 
     /// <summary>Inverse mass and inertia, around the centre of mass or around the origin.</summary>
@@ -102,13 +106,7 @@ struct MassIntegrals
     /// <param name="aroundCenter">Whether around the centre of mass.</param>
     public readonly BodyInertia Invert(float mass, double size, bool aroundCenter)
     {
-        GetMoments(aroundCenter, out var xx, out var yx, out var yy, out var zx, out var zy, out var zz);
-        // Inverse by cofactors.
-        double cofactorXX = yy * zz - zy * zy, cofactorYX = zx * zy - yx * zz, cofactorZX = yx * zy - zx * yy;
-        var inverse = 1 / (xx * cofactorXX + yx * cofactorYX + zx * cofactorZX) / (mass * size * size);
-        var error = InertiaRounding.Round(
-            [cofactorXX * inverse, cofactorYX * inverse, (xx * zz - zx * zx) * inverse,
-            cofactorZX * inverse, (yx * zx - xx * zy) * inverse, (xx * yy - yx * yx) * inverse], out var tensor);
+        var error = InertiaRounding.Round(GetMoments(aroundCenter).Invert(mass * size * size), out var tensor);
         var inertia = new BodyInertia { InverseMass = 1 / mass, InverseInertiaTensor = tensor };
         var isInRange = float.IsNormal(inertia.InverseMass) && IsPositive(tensor.XX) && IsPositive(tensor.YY) && IsPositive(tensor.ZZ);
         if (!(mass >= ShapeLimits.MinimumMass && mass <= ShapeLimits.MaximumMass) || !isInRange)

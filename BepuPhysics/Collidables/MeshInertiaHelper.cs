@@ -186,7 +186,6 @@ public static class MeshInertiaHelper
     {
         if (integrals.Measure == 0)
             return default;
-        integrals.GetMoments(aroundCenter: false, out var xx, out var yx, out var yy, out var zx, out var zy, out var zz);
-        return new((float)(xx * mass), (float)(yx * mass), (float)(yy * mass), (float)(zx * mass), (float)(zy * mass), (float)(zz * mass));
+        return integrals.GetMoments(aroundCenter: false).ToFloats(mass);
     }
 }

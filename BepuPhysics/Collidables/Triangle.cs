@@ -123,13 +123,9 @@ public struct Triangle(Vector3 a, Vector3 b, Vector3 c) : IConvexShape
         double xx = SumOfProducts(A.X, A.X, B.X, B.X, C.X, C.X, sX, sX), yx = SumOfProducts(A.Y, A.X, B.Y, B.X, C.Y, C.X, sY, sX);
         double yy = SumOfProducts(A.Y, A.Y, B.Y, B.Y, C.Y, C.Y, sY, sY), zx = SumOfProducts(A.Z, A.X, B.Z, B.X, C.Z, C.X, sZ, sX);
         double zz = SumOfProducts(A.Z, A.Z, B.Z, B.Z, C.Z, C.Z, sZ, sZ), zy = SumOfProducts(A.Z, A.Y, B.Z, B.Y, C.Z, C.Y, sZ, sY);
-        double mXX = yy + zz, mYY = xx + zz, mZZ = xx + yy, mYX = -yx, mZX = -zx, mZY = -zy;
-        var inertia = ShapeLimits.InvertInertia(mass, (float)mXX, (float)mYY, (float)mZZ);
-        double cXX = mYY * mZZ - mZY * mZY, cYX = mZX * mZY - mYX * mZZ, cZX = mYX * mZY - mYY * mZX;
-        var scale = 1 / ((mXX * cXX + mYX * cYX + mZX * cZX) * mass);
-        inertia.InverseInertiaTensor = new(
-            (float)(cXX * scale), (float)(cYX * scale), (float)((mXX * mZZ - mZX * mZX) * scale),
-            (float)(cZX * scale), (float)((mYX * mZX - mXX * mZY) * scale), (float)((mXX * mYY - mYX * mYX) * scale));
+        var tensor = new InertiaTensor { XX = yy + zz, YX = -yx, YY = xx + zz, ZX = -zx, ZY = -zy, ZZ = xx + yy };
+        var inertia = ShapeLimits.InvertInertia(mass, (float)tensor.XX, (float)tensor.YY, (float)tensor.ZZ);
+        inertia.InverseInertiaTensor = tensor.Invert(mass).ToFloats();
         return inertia;
     }
 

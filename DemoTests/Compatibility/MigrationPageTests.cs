@@ -33,7 +33,7 @@ public partial class MigrationPageTests
         ["a frequency above"] = "MigrationTests.Frequencies_are_capped",
         ["AngularMotor."] = "MotorSceneTests.An_angular_motor_turns_A_against_B",
         ["bounces"] = "SurfaceCallbacksTests.Surfaces_bounce_pair_by_pair",
-        ["friction of a patch"] = "SlopeTests.C1c_EffectiveFriction",
+        ["friction of a patch"] = "SlopeTests.Case",
         ["Simulation.Deterministic"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
         ["AllowSubsteps"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
         ["Simulation.Clear, Dispose"] = "MigrationTests.Shared_shapes_are_left_alone",

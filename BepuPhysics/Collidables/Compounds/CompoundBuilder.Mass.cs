@@ -88,9 +88,7 @@ public partial struct CompoundBuilder
         for (int i = 0; i < poses.Length; ++i)
         {
             CheckInertia(inverseInertias[i]);
-            var pose = new RigidPose(poses[i].Position - center, poses[i].Orientation);
-            sum.AddCenter(pose.Position, masses[i]);
-            sum.AddInertia(pose, inverseInertias[i], masses[i]);
+            sum.Add(poses[i], center, inverseInertias[i], masses[i]);
         }
         return sum.ToInverse();
     }

@@ -161,9 +161,7 @@ public partial struct CompoundBuilder(BufferPool pool, Shapes shapes, int initia
         for (int i = 0; i < Children.Count; ++i)
         {
             ref var child = ref Children[i];
-            var pose = new RigidPose(child.LocalPose.Position - center, child.LocalPose.Orientation);
-            sum.AddCenter(pose.Position, child.Weight);
-            sum.AddInertia(pose, child.LocalInverseInertia, child.Weight);
+            sum.Add(child.LocalPose, center, child.LocalInverseInertia, child.Weight);
         }
         return sum.ToInverse();
     }

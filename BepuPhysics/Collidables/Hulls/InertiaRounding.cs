@@ -21,11 +21,12 @@ static class InertiaRounding
     const int Size = 6;
 
     /// <summary>Rounds a tensor.</summary>
-    /// <param name="tensor">Entries XX, YX, YY, ZX, ZY, ZZ of a positive definite tensor.</param>
+    /// <param name="inverse">A positive definite tensor.</param>
     /// <param name="rounded">Floats that stand for it; zeros stay zeros.</param>
     /// <returns>Bound on the error of v.T.v, relative, for any v; infinite when the tensor is not positive definite to a double's precision.</returns>
-    public static double Round(ReadOnlySpan<double> tensor, out Symmetric3x3 rounded)
+    public static double Round(in InertiaTensor inverse, out Symmetric3x3 rounded)
     {
+        ReadOnlySpan<double> tensor = [inverse.XX, inverse.YX, inverse.YY, inverse.ZX, inverse.ZY, inverse.ZZ];
         Span<float> entries = stackalloc float[Size];
         for (int i = 0; i < Size; ++i)
             entries[i] = (float)tensor[i];
