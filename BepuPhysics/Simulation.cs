@@ -73,7 +73,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         traits = new CollidableTraits(Bodies, Statics, bufferPool);
         Layers = new CollidableLayers(traits, bufferPool, world);
         Events = new CollisionEvents(Bodies, traits, Solver, bufferPool, world);
-        islands = new SleepingIslands(Bodies, Solver, bufferPool);
+        islands = new SleepingIslands(Bodies, Solver, Events, bufferPool);
         Sleeper = new IslandSleeper(Bodies, Solver, islands, bufferPool);
         Awakener = new IslandAwakener(world, Bodies, Solver, BroadPhase, islands, bufferPool);
         Bodies.Connect(Solver, BroadPhase, Shapes, Statics, Sleeper, Awakener, traits);

@@ -23,7 +23,7 @@ public sealed unsafe partial class Bodies
         using var reading = world.Read("Bodies.GetInterpolatedPose");
         CheckHandle(handle);
         ref var set = ref SetOf(handle, out var index);
-        return HasMoved(set, index) ? Interpolate(set, index, amount) : set.MotionStates[index].Pose;
+        return !set.IsAsleep && HasMoved(set, index) ? Interpolate(set, index, amount) : set.MotionStates[index].Pose;
     }
 
     /// <summary>Poses of all bodies that moved in the last step, between its beginning and its end, as for drawing.</summary>
@@ -55,7 +55,7 @@ public sealed unsafe partial class Bodies
         return count;
     }
 
-    // A position that is not what the last step made of its origin and displacement was written since.
+    // Of those that are awake. A position that is not what the last step made of its origin and displacement was written since.
     static bool HasMoved(in BodySet set, int index)
     {
         ref var pose = ref set.MotionStates[index].Pose;

@@ -11,9 +11,13 @@ sealed class CollidableTraits(Bodies bodies, Statics statics, BufferPool pool)
     /// <summary>Who is listened to for what, and who is a sensor; the bits are those of the events.</summary>
     internal CollidableTable<byte> Listeners = new(0);
 
+    /// <summary>Grows whenever a collidable is removed.</summary>
+    internal int RemovalCount { get; private set; }
+
     /// <summary>Forgets what is known of a collidable that is removed.</summary>
     internal void Forget(CollidableReference collidable)
     {
+        ++RemovalCount;
         Layers.Forget(collidable);
         Listeners.Forget(collidable);
     }

@@ -7,7 +7,7 @@ public abstract partial class NarrowPhase
     internal void BeginEvents()
     {
         if (Simulation.Events.IsUsed)
-            Simulation.Events.BeginSolve(ref Pairs);
+            Simulation.Events.BeginSolve(ref Pairs, IsAtRest);
     }
 
     /// <summary>Tells what has happened in the step.</summary>

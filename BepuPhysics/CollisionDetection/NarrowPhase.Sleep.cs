@@ -10,7 +10,15 @@ public abstract partial class NarrowPhase
     internal void PutToSleep(int constraint) => Pairs.PutToSleep(pairOfConstraint[constraint], Pool);
 
     /// <summary>Moves the pair of a contact constraint among those that are tested in each step.</summary>
-    internal void Awaken(int constraint) => Pairs.Awaken(pairOfConstraint[constraint], Pool);
+    internal void Awaken(int constraint)
+    {
+        var pair = pairOfConstraint[constraint];
+        Pairs.Awaken(pair, Pool);
+        Simulation.Events.NoteAwake(pair);
+    }
+
+    /// <summary>Whether the contacts of a pair sleep.</summary>
+    internal bool Sleeps(in CollidablePair pair) => Pairs.IsAsleep(pair);
 
     /// <summary>Whether there is nothing to do: no body is awake, and nothing is left to be forgotten of those that were.</summary>
     internal bool IsAtRest => Simulation.Bodies.Awake.Count == 0 && Pairs.Pairs.Count == 0;
@@ -19,6 +27,7 @@ public abstract partial class NarrowPhase
     internal void Rest()
     {
         SkippedPairCount = 0;
+        Simulation.Events.BeginDetection();
         Restitution.BeginStep();
     }
 

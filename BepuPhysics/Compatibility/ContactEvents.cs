@@ -20,6 +20,9 @@ public sealed class ContactEvents : IDisposable
     // The pairs of this flush and of the last, in their order.
     List<ContactSnapshot> current = [];
     List<ContactSnapshot> previous = [];
+    // Pairs that sleep, as they were when they fell asleep.
+    readonly Dictionary<(uint, uint), ContactSnapshot> asleep = [];
+    long wokenPairCount;
     Simulation? simulation;
 
     /// <summary>Creates events without handlers; call <see cref="Initialize"/> before any is registered. The parameters are there for callers alone.</summary>
@@ -46,7 +49,7 @@ public sealed class ContactEvents : IDisposable
         ArgumentNullException.ThrowIfNull(handler);
         if (handlers.ContainsKey(KeyOf(collidable)))
             throw new ArgumentException($"{collidable} has a handler already.", nameof(collidable));
-        Events.Listen(collidable, EventMask.All);
+        Events.Listen(collidable, EventMask.Contacts);
         handlers.Add(KeyOf(collidable), handler);
     }
 
@@ -94,19 +97,18 @@ public sealed class ContactEvents : IDisposable
         (current, previous) = (previous, current);
         current.Clear();
         Events.AddSnapshots(current);
+        RecallWoken();
         int before = 0;
         int now = 0;
         while (before < previous.Count || now < current.Count)
         {
-            var order = before == previous.Count ? 1
-                : now == current.Count ? -1
-                : ListenedPair.Compare(new() { Pair = previous[before].Pair }, new() { Pair = current[now].Pair });
-            if (order < 0)
+            var order = before == previous.Count ? 1 : now == current.Count ? -1 : ContactSnapshot.Compare(previous[before], current[now]);
+            if (order < 0 && simulation!.NarrowPhase.Sleeps(previous[before].Pair))
+                asleep[KeyOf(previous[before].Pair)] = previous[before++];
+            else if (order < 0)
                 Tell(previous[before++], null);
             else if (order > 0)
                 Tell(null, current[now++]);
-            else if (current[now].IsAsleep)
-                current[now++] = previous[before++];
             else
                 Tell(previous[before++], current[now++]);
         }
@@ -118,7 +120,26 @@ public sealed class ContactEvents : IDisposable
         handlers.Clear();
         current.Clear();
         previous.Clear();
+        asleep.Clear();
     }
+
+    // What woke goes on from where it fell asleep, or has ended meanwhile.
+    void RecallWoken()
+    {
+        if (asleep.Count == 0 || wokenPairCount == Events.WokenPairCount)
+            return;
+        wokenPairCount = Events.WokenPairCount;
+        foreach (var (key, snapshot) in asleep)
+        {
+            if (simulation!.NarrowPhase.Sleeps(snapshot.Pair))
+                continue;
+            previous.Add(snapshot);
+            asleep.Remove(key);
+        }
+        previous.Sort(static (a, b) => ContactSnapshot.Compare(a, b));
+    }
+
+    static (uint, uint) KeyOf(in CollidablePair pair) => (pair.A.Packed, pair.B.Packed);
 
     CollisionEvents Events => (simulation ?? throw new InvalidOperationException("Call Initialize first: there is no simulation yet.")).Events;
 

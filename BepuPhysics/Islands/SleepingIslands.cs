@@ -14,7 +14,7 @@ namespace BepuPhysics;
 /// </remarks>
 // Constraints come in the order of their first bodies, and of those of one body in the order in which they were added. So it depends on no place in
 // memory in which order they get their batches when they wake.
-sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, BufferPool pool)
+sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvents events, BufferPool pool)
 {
     struct Island
     {
@@ -53,6 +53,7 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, BufferPool poo
             var index = bodies.PutToSleep(island[i]);
             bodies.Asleep.Islands[index] = id;
             bodies.Asleep.NextOfIsland[index] = island[index == last ? 0 : i + 1];
+            events.NoteTurned(island[i]);
         }
     }
 
@@ -123,6 +124,7 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, BufferPool poo
     void Awaken(int slot)
     {
         bodies.Awaken(slot);
+        events.NoteTurned(slot);
         solver.CountHubOfSleeper(bodies.Locations[slot].Index, isLeaving: false);
     }
 

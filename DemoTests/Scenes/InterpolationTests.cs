@@ -92,6 +92,20 @@ public sealed class InterpolationTests : IDisposable
     }
 
     [Fact]
+    public void WhatSleepsIsWhereItsPoseSays()
+    {
+        var body = world.AddDynamic(new Sphere(1), 1, RigidPose.Identity);
+        world.Step(3);
+        var reference = world.Bodies[body];
+        reference.Awake = false;
+        Assert.Equal(world.Bodies[body].Pose, world.Bodies.GetInterpolatedPose(body, .5f));
+        reference.Awake = true;
+        Assert.Equal(world.Bodies[body].Pose.Position, world.Bodies.GetInterpolatedPose(body, 1).Position);
+        world.Step();
+        Assert.Equal([body], Collect(.5f).Keys);
+    }
+
+    [Fact]
     public void BadValuesAreRefusedAndNothingIsAllocated()
     {
         var body = world.AddDynamic(new Sphere(1), 1, RigidPose.Identity);

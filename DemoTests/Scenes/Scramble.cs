@@ -156,7 +156,7 @@ sealed class Scramble : IDisposable
                 world.Bodies[AnyBody()].ApplyLinearImpulse(TestWorld.Scatter(random, 4));
                 break;
             case 16:
-                Simulation.Events.Listen(AnyBody(), (EventMask)random.Next(16));
+                Simulation.Events.Listen(AnyBody(), (EventMask)random.Next(32));
                 break;
             case 17:
                 Simulation.Layers[AnyBody()] = random.Next(3) > 0 ? CollisionLayers.Everything : new((uint)random.Next(4), (uint)random.Next(4));

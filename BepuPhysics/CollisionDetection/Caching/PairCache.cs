@@ -158,6 +158,9 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         Pairs.FastRemove(Pairs.Keys[index]);
     }
 
+    /// <summary>Whether a pair sleeps.</summary>
+    public readonly bool IsAsleep(in CollidablePair pair) => Asleep.Count > 0 && Asleep.IndexOf(pair) >= 0;
+
     /// <summary>Moves a pair among those that sleep, unless it is there.</summary>
     public void PutToSleep(in CollidablePair pair, BufferPool pool)
     {

@@ -34,16 +34,17 @@ public sealed unsafe partial class CollisionEvents
     internal void NoteSensed(in CollidablePair pair) => Add(ref sensed, new() { Pair = pair, IsSensor = true });
 
     /// <summary>Finds the pairs to tell of, and the contacts to be summed up. Before the solver runs.</summary>
-    internal void BeginSolve(ref PairCache cache)
+    internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
-        began.Count = ended.Count = hits.Count = persisting.Count = 0;
+        began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = 0;
         stage.Manifolds.Count = stage.Contacts.Count = 0;
+        isSettled &= isAtRest && added.Count == 0 && turned.Count == 0 && removalsSeen == traits.RemovalCount;
+        if (isSettled)
+            return;
         if (hasNewListener)
         {
             for (int i = 0; i < cache.Pairs.Count; ++i)
                 NoteContacts(cache.Pairs.Keys[i]);
-            for (int i = 0; i < cache.Asleep.Count; ++i)
-                NoteContacts(cache.Asleep.Keys[i]);
         }
         hasNewListener = false;
         for (int i = 0; i < sensed.Count; ++i)
@@ -68,11 +69,16 @@ public sealed unsafe partial class CollisionEvents
             var pair = order <= 0 ? pairs[known++] : added[fresh];
             var isNoted = order >= 0;
             // A pair is noted for each of its constraints.
-            while (isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0)
-                ++fresh;
+            for (; isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0; ++fresh)
+                pair.Touches |= added[fresh].Touches;
+            if (!pair.IsSensor && cache.IsAsleep(pair.Pair))
+            {
+                RememberAsleep(pair);
+                continue;
+            }
             pair.BounceImpulse = 0;
             pair.FirstManifold = stage.Manifolds.Count;
-            pair.IsAsleep = (!isNoted || !pair.IsSensor) && Sleeps(pair.Pair, ref cache, pair.IsSensor);
+            pair.IsAsleep = pair.IsSensor && !isNoted && Sleeps(pair.Pair);
             pair.Exists = pair.IsAsleep || (pair.IsSensor ? isNoted : ListContacts(ref pair, ref cache));
             pair.ManifoldCount = stage.Manifolds.Count - pair.FirstManifold;
             if (pair.Exists)
@@ -82,13 +88,6 @@ public sealed unsafe partial class CollisionEvents
         }
         (pairs, spare) = (spare, pairs);
     }
-
-    // What sleeps is not looked at, and stays as it was: contacts are among those that sleep, and of what a sensor has seen nobody is awake.
-    bool Sleeps(in CollidablePair pair, ref PairCache cache, bool isSensor) => isSensor
-        ? Sleeps(pair.A) && (pair.B.Mobility == CollidableMobility.Static || Sleeps(pair.B))
-        : cache.Asleep.Count > 0 && cache.Asleep.IndexOf(pair) >= 0;
-
-    bool Sleeps(CollidableReference body) => bodies.BodyExists(body.BodyHandle) && bodies.IsAsleep(body.Slot);
 
     // Lists the contacts that a pair has, if it still is one.
     bool ListContacts(ref ListenedPair pair, ref PairCache cache)
@@ -145,13 +144,18 @@ public sealed unsafe partial class CollisionEvents
     /// <summary>Tells what has happened. When the solver has ended.</summary>
     internal void EndSolve()
     {
+        if (isSettled)
+            return;
+        TellSleep();
         int kept = 0;
+        int asleep = 0;
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
             if (pair.IsAsleep)
             {
                 pairs[kept++] = pair;
+                ++asleep;
                 continue;
             }
             var described = Describe(pair, out var touches);
@@ -168,6 +172,8 @@ public sealed unsafe partial class CollisionEvents
                 pairs[kept++] = pair;
         }
         pairs.Count = kept;
+        isSettled = asleep == kept;
+        removalsSeen = traits.RemovalCount;
     }
 
     void Tell(ref QuickList<ContactEvent> list, EventMask kind, in ListenedPair pair, in ContactEvent contactEvent)
@@ -227,6 +233,7 @@ public sealed unsafe partial class CollisionEvents
         Release(ref ended);
         Release(ref hits);
         Release(ref persisting);
+        ReleaseSleep();
         Release(ref stage.Manifolds);
         Release(ref stage.Contacts);
     }
@@ -242,6 +249,7 @@ public sealed unsafe partial class CollisionEvents
     {
         added = sensed = pairs = spare = default;
         began = ended = hits = persisting = default;
+        AbandonSleep();
         stage.Manifolds = default;
         stage.Contacts = default;
     }

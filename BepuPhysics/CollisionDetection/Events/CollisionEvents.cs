@@ -75,7 +75,7 @@ public sealed unsafe partial class CollisionEvents
         AsSpan(stage.Contacts).Slice(contactEvent.FirstContact, contactEvent.ContactCount);
 
     /// <summary>Says what is to be told of a collidable from the next step on, in the place of what was said before.</summary>
-    /// <remarks>Pairs that touch already begin then. It is forgotten when the collidable is removed.</remarks>
+    /// <remarks>Pairs that touch already begin then; those that sleep, when they wake. It is forgotten when the collidable is removed.</remarks>
     /// <param name="collidable">A body or static.</param>
     /// <param name="mask">What is to be told; <see cref="EventMask.None"/> to listen no more, which ends nothing.</param>
     /// <exception cref="ArgumentException">There is no such collidable, or the mask has unknown bits; nothing was changed.</exception>
@@ -87,7 +87,7 @@ public sealed unsafe partial class CollisionEvents
         using var change = world.Change("CollisionEvents.Listen");
         traits.Existing(collidable);
         Set(collidable, (byte)(traits.Listeners[collidable] & SensorBit | (byte)mask));
-        hasNewListener |= mask != EventMask.None && MayHaveContacts(collidable);
+        hasNewListener |= (mask & EventMask.Contacts) != 0 && MayHaveContacts(collidable);
     }
 
     /// <summary>As <see cref="Listen(CollidableReference, EventMask)"/>, for a body.</summary>
@@ -149,13 +149,14 @@ public sealed unsafe partial class CollisionEvents
     internal int CountSensors(CollidableReference a, CollidableReference b) => (traits.Listeners[a] >> 7) + (traits.Listeners[b] >> 7);
 
     /// <summary>What a pair is listened to for.</summary>
-    internal EventMask MaskOf(in CollidablePair pair) => (EventMask)(traits.Listeners[pair.A] | traits.Listeners[pair.B]) & EventMask.All;
+    internal EventMask MaskOf(in CollidablePair pair) => (EventMask)(traits.Listeners[pair.A] | traits.Listeners[pair.B]) & EventMask.Contacts;
 
     /// <summary>Forgets all listeners, sensors and events.</summary>
     internal void Clear()
     {
         ReleaseLists();
         hasNewListener = false;
+        isSettled = false;
         UsesSensors = false;
         solver.OptionalStages.Remove(stage);
     }
@@ -165,6 +166,7 @@ public sealed unsafe partial class CollisionEvents
 
     void Set(CollidableReference collidable, byte value)
     {
+        isSettled = false;
         var wasUsed = traits.Listeners.IsUsed;
         traits.Listeners.Set(collidable, value, pool);
         // Behind all others, so that it reads what they have done.

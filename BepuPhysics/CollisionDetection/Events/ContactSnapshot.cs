@@ -7,11 +7,12 @@ struct ContactSnapshot
 {
     public CollidablePair Pair;
     public bool Touches;
-    /// <summary>Whether none of the two is awake: there are no contacts to be seen, and nothing has changed.</summary>
-    public bool IsAsleep;
     /// <summary>Whether all contacts share a normal.</summary>
     public bool IsConvex;
     public NonconvexContactManifold Contacts;
+
+    /// <summary>The order of pairs.</summary>
+    public static int Compare(in ContactSnapshot a, in ContactSnapshot b) => ListenedPair.Compare(new() { Pair = a.Pair }, new() { Pair = b.Pair });
 
     /// <summary>The contacts, which share a normal.</summary>
     public readonly ConvexContactManifold ToConvex()
@@ -43,20 +44,19 @@ struct ContactSnapshot
 
 public sealed unsafe partial class CollisionEvents
 {
-    /// <summary>Lists all pairs that are listened to and have contacts, touching or not, as the last step has left them.</summary>
+    /// <summary>Lists all pairs that are listened to and have contacts that are awake, touching or not, as the last step has left them.</summary>
     internal void AddSnapshots(List<ContactSnapshot> snapshots)
     {
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            if (pair.IsSensor || (pair.ManifoldCount == 0 && !pair.IsAsleep))
+            if (pair.IsSensor || pair.ManifoldCount == 0)
                 continue;
             var snapshot = new ContactSnapshot
             {
                 Pair = pair.Pair,
                 Touches = pair.Touches,
                 IsConvex = pair.ManifoldCount == 1,
-                IsAsleep = pair.IsAsleep,
             };
             snapshot.Contacts.OffsetB = pair.OffsetB;
             for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)

@@ -16,6 +16,10 @@ public enum EventMask : byte
     Hit = 4,
     /// <summary>That two collidables still touch, with what they pushed in the step.</summary>
     Persist = 8,
+    /// <summary>That the body falls asleep or wakes.</summary>
+    Sleep = 16,
+    /// <summary>All that is told of contacts.</summary>
+    Contacts = Begin | End | Hit | Persist,
     /// <summary>All of these.</summary>
-    All = Begin | End | Hit | Persist,
+    All = Contacts | Sleep,
 }

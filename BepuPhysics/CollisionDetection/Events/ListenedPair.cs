@@ -15,7 +15,7 @@ struct ListenedPair
     public bool Touches;
     /// <summary>Whether it has contacts, or is seen, in this step.</summary>
     public bool Exists;
-    /// <summary>Whether none of the two is awake: nothing is told of it until one is.</summary>
+    /// <summary>Whether it is one of a sensor, and none of the two is awake: nothing is told of it until one is.</summary>
     public bool IsAsleep;
     public int FirstManifold;
     public int ManifoldCount;

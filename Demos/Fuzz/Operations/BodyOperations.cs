@@ -22,7 +22,7 @@ static class BodyOperations
         new("Bodies.SetLocalInertia", 8, w => w.Simulation.Bodies.SetLocalInertia(w.AnyBody(), w.Random.Spoil(Inertia(w), 20))),
         new("Bodies.UpdateBounds", 5, w => w.Simulation.Bodies.UpdateBounds(w.AnyBody())),
         new("Layers of a body", 3, w => w.Simulation.Layers[w.AnyBody()] = AnyLayers(w)),
-        new("Events.Listen to a body", 8, w => w.Simulation.Events.Listen(w.AnyBody(), (EventMask)w.Random.Below(20))),
+        new("Events.Listen to a body", 8, w => w.Simulation.Events.Listen(w.AnyBody(), (EventMask)w.Random.Below(36))),
         new("Events.SetSensor of a body", 2, w => w.Simulation.Events.SetSensor(w.AnyBody(), w.Random.Percent(40))),
         new("Bodies.GetInterpolatedPose", 2, w => w.Simulation.Bodies.GetInterpolatedPose(w.AnyBody(), w.Random.Spoil(w.Random.Number(0, 1), 10))),
         new("Bodies.EnsureCapacity", 3, w => w.Simulation.Bodies.EnsureCapacity(w.AnyCount())),

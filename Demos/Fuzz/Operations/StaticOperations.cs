@@ -24,7 +24,7 @@ static class StaticOperations
         new("Statics.GetDescription", 2, w => w.Simulation.Statics.GetDescription(w.AnyStatic())),
         new("Statics.SetShape", 4, w => w.Simulation.Statics.SetShape(w.AnyStatic(), w.AnyShape())),
         new("Statics.UpdateBounds", 3, w => w.Simulation.Statics.UpdateBounds(w.AnyStatic())),
-        new("Events.Listen to a static", 4, w => w.Simulation.Events.Listen(w.AnyStatic(), (EventMask)w.Random.Below(20))),
+        new("Events.Listen to a static", 4, w => w.Simulation.Events.Listen(w.AnyStatic(), (EventMask)w.Random.Below(36))),
         new("Events.SetSensor of a static", 1, w => w.Simulation.Events.SetSensor(w.AnyStatic(), w.Random.Percent(40))),
         new("Layers of a static", 2, w => w.Simulation.Layers[w.AnyStatic()] = BodyOperations.AnyLayers(w)),
         new("Statics.EnsureCapacity", 2, w => w.Simulation.Statics.EnsureCapacity(w.AnyCount())),
