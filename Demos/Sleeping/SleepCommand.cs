@@ -51,7 +51,11 @@ static class SleepCommand
         output.WriteLine(FormattableString.Invariant(
             $"after that: mean {run.MeanAfterwards:0.0000} ms, p99 {run.PercentileAfterwards(.99):0.0000} ms, worst {run.PercentileAfterwards(1):0.0000} ms"));
         if (run.Simulation.Bodies.ActiveSet.Count == 0)
+        {
             output.WriteLine(FormattableString.Invariant($"a step in which all sleep: {run.MeasureAsleep():0.000} us"));
+            var (wake, step) = run.MeasureWaking();
+            output.WriteLine(FormattableString.Invariant($"waking all at once: {wake:0.000} ms, the slowest step until they sleep again {step:0.000} ms"));
+        }
         output.WriteLine($"{run.Simulation.Awakener.SleepingIslandCount} islands sleep");
         output.WriteLine(FormattableString.Invariant(
             $"{run.PoolBytes / 1e6:0.0} MB, {run.PoolBytes / Math.Max(1.0, run.BodyCount):0} B a body"));
