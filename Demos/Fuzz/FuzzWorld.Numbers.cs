@@ -24,11 +24,17 @@ sealed partial class FuzzWorld
     /// <summary>How often bodies were stopped because of their numbers.</summary>
     public long StoppedCount { get; set; }
 
+    /// <summary>To be called before something is written through a reference that a step is to look at.</summary>
+    // No step looks at what sleeps, and writing wakes nobody. Callbacks may write, but not wake.
+    public static void WakeToWrite(BodyReference body)
+    {
+        if (!body.Awake)
+            body.Awake = true;
+    }
+
     /// <summary>To be called when something was written through a reference.</summary>
     public void NoteWritten(BodyReference body)
     {
-        // No step looks at what sleeps, and writing wakes nobody.
-        body.Awake = true;
         if (!IsFinite(body.MotionState))
             unsoundMotions[body.Handle] = stages;
         if (!IsFinite(body.LocalInertia))

@@ -69,6 +69,7 @@ static class BodyOperations
         {
             RigidPose pose = w.Random.Spoil(w.AnyPose(), w.Has(FuzzScope.DirectWrites) ? 40 : 0);
             w.Tell($"{pose.Position} {pose.Orientation}");
+            FuzzWorld.WakeToWrite(body);
             body.Pose = pose;
             w.NoteWritten(body);
         }),
@@ -76,6 +77,7 @@ static class BodyOperations
         {
             var velocity = w.Random.Spoil(new BodyVelocity(w.Random.Vector(6), w.Random.Vector(6)), w.Has(FuzzScope.DirectWrites) ? 40 : 0);
             w.Tell($"{velocity.Linear} {velocity.Angular}");
+            FuzzWorld.WakeToWrite(body);
             body.Velocity = velocity;
             w.NoteWritten(body);
         }),
@@ -126,6 +128,7 @@ static class BodyOperations
         w.Tell($"m {inertia.InverseMass} I {Entries(inertia.InverseInertiaTensor)}");
         if (body.Kinematic || Bodies.IsKinematic(inertia))
             return;
+        FuzzWorld.WakeToWrite(body);
         body.LocalInertia = inertia;
         w.NoteWritten(body);
     }
