@@ -111,17 +111,18 @@ public sealed unsafe partial class Bodies
         using var change = world.Change("Bodies.Add");
         Validate(description);
         MakeRoom(description);
+        var pose = BodyChecks.Straighten(description.Pose);
         BoundingBox bounds = default;
         if (description.Collidable.Shape.Exists)
-            shapes.UpdateBounds(description.Pose, description.Collidable.Shape, out bounds);
+            shapes.UpdateBounds(pose, description.Collidable.Shape, out bounds);
         // All memory has been taken: from here on nothing fails.
         var handle = new BodyHandle(owners.Claim(HandlePool.Take()));
         ref var set = ref ActiveSet;
         var index = set.Count++;
         Locations[handle.Slot] = new() { SetIndex = 0, Index = index };
         set.IndexToHandle[index] = handle;
-        set.MotionStates[index] = new() { Pose = description.Pose, Velocity = description.Velocity };
-        set.SoundPoses[index] = description.Pose;
+        set.MotionStates[index] = new() { Pose = pose, Velocity = description.Velocity };
+        set.SoundPoses[index] = pose;
         set.LocalInertias[index] = description.LocalInertia;
         set.Collidables[index] = new() { BroadPhaseIndex = -1 };
         WriteSettings(ref set, index, description);

@@ -31,6 +31,13 @@ static class BodyChecks
             throw new ArgumentException($"The {name} must be a quaternion of unit length, not {value}.", name);
     }
 
+    /// <summary>A pose that was checked, with an orientation that turns normals into unit normals; what rounding leaves of it is left as it is.</summary>
+    internal static RigidPose Straighten(in RigidPose pose)
+    {
+        var q = pose.Orientation;
+        return UnitTolerance.Holds(Exact.Dot(q, q), UnitTolerance.Combined) ? pose : new(pose.Position, Exact.Normalize(q));
+    }
+
     internal static void Inertia(in BodyInertia inertia)
     {
         if (inertia.InverseMass != 0 && !(inertia.InverseMass >= LeastInverseMass && inertia.InverseMass <= GreatestInverseMass))

@@ -7,7 +7,7 @@ namespace BepuPhysics;
 /// <summary>Everything about a body when it is added.</summary>
 public struct BodyDescription
 {
-    /// <summary>Where the body is.</summary>
+    /// <summary>Where the body is. An orientation that is off unit length by up to .5 % is normalised, and refused beyond.</summary>
     public RigidPose Pose;
     /// <summary>How it moves.</summary>
     public BodyVelocity Velocity;

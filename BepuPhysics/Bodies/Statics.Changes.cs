@@ -51,10 +51,11 @@ public sealed unsafe partial class Statics
         Validate(description);
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, description.Pose, description.Shape);
+        var pose = BodyChecks.Straighten(description.Pose);
+        var bounds = CheckedBounds(index, pose, description.Shape);
         RequestAround(index, bounds, ref filter);
         shapes.ChangeUse(target.Shape, description.Shape);
-        target.Pose = description.Pose;
+        target.Pose = pose;
         target.Shape = description.Shape;
         target.Continuity = description.Continuity;
         Replace(index, bounds);

@@ -132,7 +132,8 @@ public sealed unsafe partial class Statics
         using var change = world.Change("Statics.Add");
         Validate(description);
         MakeRoom();
-        var bounds = BoundsOf(description.Pose, description.Shape);
+        var pose = BodyChecks.Straighten(description.Pose);
+        var bounds = BoundsOf(pose, description.Shape);
         awakener.BeginRequests();
         awakener.Request(bounds, ref filter);
         // All memory has been taken: from here on nothing fails.
@@ -140,7 +141,7 @@ public sealed unsafe partial class Statics
         var index = Count++;
         Indices[handle.Slot] = index;
         IndexToHandle[index] = handle;
-        StaticsBuffer[index] = new() { Pose = description.Pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
+        StaticsBuffer[index] = new() { Pose = pose, Shape = description.Shape, Continuity = description.Continuity, BroadPhaseIndex = -1 };
         shapes.BeginUse(description.Shape);
         AddToBroadPhase(index, bounds);
         awakener.WakeRequested();

@@ -52,10 +52,32 @@ public sealed unsafe class IslandAwakener
     public void AwakenSet(int setIndex)
     {
         using var change = world.Change("IslandAwakener.AwakenSet");
-        if ((uint)setIndex >= (uint)bodies.Sets.Length)
-            throw new ArgumentOutOfRangeException(nameof(setIndex), setIndex, $"There are {bodies.Sets.Length} sets of bodies.");
+        CheckSet(setIndex, nameof(setIndex));
         if (setIndex == Bodies.AsleepSet)
             WakeAll();
+    }
+
+    /// <summary>Wakes sets of bodies, as <see cref="AwakenSet"/>.</summary>
+    /// <param name="setIndices">Indices of sets.</param>
+    /// <param name="threadDispatcher">Has no effect; there for callers.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such set; nothing was changed.</exception>
+    public void AwakenSets(ref QuickList<int> setIndices, IThreadDispatcher? threadDispatcher = null)
+    {
+        using var change = world.Change("IslandAwakener.AwakenSets");
+        var hasAsleep = false;
+        for (int i = 0; i < setIndices.Count; ++i)
+        {
+            CheckSet(setIndices[i], nameof(setIndices));
+            hasAsleep |= setIndices[i] == Bodies.AsleepSet;
+        }
+        if (hasAsleep)
+            WakeAll();
+    }
+
+    void CheckSet(int setIndex, string name)
+    {
+        if ((uint)setIndex >= (uint)bodies.Sets.Length)
+            throw new ArgumentOutOfRangeException(name, setIndex, $"There are {bodies.Sets.Length} sets of bodies.");
     }
 
     /// <summary>Wakes all bodies, as when gravity has changed.</summary>

@@ -15,7 +15,7 @@ static class UnitTolerance
     /// <summary>Orientations that the collision batcher is handed: those of bodies, which the integrator keeps normalised.</summary>
     public const float Tested = 1e-3f;
 
-    /// <summary>Orientations of children of compounds: combined with those of bodies they turn normals, and are not normalised anew for it.</summary>
+    /// <summary>Orientations that turn normals: those of children of compounds, of statics and of bodies that were just described.</summary>
     public const float Combined = 2e-5f;
 
     /// <summary>Orientations that a game has written into a body's memory: beyond, they are no rotations any more, and the body is stopped.</summary>

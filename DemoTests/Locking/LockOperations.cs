@@ -8,6 +8,7 @@ using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace DemoTests.Locking;
@@ -74,6 +75,11 @@ static class LockOperations
         });
         Change("AwakenBody", w => w.Simulation.Awakener.AwakenBody(w.Body));
         Change("AwakenSet", w => w.Simulation.Awakener.AwakenSet(1));
+        Change("AwakenSets", w =>
+        {
+            var none = default(QuickList<int>);
+            w.Simulation.Awakener.AwakenSets(ref none);
+        });
         Change("AwakenAll", w => w.Simulation.Awakener.AwakenAll());
         list.Add("ApplyImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyImpulse(Vector3.UnitY, Vector3.UnitX)));
         list.Add("ApplyLinearImpulse", (OperationKind.Write, w => w.Simulation.Bodies[w.Body].ApplyLinearImpulse(Vector3.UnitY)));

@@ -37,6 +37,32 @@ public class MistakeTests
     }
 
     [Fact]
+    public void An_orientation_that_is_nearly_of_unit_length_is_normalised_before_it_turns_a_normal()
+    {
+        using var world = new TestWorld();
+        var turned = Quaternion.Normalize(new Quaternion(.3f, -.2f, .1f, .9f)) * 1.004f;
+        var floor = world.AddStatic(new Box(5, 2, 5), new RigidPose(default, turned));
+        var box = world.AddDynamic(new Box(1, 1, 1), 1, new RigidPose(Vector3.Transform(new Vector3(0, 1.5f, 0), Quaternion.Normalize(turned)), turned));
+        // Checks that normals are of unit length.
+        world.Step();
+        world.Simulation.Validate();
+        Assert.Equal(1, world.Simulation.NarrowPhase.PairCount);
+        AssertIsUnit(world.Simulation.Bodies.GetDescription(box).Pose.Orientation);
+        world.Statics.GetDescription(floor, out var ground);
+        AssertIsUnit(ground.Pose.Orientation);
+        ground.Pose.Orientation = turned;
+        world.Statics.ApplyDescription(floor, ground);
+        var description = world.Bodies.GetDescription(box);
+        description.Pose.Orientation = turned;
+        world.Bodies.ApplyDescription(box, description);
+        AssertIsUnit(world.Bodies[box].Pose.Orientation);
+        world.Step();
+        world.Simulation.Validate();
+
+        static void AssertIsUnit(Quaternion q) => Assert.Equal(1, q.Length(), 1e-6f);
+    }
+
+    [Fact]
     public void Default_instead_of_new_callbacks_are_refused()
     {
         using var pool = new BufferPool();

@@ -5,6 +5,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
 using Xunit;
 
 namespace DemoTests.Sleeping;
@@ -277,6 +278,18 @@ public class WakeTests
         world.AssertAwake(stacks);
         Assert.Throws<ArgumentOutOfRangeException>(() => world.Simulation.Awakener.AwakenSet(2));
         Assert.Throws<ArgumentOutOfRangeException>(() => world.Simulation.Awakener.AwakenSet(-1));
+        world.Settle();
+        var pool = world.World.Pool;
+        var sets = new QuickList<int>(4, pool);
+        sets.Add(1, pool);
+        sets.Add(2, pool);
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.Simulation.Awakener.AwakenSets(ref sets));
+        world.AssertAwake();
+        sets.Pop();
+        sets.Add(0, pool);
+        world.Simulation.Awakener.AwakenSets(ref sets);
+        world.AssertAwake(stacks);
+        sets.Dispose(pool);
     }
 
     [Fact]
