@@ -117,8 +117,9 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
         ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out pose, out velocity, out var localInertia);
-        if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), exists, out var unsound))
-            StopAndRead(unsound, indices, ref pose, ref velocity);
+        var sound = Soundness.OfBodies(pose, velocity, UnitTolerance.Combined) & Soundness.OfInertias(localInertia);
+        if (Soundness.IsNot(sound, exists, out var unsound))
+            StraightenOrStop(unsound, indices, localInertia, ref pose, ref velocity);
         quarantine.Remember(bundle);
         var before = velocity;
         var kinematic = IsKinematic(localInertia);
@@ -127,9 +128,20 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             kinematic & Vector.GreaterThan(speedSquared, Vector<float>.Zero), new Vector<float>(float.PositiveInfinity), speedSquared);
         IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, new Vector<float>(dt), ref velocity);
         // What the callbacks make of a body is stopped where it is to stay; bounds only have to be bounds.
-        var sound = Soundness.OfVelocities(velocity);
+        sound = Soundness.OfVelocities(velocity);
         velocity.Linear = Vector3Wide.Select(sound, velocity.Linear, before.Linear);
         velocity.Angular = Vector3Wide.Select(sound, velocity.Angular, before.Angular);
+    }
+
+    // Orientations that a game has written and not quite normalised would turn normals that are not of unit length.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void StraightenOrStop(Vector<int> lanes, Vector<int> indices, in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+    {
+        quarantine.Straighten(lanes, indices);
+        ref var set = ref bodies.Awake;
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out pose, out velocity, out _);
+        if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), lanes, out var unsound))
+            StopAndRead(unsound, indices, ref pose, ref velocity);
     }
 
     // Bodies that are not sound are stopped in memory, whatever has been written of them there; the others are read as they were.

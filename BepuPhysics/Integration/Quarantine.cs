@@ -71,6 +71,22 @@ public sealed unsafe class Quarantine
         }
     }
 
+    /// <summary>Normalises sound orientations of those of a bundle of bodies whose lanes are set.</summary>
+    internal void Straighten(Vector<int> lanes, Vector<int> indices)
+    {
+        for (int i = 0; i < Vector<int>.Count; ++i)
+        {
+            if (lanes[i] != 0)
+                Straighten(ref bodies.Awake.MotionStates[indices[i]].Pose);
+        }
+    }
+
+    static void Straighten(ref RigidPose pose)
+    {
+        if (Soundness.IsSound(pose))
+            pose = BodyChecks.Straighten(pose);
+    }
+
     void Stop(int index)
     {
         ref var set = ref bodies.Awake;
@@ -94,6 +110,7 @@ public sealed unsafe class Quarantine
             ref var motion = ref set.MotionStates[i];
             if (!Soundness.IsSound(motion.Pose) || !Soundness.IsSound(motion.Velocity))
                 Stop(i);
+            Straighten(ref motion.Pose);
         }
         Collect();
     }

@@ -15,12 +15,15 @@ static class Soundness
     const float GreatestSquare = 1e25f;
 
     /// <summary>Lanes with a sound pose and velocity.</summary>
+    /// <param name="pose">The poses.</param>
+    /// <param name="velocity">The velocities.</param>
+    /// <param name="tolerance">How far the squared length of an orientation may be off one.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static Vector<int> OfBodies(in RigidPoseWide pose, in BodyVelocityWide velocity)
+    internal static Vector<int> OfBodies(in RigidPoseWide pose, in BodyVelocityWide velocity, float tolerance = UnitTolerance.Sound)
     {
         var deviation = Vector.Abs(LengthSquared(pose.Orientation) - Vector<float>.One);
         var motion = pose.Position.LengthSquared() + velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
-        return Vector.LessThanOrEqual(deviation, new Vector<float>(UnitTolerance.Sound)) &
+        return Vector.LessThanOrEqual(deviation, new Vector<float>(tolerance)) &
             Vector.LessThanOrEqual(motion, new Vector<float>(GreatestSquare));
     }
 

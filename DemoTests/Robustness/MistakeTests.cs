@@ -58,6 +58,11 @@ public class MistakeTests
         AssertIsUnit(world.Bodies[box].Pose.Orientation);
         world.Step();
         world.Simulation.Validate();
+        // The same, where only memory is written.
+        world.Bodies[box].Pose.Orientation = turned * .95f;
+        world.Step();
+        world.Simulation.Validate();
+        Assert.True(world.Simulation.Quarantine.Bodies.IsEmpty);
 
         static void AssertIsUnit(Quaternion q) => Assert.Equal(1, q.Length(), 1e-6f);
     }
