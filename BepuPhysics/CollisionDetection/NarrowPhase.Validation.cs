@@ -90,7 +90,8 @@ public abstract partial class NarrowPhase
         }
         Invariant.Require(float.IsFinite(Exact.LengthSquared(patch.OffsetB)), "offset between the bodies of the constraint of pair", index);
         Invariant.Require(MathF.Abs(Exact.LengthSquared(patch.Normal) - 1) < rounding, "normal of the constraint of pair", index);
-        var friction = Exact.Length(patch.Friction);
+        // Not the square, which is zero for what is next to nothing.
+        var friction = MathF.Abs(patch.Friction.X) + MathF.Abs(patch.Friction.Y) + MathF.Abs(patch.Friction.Z);
         Invariant.Require(MathF.Abs(Exact.Dot(patch.Friction, patch.Normal)) <= rounding * (friction + load), "plane of the friction of pair", index);
     }
 
