@@ -1,4 +1,3 @@
-using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
