@@ -11,7 +11,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <remarks>
 /// The active tree is fitted anew in each <see cref="Update"/>, since most of its bounds change in each step, and rebuilt a slice at a
 /// time. The static tree
-/// costs nothing while nothing happens to it: changes fit it at once, and only many of them in sum lead to a rebuild. Active leaves are
+/// costs nothing while nothing happens to it: changes fit it at once, and only many of them that made it worse in sum lead to a rebuild. Active leaves are
 /// tested against each other and against static ones, static ones never against each other.
 /// <para>
 /// A collidable has an index in its tree as long as it stays there; a removal gives the index of the last collidable to the one
@@ -33,13 +33,9 @@ public sealed unsafe partial class BroadPhase : IDisposable
     // Whether the leaves are the bodies and statics of a simulation, which alone may add and remove them.
     readonly bool isOwned;
 
-    // What a leaf that comes or goes counts in the static tree, and what a body that falls asleep or wakes: it comes back to where it was.
-    const int WeightOfStatic = 16;
-    const int WeightOfSleeper = 1;
-
-    // Leaves that came or went since the last build of a tree, by weight, or (active) since the last update.
+    // Leaves that came since the last update.
     int activeAdditions;
-    int staticChanges;
+    StaticTreeUpkeep upkeep;
 
     /// <summary>Pool that the memory of the trees comes from.</summary>
     public BufferPool Pool { get; }
@@ -90,7 +86,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     internal int AddStaticLeaf(CollidableReference collidable, BoundingBox bounds)
     {
         var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves);
-        staticChanges += WeightOf(collidable);
+        upkeep.Note(collidable);
         return index;
     }
 
@@ -129,13 +125,10 @@ public sealed unsafe partial class BroadPhase : IDisposable
     internal bool RemoveStaticLeafAt(int index, out CollidableReference movedLeaf)
     {
         // An index of no leaf is refused by the tree.
-        var weight = (uint)index < (uint)StaticTree.LeafCount ? WeightOf(StaticLeaves[index]) : 0;
-        var moved = RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
-        staticChanges += weight;
-        return moved;
+        if ((uint)index < (uint)StaticTree.LeafCount)
+            upkeep.Note(StaticLeaves[index]);
+        return RemoveAt(index, ref StaticTree, ref StaticLeaves, out movedLeaf);
     }
-
-    static int WeightOf(CollidableReference collidable) => collidable.Mobility == CollidableMobility.Static ? WeightOfStatic : WeightOfSleeper;
 
     static bool RemoveAt(int index, ref Tree tree, ref Buffer<CollidableReference> leaves, out CollidableReference movedLeaf)
     {
@@ -178,7 +171,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     internal void UpdateStaticLeaf(int index, Vector3 min, Vector3 max)
     {
         StaticTree.UpdateBounds(index, min, max);
-        staticChanges += WeightOf(StaticLeaves[index]);
+        upkeep.Note(StaticLeaves[index]);
     }
 
     /// <summary>Fits the active tree to bounds written since the last call and tidies both trees a little. Once in each step, before
@@ -191,12 +184,12 @@ public sealed unsafe partial class BroadPhase : IDisposable
     }
 
     /// <summary>Whether something is left to do where no body is awake.</summary>
-    internal bool IsUpdateDue => IsWorthBuilding(staticChanges / WeightOfStatic, StaticTree.LeafCount);
+    internal bool IsUpdateDue => upkeep.IsDue(StaticTree.LeafCount);
 
     internal void UpdateTrees()
     {
         // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
-        if (IsWorthBuilding(activeAdditions, ActiveTree.LeafCount))
+        if (StaticTreeUpkeep.IsGoodPart(activeAdditions, ActiveTree.LeafCount))
         {
             ActiveTree.BinnedBuild(Pool);
         }
@@ -207,16 +200,8 @@ public sealed unsafe partial class BroadPhase : IDisposable
         }
         activeAdditions = 0;
 
-        // Insertions and removals keep the static tree fitted and fairly good, so changes may add up; the rebuild costs each of them its
-        // share.
-        if (IsUpdateDue)
-        {
-            StaticTree.BinnedBuild(Pool);
-            staticChanges = 0;
-        }
+        upkeep.Update(ref StaticTree, Pool);
     }
-
-    static bool IsWorthBuilding(int changes, int leafCount) => changes > 32 && changes > leafCount / 4;
 
     /// <summary>Finds all pairs of leaves with overlapping bounds that have an active leaf, on all workers of the dispatcher.</summary>
     /// <param name="handler">Receives the pairs; copied in and copied back, one copy shared by all workers.</param>
@@ -288,7 +273,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
         ActiveTree.Clear();
         StaticTree.Clear();
         activeAdditions = 0;
-        staticChanges = 0;
+        upkeep = default;
     }
 
     /// <summary>Gives all memory back to the pool. Calling it twice does no harm.</summary>
@@ -331,7 +316,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
         if (StaticLeaves.Allocated)
             Pool.Return(ref StaticLeaves);
         activeAdditions = 0;
-        staticChanges = 0;
+        upkeep = default;
     }
 
     /// <summary>Walks the invariants of both trees.</summary>
