@@ -91,7 +91,7 @@ public sealed partial class Simulation
         using (Profiler.Time(NarrowPhase))
             NarrowPhase.FindContacts(dt, threadDispatcher);
         using (Profiler.Time(SimulationProfiler.Flush))
-            NarrowPhase.Flush();
+            NarrowPhase.Flush(threadDispatcher);
     }
 
     /// <summary>Constraints to velocities, velocities to poses, in substeps.</summary>

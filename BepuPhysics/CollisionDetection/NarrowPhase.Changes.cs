@@ -1,8 +1,11 @@
+using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -10,6 +13,7 @@ namespace BepuPhysics.CollisionDetection;
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
     QuickList<NoteKey> order;
+    QuickList<AddedConstraint> added;
 
     /// <summary>Something that a worker has noted about a pair, for the flush.</summary>
     interface INote
@@ -23,8 +27,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public CollidablePair Pair { get; } = pair;
         public ChildIds Children { get; } = children;
         public bool KeepsHistory { get; } = keepsHistory;
+        /// <summary>What the constraint holds that the manifold has had so far, in the list of the worker; negative where it has not been read.</summary>
+        public int Old = NotRead;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
+
+        public const int NotRead = -1;
+    }
+
+    // A constraint that was added for a note, and where it is remembered what its contacts are called.
+    struct AddedConstraint
+    {
+        public int Worker;
+        public int Index;
+        public int Old;
+        public ConstraintHandle Constraint;
+        public int PairIndex;
+        public int ChildManifold;
     }
 
     // A pair with a coefficient of restitution.
@@ -55,21 +74,22 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    internal override void Flush()
+    internal override void Flush(IThreadDispatcher? dispatcher)
     {
         try
         {
-            ApplyChanges();
+            ApplyChanges(dispatcher);
         }
         finally
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
             Release(ref order, Pool);
+            Release(ref added, Pool);
             ReleaseWorkers();
         }
     }
 
-    void ApplyChanges()
+    void ApplyChanges(IThreadDispatcher? dispatcher)
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
@@ -80,10 +100,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Gather(ref workers[i].Pending, i);
         SortByKey();
         WakeTouched();
-        for (int i = 0; i < order.Count; ++i)
+        try
         {
-            PrefetchPending(i);
-            Apply(workers[order[i].Worker].Pending[order[i].Index]);
+            for (int i = 0; i < order.Count; ++i)
+            {
+                PrefetchPending(i);
+                Apply(order[i].Worker, order[i].Index);
+            }
+        }
+        finally
+        {
+            var write = new WriteWork { NarrowPhase = this };
+            StagedWork.Run(ref write, dispatcher);
         }
         WatchBouncingPairs();
     }
@@ -145,10 +173,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
     }
 
-    void Apply(in PendingManifold pending)
+    /// <summary>Reads what a manifold's constraint holds of the last step.</summary>
+    // Where the manifold is noted, by many workers, and not in the flush: nobody else writes to the constraint in between.
+    void Read(ref Worker worker, ref PendingManifold pending, in CachedManifold manifold)
     {
-        ContactPatch old = default;
-        var solver = Simulation.Solver;
+        Note(ref worker.Old, default(ContactPatch), worker.Pool);
+        pending.Old = worker.Old.Count - 1;
+        new ContactConstraint(Simulation.Solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
+            .ReadPatch(manifold.Features, out worker.Old[pending.Old]);
+    }
+
+    // The structure alone: which constraints there are, and where. What they hold is written when all are there.
+    void Apply(int workerIndex, int noteIndex)
+    {
+        ref var pending = ref workers[workerIndex].Pending[noteIndex];
         var ofChildren = pending.Children != ChildIds.None;
         var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
         ref var cached = ref Pairs.Pairs.Values[index];
@@ -159,26 +197,73 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Pairs.Empty(ref cached, ofChildren, Pool);
         }
         ref var manifold = ref cached.Single;
+        var childManifold = PairRecords<ChildManifold>.None;
         if (ofChildren)
         {
-            ref var record = ref Pairs.FindOrAdd(ref cached, pending.Children, Pool);
+            childManifold = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
+            ref var record = ref Pairs.Manifolds.Memory[childManifold];
             manifold = ref record.Manifold;
             if (pending.Children.IsPatch)
                 record.Patch.Write(pending.Manifold);
         }
         if (pending.KeepsHistory && manifold.History < 0)
             manifold.History = Pairs.Histories.Take(Pool);
+        var contactCount = pending.Manifold.Count;
+        var old = PendingManifold.NotRead;
         if (manifold.HasConstraint)
         {
-            new ContactConstraint(solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
-                .ReadPatch(manifold.Features, out old);
+            // One that slept until now has not been read.
+            if (pending.Old == PendingManifold.NotRead && contactCount > 0)
+                Read(ref workers[workerIndex], ref pending, manifold);
+            old = pending.Old;
             RemoveConstraint(ref cached, ref manifold);
         }
-        var contactCount = pending.Manifold.Count;
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        new ContactConstraint(solver, manifold.Constraint, contactCount).WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
+        Note(ref added, new()
+        {
+            Worker = workerIndex,
+            Index = noteIndex,
+            Old = old,
+            Constraint = manifold.Constraint,
+            PairIndex = index,
+            ChildManifold = childManifold,
+        }, Pool);
+    }
+
+    // Each of them has a lane of its own, so it does not matter who writes which when.
+    struct WriteWork : IStagedWork
+    {
+        const int PerBlock = 32;
+
+        public NarrowPhase<TCallbacks> NarrowPhase;
+
+        public readonly int StageCount => 1;
+        public readonly int GetBlockCount(int stage) => (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
+
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            NarrowPhase.World.MarkWorker();
+            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.added.Count);
+            for (int i = block * PerBlock; i < end; ++i)
+                NarrowPhase.WriteAdded(NarrowPhase.added[i]);
+        }
+    }
+
+    void WriteAdded(in AddedConstraint constraint)
+    {
+        ref var worker = ref workers[constraint.Worker];
+        ref var pending = ref worker.Pending[constraint.Index];
+        ContactPatch none = default;
+        ref var old = ref none;
+        if (constraint.Old != PendingManifold.NotRead)
+            old = ref worker.Old[constraint.Old];
+        ref var manifold = ref Pairs.Pairs.Values[constraint.PairIndex].Single;
+        if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
+            manifold = ref Pairs.Manifolds.Memory[constraint.ChildManifold].Manifold;
+        new ContactConstraint(Simulation.Solver, constraint.Constraint, pending.Manifold.Count)
+            .WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
     }
 
     void WatchBouncingPairs()

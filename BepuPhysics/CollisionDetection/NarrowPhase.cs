@@ -68,7 +68,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
-    internal abstract void Flush();
+    internal abstract void Flush(IThreadDispatcher? dispatcher);
     internal abstract void DisposeCallbacks();
     /// <summary>Compiles what is generic over the callbacks of a game, without calling them.</summary>
     /// <param name="shapeTypes">Ids of the shape types whose tests are compiled.</param>
