@@ -87,7 +87,7 @@ public sealed partial class Simulation
         if (bodiesMayBeWritten)
             Quarantine.StopUnsound();
         using (Profiler.Time(BroadPhase))
-            BroadPhase.UpdateTrees();
+            BroadPhase.UpdateTrees(threadDispatcher);
         using (Profiler.Time(NarrowPhase))
             NarrowPhase.FindContacts(dt, threadDispatcher);
         using (Profiler.Time(SimulationProfiler.Flush))

@@ -187,22 +187,22 @@ public sealed unsafe partial class BroadPhase : IDisposable
     public void Update(IThreadDispatcher? threadDispatcher = null)
     {
         using var change = world.Change("BroadPhase.Update");
-        UpdateTrees();
+        UpdateTrees(threadDispatcher);
     }
 
     /// <summary>Whether something is left to do where no body is awake.</summary>
     internal bool IsUpdateDue => IsWorthBuilding(staticChanges / WeightOfStatic, StaticTree.LeafCount);
 
-    internal void UpdateTrees()
+    internal void UpdateTrees(IThreadDispatcher? dispatcher = null)
     {
         // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
         if (IsWorthBuilding(activeAdditions, ActiveTree.LeafCount))
         {
-            ActiveTree.BinnedBuild(Pool);
+            ActiveTree.BinnedBuild(Pool, dispatcher);
         }
         else
         {
-            ActiveTree.Refit(Pool);
+            ActiveTree.Refit(Pool, dispatcher);
             ActiveTree.Refine(Pool);
         }
         activeAdditions = 0;
@@ -211,7 +211,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
         // share.
         if (IsUpdateDue)
         {
-            StaticTree.BinnedBuild(Pool);
+            StaticTree.BinnedBuild(Pool, dispatcher);
             staticChanges = 0;
         }
     }

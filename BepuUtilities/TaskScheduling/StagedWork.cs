@@ -64,7 +64,8 @@ public static unsafe class StagedWork
             var last = start;
             for (int block = 0; block < blockCount; ++block)
             {
-                work.Execute(stage, block, 0);
+                // Each worker's memory gets its share, as it would with as many threads.
+                work.Execute(stage, block, block % observer.ThreadCount);
                 var now = Stopwatch.GetTimestamp();
                 longest = Math.Max(longest, now - last);
                 last = now;
