@@ -4,6 +4,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
@@ -12,6 +13,9 @@ namespace BepuPhysics.CollisionDetection;
 // What the workers have noted is brought into the order of its pairs and made on one thread.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
+    // Below so many constraints that move or are new a dispatch costs as much as it saves.
+    const int LeastForThreads = 128;
+
     QuickList<NoteKey> order;
     QuickList<AddedConstraint> added;
 
@@ -93,15 +97,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        RemoveUnseenPairs();
-        RemoveGoneManifolds();
-        order.Count = 0;
-        for (int i = 0; i < workers.Length; ++i)
-            Gather(ref workers[i].Pending, i);
-        SortByKey();
-        WakeTouched();
+        var solver = Simulation.Solver;
+        solver.BeginDeferral();
         try
         {
+            RemoveUnseenPairs();
+            RemoveGoneManifolds();
+            order.Count = 0;
+            for (int i = 0; i < workers.Length; ++i)
+                Gather(ref workers[i].Pending, i);
+            SortByKey();
+            if (Simulation.Bodies.Asleep.Count != 0)
+            {
+                // Constraints that wake are whole at once, and those that are replaced are read before others move.
+                FinishColumns(dispatcher);
+                WakeTouched();
+                solver.BeginDeferral();
+            }
             for (int i = 0; i < order.Count; ++i)
             {
                 PrefetchPending(i);
@@ -110,17 +122,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         finally
         {
-            var write = new WriteWork { NarrowPhase = this };
-            StagedWork.Run(ref write, dispatcher);
+            FinishColumns(dispatcher);
         }
         WatchBouncingPairs();
+    }
+
+    void FinishColumns(IThreadDispatcher? dispatcher)
+    {
+        Simulation.Solver.PrepareDeferred();
+        var work = new WriteWork { NarrowPhase = this };
+        var isWorthThreads = added.Count + Simulation.Solver.DeferredMoveCount >= LeastForThreads;
+        StagedWork.Run(ref work, isWorthThreads ? dispatcher : null);
+        Simulation.Solver.EndDeferral();
     }
 
     // Who is touched is in the solver in this very step.
     void WakeTouched()
     {
-        if (Simulation.Bodies.Asleep.Count == 0)
-            return;
         var awakener = Simulation.Awakener;
         awakener.BeginRequests();
         awakener.RequestHeldByMovingKinematics();
@@ -133,7 +151,26 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (pending.Pair.B.Mobility != CollidableMobility.Static)
                 awakener.Request(pending.Pair.B.Slot);
         }
-        awakener.WakeRequested();
+        if (awakener.WakeRequested())
+            ReadWoken();
+    }
+
+    // No worker has read the constraints that slept until now.
+    void ReadWoken()
+    {
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var worker = ref workers[order[i].Worker];
+            ref var pending = ref worker.Pending[order[i].Index];
+            var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
+            if (index < 0)
+                continue;
+            for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
+            {
+                if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
+                    Read(ref worker, ref pending, manifolds.Current);
+            }
+        }
     }
 
     // Only some steps, and some pairs, need a list; no others pay for it.
@@ -161,16 +198,44 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
     void PrefetchPending(int index)
     {
-        const int distance = 8;
+        const int distance = 6;
+        if (index + 3 * distance < order.Count)
+            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 3 * distance].Key));
         if (index + 2 * distance < order.Count)
-            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 2 * distance].Key));
+        {
+            ref var later = ref order[index + 2 * distance];
+            var pair = PairOf(later.Key);
+            Pairs.Pairs.PrefetchElement(pair);
+            PrefetchLocation(pair.A);
+            PrefetchLocation(pair.B);
+            ref var pending = ref workers[later.Worker].Pending[later.Index];
+            Prefetch.Read(Unsafe.AsPointer(ref pending));
+            Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
+        }
         if (index + distance >= order.Count)
             return;
-        ref var next = ref order[index + distance];
-        Pairs.Pairs.PrefetchElement(PairOf(next.Key));
-        ref var pending = ref workers[next.Worker].Pending[next.Index];
-        Prefetch.Read(Unsafe.AsPointer(ref pending));
-        Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
+        var next = PairOf(order[index + distance].Key);
+        PrefetchRows(next.A);
+        PrefetchRows(next.B);
+        var guess = Pairs.Pairs.PrefetchElement(next);
+        if (guess >= 0 && Pairs.Pairs.Values[guess].Single.HasConstraint)
+            Simulation.Solver.Prefetch(Pairs.Pairs.Values[guess].Single.Constraint);
+    }
+
+    void PrefetchLocation(CollidableReference collidable)
+    {
+        if (collidable.Mobility != CollidableMobility.Static)
+            Prefetch.Read(Simulation.Bodies.Locations.Memory + collidable.Slot);
+    }
+
+    void PrefetchRows(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            return;
+        ref var location = ref Simulation.Bodies.Locations[collidable.Slot];
+        ref var set = ref Simulation.Bodies.SetOf(location);
+        Prefetch.Read(set.LocalInertias.Memory + location.Index);
+        Prefetch.Read(set.Constraints.Memory + location.Index);
     }
 
     /// <summary>Reads what a manifold's constraint holds of the last step.</summary>
@@ -212,10 +277,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var old = PendingManifold.NotRead;
         if (manifold.HasConstraint)
         {
-            // One that slept until now has not been read.
-            if (pending.Old == PendingManifold.NotRead && contactCount > 0)
-                Read(ref workers[workerIndex], ref pending, manifold);
             old = pending.Old;
+            Check.That(old != PendingManifold.NotRead || contactCount == 0);
             RemoveConstraint(ref cached, ref manifold);
         }
         if (contactCount == 0)
@@ -232,19 +295,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }, Pool);
     }
 
-    // Each of them has a lane of its own, so it does not matter who writes which when.
+    // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
     struct WriteWork : IStagedWork
     {
         const int PerBlock = 32;
 
         public NarrowPhase<TCallbacks> NarrowPhase;
 
-        public readonly int StageCount => 1;
-        public readonly int GetBlockCount(int stage) => (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
+        public readonly int StageCount => 2;
+        public readonly int GetBlockCount(int stage) =>
+            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
 
         public readonly void Execute(int stage, int block, int workerIndex)
         {
             NarrowPhase.World.MarkWorker();
+            if (stage == 0)
+            {
+                NarrowPhase.Simulation.Solver.DoDeferred(block);
+                return;
+            }
             var end = Math.Min((block + 1) * PerBlock, NarrowPhase.added.Count);
             for (int i = block * PerBlock; i < end; ++i)
                 NarrowPhase.WriteAdded(NarrowPhase.added[i]);
