@@ -47,18 +47,16 @@ public static unsafe class StagedWork
         if (stage == stageCount)
             return;
         if (dispatcher is IStagedWorkObserver observer)
-            RunObserved(ref work, observer, stage, stageCount);
+            RunObserved(ref work, observer, stage, stageCount, blockCount);
         else
             Dispatch(ref work, dispatcher!, workerCount, stage, stageCount, blockCount);
     }
 
-    static void RunObserved<TWork>(ref TWork work, IStagedWorkObserver observer, int stage, int stageCount) where TWork : struct, IStagedWork
+    static void RunObserved<TWork>(ref TWork work, IStagedWorkObserver observer, int stage, int stageCount, int blockCount)
+        where TWork : struct, IStagedWork
     {
-        for (; stage < stageCount; ++stage)
+        while (true)
         {
-            var blockCount = StagedRun<TWork>.GetBlockCount(ref work, stage);
-            if (blockCount == 0)
-                continue;
             long longest = 0;
             var start = Stopwatch.GetTimestamp();
             var last = start;
@@ -70,7 +68,11 @@ public static unsafe class StagedWork
                 longest = Math.Max(longest, now - last);
                 last = now;
             }
-            observer.StageEnded(blockCount, last - start, longest);
+            if (blockCount > 0)
+                observer.StageEnded(blockCount, last - start, longest);
+            if (++stage == stageCount)
+                return;
+            blockCount = StagedRun<TWork>.GetBlockCount(ref work, stage);
         }
     }
 

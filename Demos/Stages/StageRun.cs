@@ -22,6 +22,7 @@ sealed class StageRun : IDisposable
     readonly Dictionary<object, StageShare> shares = [];
     readonly List<StageShare> order = [];
     readonly List<double> milliseconds = [];
+    bool isMeasuring;
 
     /// <param name="scene">What to run.</param>
     /// <param name="replacedPerStep">Bodies that are taken out in each step, and added anew where the scene has them.</param>
@@ -64,7 +65,7 @@ sealed class StageRun : IDisposable
 
     void OnStageEnded(int blockCount, long ticks, long longestBlockTicks)
     {
-        if (simulation.Profiler.RunningStage is object stage && milliseconds.Capacity > 0)
+        if (simulation.Profiler.RunningStage is object stage && isMeasuring)
             shares[stage].AddStage(blockCount, ticks, longestBlockTicks);
     }
 
@@ -73,12 +74,11 @@ sealed class StageRun : IDisposable
     {
         for (int i = 0; i < count; ++i)
         {
-            if (i == skipped)
-                milliseconds.Capacity = count - skipped;
+            isMeasuring = i >= skipped;
             long start = Stopwatch.GetTimestamp();
             replacement?.Step();
             simulation.Timestep(1 / 60f, dispatcher);
-            if (i < skipped)
+            if (!isMeasuring)
                 continue;
             milliseconds.Add(Stopwatch.GetElapsedTime(start).TotalMilliseconds);
             double parts = 0;
