@@ -90,8 +90,12 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     }
 
     /// <summary>Finds the manifold of two children or a patch, or adds it without contacts.</summary>
-    public ref ChildManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool) =>
-        ref Manifolds.Memory[FindOrAddIndex(ref pair, children, pool)];
+    public ref ChildManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool)
+    {
+        // The memory may be another one afterwards.
+        var index = FindOrAddIndex(ref pair, children, pool);
+        return ref Manifolds.Memory[index];
+    }
 
     /// <summary>Finds the manifold of two children or a patch, or adds it without contacts.</summary>
     /// <returns>Its index.</returns>
