@@ -87,11 +87,11 @@ public sealed partial class Simulation
         if (bodiesMayBeWritten)
             Quarantine.StopUnsound();
         using (Profiler.Time(BroadPhase))
-            BroadPhase.UpdateTrees();
+            BroadPhase.UpdateTrees(threadDispatcher);
         using (Profiler.Time(NarrowPhase))
             NarrowPhase.FindContacts(dt, threadDispatcher);
         using (Profiler.Time(SimulationProfiler.Flush))
-            NarrowPhase.Flush();
+            NarrowPhase.Flush(threadDispatcher);
     }
 
     /// <summary>Constraints to velocities, velocities to poses, in substeps.</summary>

@@ -26,6 +26,12 @@ public sealed class SimulationProfiler
         }
     }
 
+    /// <summary>
+    /// What is responsible for the stage that runs now, for dispatchers that want to know whose work they are given; the simulation itself between two
+    /// stages of a step, null outside a step.
+    /// </summary>
+    public object? RunningStage { get; private set; }
+
     /// <summary>Nothing ran.</summary>
     internal void Clear()
     {
@@ -48,10 +54,26 @@ public sealed class SimulationProfiler
         times = [.. times, (stage, ticks)];
     }
 
-    internal readonly struct Timer(SimulationProfiler profiler, object stage) : IDisposable
+    internal readonly struct Timer : IDisposable
     {
-        readonly long start = Stopwatch.GetTimestamp();
+        readonly SimulationProfiler profiler;
+        readonly object stage;
+        readonly object? outer;
+        readonly long start;
 
-        public void Dispose() => profiler.Set(stage, Stopwatch.GetTimestamp() - start);
+        public Timer(SimulationProfiler profiler, object stage)
+        {
+            this.profiler = profiler;
+            this.stage = stage;
+            outer = profiler.RunningStage;
+            profiler.RunningStage = stage;
+            start = Stopwatch.GetTimestamp();
+        }
+
+        public void Dispose()
+        {
+            profiler.Set(stage, Stopwatch.GetTimestamp() - start);
+            profiler.RunningStage = outer;
+        }
     }
 }

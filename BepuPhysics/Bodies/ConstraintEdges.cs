@@ -47,6 +47,9 @@ struct ConstraintEdges
     /// <summary>The edge before another one; before the first of a body comes the last.</summary>
     internal readonly int Previous(int edge) => edges[edge].Previous;
 
+    /// <summary>Asks the processor to load an edge.</summary>
+    internal readonly unsafe void Prefetch(int edge) => BepuUtilities.Memory.Prefetch.Read(edges.Memory + edge);
+
     /// <summary>Whether there is such an edge; for validation.</summary>
     internal readonly bool Contains(int edge) => (uint)edge < (uint)edges.Length;
 

@@ -180,27 +180,27 @@ public sealed unsafe partial class BroadPhase : IDisposable
     public void Update(IThreadDispatcher? threadDispatcher = null)
     {
         using var change = world.Change("BroadPhase.Update");
-        UpdateTrees();
+        UpdateTrees(threadDispatcher);
     }
 
     /// <summary>Whether something is left to do where no body is awake.</summary>
     internal bool IsUpdateDue => upkeep.IsDue(StaticTree.LeafCount);
 
-    internal void UpdateTrees()
+    internal void UpdateTrees(IThreadDispatcher? dispatcher = null)
     {
         // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
         if (StaticTreeUpkeep.IsGoodPart(activeAdditions, ActiveTree.LeafCount))
         {
-            ActiveTree.BinnedBuild(Pool);
+            ActiveTree.BinnedBuild(Pool, dispatcher);
         }
         else
         {
-            ActiveTree.Refit(Pool);
+            ActiveTree.Refit(Pool, dispatcher);
             ActiveTree.Refine(Pool);
         }
         activeAdditions = 0;
 
-        upkeep.Update(ref StaticTree, Pool);
+        upkeep.Update(ref StaticTree, Pool, dispatcher);
     }
 
     /// <summary>Finds all pairs of leaves with overlapping bounds that have an active leaf, on all workers of the dispatcher.</summary>

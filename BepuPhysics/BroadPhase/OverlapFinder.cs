@@ -27,14 +27,15 @@ static unsafe class OverlapFinder
     {
         if (activeTree.LeafCount == 0)
             return;
+        var isShared = dispatcher is { ThreadCount: > 1 } && activeTree.LeafCount >= MinimumLeafCountForThreads;
+        var runs = isShared ? LeafRuns.Prepare(activeTree, dispatcher!.ThreadCount, pool) : new LeafRuns(activeTree, pool);
         // Handlers are the caller's and may throw.
-        var runs = new LeafRuns(activeTree, pool);
         try
         {
-            if (dispatcher is null || dispatcher.ThreadCount <= 1 || activeTree.LeafCount < MinimumLeafCountForThreads)
-                FindOnCaller(activeTree, staticTree, runs, ref handler);
+            if (isShared)
+                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher!, world);
             else
-                FindOnWorkers(activeTree, staticTree, runs, pool, ref handler, dispatcher, world);
+                FindOnCaller(activeTree, staticTree, runs, ref handler);
         }
         finally
         {
@@ -69,7 +70,6 @@ static unsafe class OverlapFinder
         WorldLock world)
         where THandler : struct, IBroadPhaseOverlapHandler
     {
-        var pieces = new OverlapPieces(activeTree, staticTree, PiecesPerWorker * dispatcher.ThreadCount, pool);
         var work = new FindWork<THandler>
         {
             World = world,
@@ -77,7 +77,8 @@ static unsafe class OverlapFinder
             ActiveTree = activeTree,
             StaticTree = staticTree,
             Runs = runs,
-            Pieces = pieces
+            Pool = pool,
+            PieceCount = PiecesPerWorker * dispatcher.ThreadCount,
         };
         try
         {
@@ -86,7 +87,7 @@ static unsafe class OverlapFinder
         finally
         {
             handler = work.Handler;
-            pieces.Dispose(pool);
+            work.Pieces.Dispose(pool);
         }
     }
 
@@ -96,16 +97,35 @@ static unsafe class OverlapFinder
         public THandler Handler;
         public Tree ActiveTree, StaticTree;
         public LeafRuns Runs;
+        public BufferPool Pool;
+        public int PieceCount;
         public OverlapPieces Pieces;
 
-        public readonly int StageCount => 1;
+        public readonly int StageCount => 2;
 
         // Pairs first: they are the larger pieces.
-        public readonly int GetBlockCount(int stage) => Pieces.Pairs.Count + Pieces.RangeCount;
+        public readonly int GetBlockCount(int stage) => stage == 0 ? 1 + Runs.PartCount : Pieces.Pairs.Count + Pieces.RangeCount;
 
         public void Execute(int stage, int block, int workerIndex)
         {
             World.MarkWorker();
+            if (stage == 0)
+                Prepare(block);
+            else
+                Find(block, workerIndex);
+        }
+
+        // One block cuts the work into pieces, and it alone uses the pool; the others copy the boxes of the leaves.
+        void Prepare(int block)
+        {
+            if (block == 0)
+                Pieces = new OverlapPieces(ActiveTree, StaticTree, PieceCount, Pool);
+            else
+                Runs.FillPart(ActiveTree, block - 1);
+        }
+
+        void Find(int block, int workerIndex)
+        {
             if (block >= Pieces.Pairs.Count)
             {
                 Pieces.GetRange(block - Pieces.Pairs.Count, out var firstNode, out var endNode);

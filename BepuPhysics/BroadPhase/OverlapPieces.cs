@@ -38,7 +38,11 @@ unsafe struct OverlapPieces
         AddRoots(activeTree, staticTree, pool);
     }
 
-    public void Dispose(BufferPool pool) => Pairs.Dispose(pool);
+    public void Dispose(BufferPool pool)
+    {
+        if (Pairs.Span.Allocated)
+            Pairs.Dispose(pool);
+    }
 
     /// <summary>Nodes of a range.</summary>
     public readonly void GetRange(int range, out int firstNode, out int endNode)

@@ -1,6 +1,7 @@
 using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
+using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -34,14 +35,14 @@ struct StaticTreeUpkeep
     public static bool IsGoodPart(int changes, int leafCount) => changes > 32 && changes > leafCount / 4;
 
     /// <summary>Looks at the tree, if that is due, and builds it if it is not what it was.</summary>
-    public void Update(ref Tree tree, BufferPool pool)
+    public void Update(ref Tree tree, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         if (!IsDue(tree.LeafCount))
             return;
         changes = 0;
         if (!IsGoodPart(Math.Abs(tree.LeafCount - leavesWhenBuilt), tree.LeafCount) && tree.MeasureRelativeCost() <= TolerableCost * costWhenBuilt)
             return;
-        tree.BinnedBuild(pool);
+        tree.BinnedBuild(pool, dispatcher);
         leavesWhenBuilt = tree.LeafCount;
         costWhenBuilt = tree.MeasureRelativeCost();
     }

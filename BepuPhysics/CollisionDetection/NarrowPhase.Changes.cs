@@ -1,15 +1,23 @@
+using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.CollisionDetection;
 
 // What the workers have noted is brought into the order of its pairs and made on one thread.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
+    // Below so many constraints that move or are new a dispatch costs as much as it saves.
+    const int LeastForThreads = 128;
+
     QuickList<NoteKey> order;
+    QuickList<AddedConstraint> added;
 
     /// <summary>Something that a worker has noted about a pair, for the flush.</summary>
     interface INote
@@ -23,8 +31,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public CollidablePair Pair { get; } = pair;
         public ChildIds Children { get; } = children;
         public bool KeepsHistory { get; } = keepsHistory;
+        /// <summary>What the constraint holds that the manifold has had so far, in the list of the worker; negative where it has not been read.</summary>
+        public int Old = NotRead;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
+
+        public const int NotRead = -1;
+    }
+
+    // A constraint that was added for a note, and where it is remembered what its contacts are called.
+    struct AddedConstraint
+    {
+        public int Worker;
+        public int Index;
+        public int Old;
+        public ConstraintHandle Constraint;
+        public int PairIndex;
+        public int ChildManifold;
     }
 
     // A pair with a coefficient of restitution.
@@ -55,44 +78,67 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    internal override void Flush()
+    internal override void Flush(IThreadDispatcher? dispatcher)
     {
         try
         {
-            ApplyChanges();
+            ApplyChanges(dispatcher);
         }
         finally
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
             Release(ref order, Pool);
+            Release(ref added, Pool);
             ReleaseWorkers();
         }
     }
 
-    void ApplyChanges()
+    void ApplyChanges(IThreadDispatcher? dispatcher)
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        RemoveUnseenPairs();
-        RemoveGoneManifolds();
-        order.Count = 0;
-        for (int i = 0; i < workers.Length; ++i)
-            Gather(ref workers[i].Pending, i);
-        SortByKey();
-        WakeTouched();
-        for (int i = 0; i < order.Count; ++i)
+        var solver = Simulation.Solver;
+        solver.BeginDeferral();
+        try
         {
-            PrefetchPending(i);
-            Apply(workers[order[i].Worker].Pending[order[i].Index]);
+            RemoveUnseenPairs();
+            RemoveGoneManifolds();
+            order.Count = 0;
+            for (int i = 0; i < workers.Length; ++i)
+                Gather(ref workers[i].Pending, i);
+            SortByKey();
+            if (Simulation.Bodies.Asleep.Count != 0)
+            {
+                // Constraints that wake are whole at once, and those that are replaced are read before others move.
+                FinishColumns(dispatcher);
+                WakeTouched();
+                solver.BeginDeferral();
+            }
+            for (int i = 0; i < order.Count; ++i)
+            {
+                PrefetchPending(i);
+                Apply(order[i].Worker, order[i].Index);
+            }
+        }
+        finally
+        {
+            FinishColumns(dispatcher);
         }
         WatchBouncingPairs();
+    }
+
+    void FinishColumns(IThreadDispatcher? dispatcher)
+    {
+        Simulation.Solver.PrepareDeferred();
+        var work = new WriteWork { NarrowPhase = this };
+        var isWorthThreads = added.Count + Simulation.Solver.DeferredMoveCount >= LeastForThreads;
+        StagedWork.Run(ref work, isWorthThreads ? dispatcher : null);
+        Simulation.Solver.EndDeferral();
     }
 
     // Who is touched is in the solver in this very step.
     void WakeTouched()
     {
-        if (Simulation.Bodies.Asleep.Count == 0)
-            return;
         var awakener = Simulation.Awakener;
         awakener.BeginRequests();
         awakener.RequestHeldByMovingKinematics();
@@ -105,7 +151,26 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (pending.Pair.B.Mobility != CollidableMobility.Static)
                 awakener.Request(pending.Pair.B.Slot);
         }
-        awakener.WakeRequested();
+        if (awakener.WakeRequested())
+            ReadWoken();
+    }
+
+    // No worker has read the constraints that slept until now.
+    void ReadWoken()
+    {
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var worker = ref workers[order[i].Worker];
+            ref var pending = ref worker.Pending[order[i].Index];
+            var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
+            if (index < 0)
+                continue;
+            for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
+            {
+                if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
+                    Read(ref worker, ref pending, manifolds.Current);
+            }
+        }
     }
 
     // Only some steps, and some pairs, need a list; no others pay for it.
@@ -133,22 +198,60 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
     void PrefetchPending(int index)
     {
-        const int distance = 8;
+        const int distance = 6;
+        if (index + 3 * distance < order.Count)
+            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 3 * distance].Key));
         if (index + 2 * distance < order.Count)
-            Pairs.Pairs.PrefetchSlot(PairOf(order[index + 2 * distance].Key));
+        {
+            ref var later = ref order[index + 2 * distance];
+            var pair = PairOf(later.Key);
+            Pairs.Pairs.PrefetchElement(pair);
+            PrefetchLocation(pair.A);
+            PrefetchLocation(pair.B);
+            ref var pending = ref workers[later.Worker].Pending[later.Index];
+            Prefetch.Read(Unsafe.AsPointer(ref pending));
+            Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
+        }
         if (index + distance >= order.Count)
             return;
-        ref var next = ref order[index + distance];
-        Pairs.Pairs.PrefetchElement(PairOf(next.Key));
-        ref var pending = ref workers[next.Worker].Pending[next.Index];
-        Prefetch.Read(Unsafe.AsPointer(ref pending));
-        Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
+        var next = PairOf(order[index + distance].Key);
+        PrefetchRows(next.A);
+        PrefetchRows(next.B);
+        var guess = Pairs.Pairs.PrefetchElement(next);
+        if (guess >= 0 && Pairs.Pairs.Values[guess].Single.HasConstraint)
+            Simulation.Solver.Prefetch(Pairs.Pairs.Values[guess].Single.Constraint);
     }
 
-    void Apply(in PendingManifold pending)
+    void PrefetchLocation(CollidableReference collidable)
     {
-        ContactPatch old = default;
-        var solver = Simulation.Solver;
+        if (collidable.Mobility != CollidableMobility.Static)
+            Prefetch.Read(Simulation.Bodies.Locations.Memory + collidable.Slot);
+    }
+
+    void PrefetchRows(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            return;
+        ref var location = ref Simulation.Bodies.Locations[collidable.Slot];
+        ref var set = ref Simulation.Bodies.SetOf(location);
+        Prefetch.Read(set.LocalInertias.Memory + location.Index);
+        Prefetch.Read(set.Constraints.Memory + location.Index);
+    }
+
+    /// <summary>Reads what a manifold's constraint holds of the last step.</summary>
+    // Where the manifold is noted, by many workers, and not in the flush: nobody else writes to the constraint in between.
+    void Read(ref Worker worker, ref PendingManifold pending, in CachedManifold manifold)
+    {
+        Note(ref worker.Old, default(ContactPatch), worker.Pool);
+        pending.Old = worker.Old.Count - 1;
+        new ContactConstraint(Simulation.Solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
+            .ReadPatch(manifold.Features, out worker.Old[pending.Old]);
+    }
+
+    // The structure alone: which constraints there are, and where. What they hold is written when all are there.
+    void Apply(int workerIndex, int noteIndex)
+    {
+        ref var pending = ref workers[workerIndex].Pending[noteIndex];
         var ofChildren = pending.Children != ChildIds.None;
         var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
         ref var cached = ref Pairs.Pairs.Values[index];
@@ -159,26 +262,77 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Pairs.Empty(ref cached, ofChildren, Pool);
         }
         ref var manifold = ref cached.Single;
+        var childManifold = PairRecords<ChildManifold>.None;
         if (ofChildren)
         {
-            ref var record = ref Pairs.FindOrAdd(ref cached, pending.Children, Pool);
+            childManifold = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
+            ref var record = ref Pairs.Manifolds.Memory[childManifold];
             manifold = ref record.Manifold;
             if (pending.Children.IsPatch)
                 record.Patch.Write(pending.Manifold);
         }
         if (pending.KeepsHistory && manifold.History < 0)
             manifold.History = Pairs.Histories.Take(Pool);
+        var contactCount = pending.Manifold.Count;
+        var old = PendingManifold.NotRead;
         if (manifold.HasConstraint)
         {
-            new ContactConstraint(solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
-                .ReadPatch(manifold.Features, out old);
+            old = pending.Old;
+            Check.That(old != PendingManifold.NotRead || contactCount == 0);
             RemoveConstraint(ref cached, ref manifold);
         }
-        var contactCount = pending.Manifold.Count;
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        new ContactConstraint(solver, manifold.Constraint, contactCount).WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
+        Note(ref added, new()
+        {
+            Worker = workerIndex,
+            Index = noteIndex,
+            Old = old,
+            Constraint = manifold.Constraint,
+            PairIndex = index,
+            ChildManifold = childManifold,
+        }, Pool);
+    }
+
+    // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
+    struct WriteWork : IStagedWork
+    {
+        const int PerBlock = 32;
+
+        public NarrowPhase<TCallbacks> NarrowPhase;
+
+        public readonly int StageCount => 2;
+        public readonly int GetBlockCount(int stage) =>
+            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
+
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            NarrowPhase.World.MarkWorker();
+            if (stage == 0)
+            {
+                NarrowPhase.Simulation.Solver.DoDeferred(block);
+                return;
+            }
+            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.added.Count);
+            for (int i = block * PerBlock; i < end; ++i)
+                NarrowPhase.WriteAdded(NarrowPhase.added[i]);
+        }
+    }
+
+    void WriteAdded(in AddedConstraint constraint)
+    {
+        ref var worker = ref workers[constraint.Worker];
+        ref var pending = ref worker.Pending[constraint.Index];
+        ContactPatch none = default;
+        ref var old = ref none;
+        if (constraint.Old != PendingManifold.NotRead)
+            old = ref worker.Old[constraint.Old];
+        ref var manifold = ref Pairs.Pairs.Values[constraint.PairIndex].Single;
+        if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
+            manifold = ref Pairs.Manifolds.Memory[constraint.ChildManifold].Manifold;
+        new ContactConstraint(Simulation.Solver, constraint.Constraint, pending.Manifold.Count)
+            .WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
     }
 
     void WatchBouncingPairs()

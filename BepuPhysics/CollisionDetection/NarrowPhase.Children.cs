@@ -122,6 +122,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             ref var result = ref results[i];
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
+            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material };
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
                 var record = Pairs.Manifolds.Memory + known;
@@ -132,8 +133,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                         record->Patch.Write(result.Manifold);
                     continue;
                 }
+                if (record->Manifold.HasConstraint && result.Manifold.Count > 0)
+                    Read(ref worker, ref pending, record->Manifold);
             }
-            Note(ref worker.Pending, new(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material }, worker.Pool);
+            Note(ref worker.Pending, pending, worker.Pool);
         }
         SkipGone(ref worker, tested.Pair, ref known, ulong.MaxValue);
     }

@@ -26,6 +26,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public WaitingList<TestedPair> TestedPairs;
         public ContactQueue Contacts;
         public QuickList<PendingManifold> Pending;
+        public QuickList<ContactPatch> Old;
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
         public QuickList<CollidablePair> Sensed;
@@ -209,7 +210,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
                 return;
             }
         }
-        Note(ref worker.Pending, new(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material }, worker.Pool);
+        var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material };
+        if (tested.ConstraintTypeId >= 0)
+            Read(ref worker, ref pending, Pairs.Pairs.Values[tested.CacheIndex].Single);
+        Note(ref worker.Pending, pending, worker.Pool);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -245,6 +249,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         worker.Batcher.Dispose();
         worker.TestedPairs.Dispose(worker.Pool);
         Release(ref worker.Pending, worker.Pool);
+        Release(ref worker.Old, worker.Pool);
         Release(ref worker.Bouncing, worker.Pool);
         Release(ref worker.Gone, worker.Pool);
         Release(ref worker.Sensed, worker.Pool);

@@ -25,7 +25,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OverlapFinder.Compile<LayeredOverlaps>();
         }
         StagedWork.Compile<FlushWork>();
+        StagedWork.Compile<WriteWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
+        Precompilation.Compile(typeof(QuickList<ContactPatch>));
+        Precompilation.Compile(typeof(QuickList<AddedConstraint>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
         OverlapFinder.Compile<Overlaps>();

@@ -68,7 +68,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
-    internal abstract void Flush();
+    internal abstract void Flush(IThreadDispatcher? dispatcher);
     internal abstract void DisposeCallbacks();
     /// <summary>Compiles what is generic over the callbacks of a game, without calling them.</summary>
     /// <param name="shapeTypes">Ids of the shape types whose tests are compiled.</param>
@@ -107,11 +107,25 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// <summary>Removes every pair that was not seen in this step.</summary>
     private protected void RemoveUnseenPairs()
     {
-        for (int i = Pairs.FindUnseen(Pairs.Pairs.Count); i >= 0; i = Pairs.FindUnseen(i))
+        var next = FindUnseen(FindUnseen(Pairs.Pairs.Count, out var first), out var second);
+        for (var current = first; current >= 0;)
         {
-            RemoveConstraints(i);
-            Pairs.Remove(i, Pool);
+            // A removal changes indices from its own on; those that are still to come are below.
+            next = FindUnseen(next, out var third);
+            RemoveConstraints(current);
+            Pairs.Remove(current, Pool);
+            current = second;
+            second = third;
         }
+    }
+
+    // The next pair that was not seen, whose constraint is loaded until its turn comes.
+    int FindUnseen(int limit, out int found)
+    {
+        found = limit < 0 ? -1 : Pairs.FindUnseen(limit);
+        if (found >= 0 && Pairs.Pairs.Values[found].Single.HasConstraint)
+            Simulation.Solver.Prefetch(Pairs.Pairs.Values[found].Single.Constraint);
+        return found;
     }
 
     /// <summary>Removes all contacts, and what is remembered of all pairs, but for those that sleep.</summary>

@@ -172,10 +172,11 @@ public sealed unsafe class IslandAwakener
     }
 
     /// <summary>Wakes the islands that were listed, in the order of their lowest slots.</summary>
-    internal void WakeRequested()
+    /// <returns>Whether there were any.</returns>
+    internal bool WakeRequested()
     {
         if (requests.Count == 0)
-            return;
+            return false;
         requests.Span.AsSpan()[..requests.Count].Sort();
         for (int i = 0; i < requests.Count; ++i)
         {
@@ -185,6 +186,7 @@ public sealed unsafe class IslandAwakener
                 islands.Wake(island);
         }
         requests.Count = 0;
+        return true;
     }
 
     struct BodyFinder<TFilter> : IBreakableForEach<CollidableReference> where TFilter : struct, IStaticChangeAwakeningFilter

@@ -70,6 +70,13 @@ public sealed unsafe partial class Solver
         RemoveWithoutNotice(handle);
     }
 
+    /// <summary>Asks the processor to load what is needed to remove a constraint.</summary>
+    internal void Prefetch(ConstraintHandle handle)
+    {
+        BepuUtilities.Memory.Prefetch.Read(Locations.Memory + handle.Slot);
+        Edges.Prefetch(Edges.EdgeOf(handle.Slot, 0));
+    }
+
     /// <summary>Removes a constraint that exists and tells nobody.</summary>
     internal void RemoveWithoutNotice(ConstraintHandle handle)
     {
@@ -213,8 +220,11 @@ public sealed unsafe partial class Solver
             for (int i = 0; i < dynamicCount; ++i)
                 batch.DynamicBodies.Add(dynamics[i], pool);
         }
+        ref var typeBatch = ref batch.FindOrCreate(typeId, pool);
         var index = Processor(typeId).Allocate(
-            ref batch.FindOrCreate(typeId, pool), handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool);
+            ref typeBatch, handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool, isWrittenWhole: defersColumns);
+        if (defersColumns)
+            DeferClearing(batchIndex, ref typeBatch, index);
         return new() { SetIndex = 0, BatchIndex = batchIndex, TypeId = typeId, IndexInTypeBatch = index };
     }
 
@@ -274,9 +284,13 @@ public sealed unsafe partial class Solver
             }
         }
         var index = location.IndexInTypeBatch;
-        var moved = processor.Remove(ref typeBatch, index);
+        var moved = processor.Remove(ref typeBatch, index, movesColumns: !defersColumns);
         if (moved.Value >= 0)
+        {
             Locations[moved.Slot].IndexInTypeBatch = index;
+            if (defersColumns)
+                DeferMove(location.BatchIndex, ref typeBatch, typeBatch.ConstraintCount, index);
+        }
         if (typeBatch.ConstraintCount == 0)
             batch.RemoveTypeBatch(processor, pool);
         // The batches before keep their indices, which tell colours.

@@ -64,12 +64,14 @@ public sealed unsafe partial class Solver
         }
     }
 
+    // Whether any constraint is swept over on split bodies.
+    bool HasFallback => FindBatch(ActiveSet, BatchKind.Fallback) is >= 0 and var index && ActiveSet.Batches[index].TypeBatches.Count > 0;
+
+    // On some worker, which alone uses the pool then.
     void BuildSplitBodies(ref FallbackParts split)
     {
         ref var batches = ref ActiveSet.Batches;
         var fallback = FindBatch(ActiveSet, BatchKind.Fallback);
-        if (fallback < 0 || batches[fallback].CountConstraints() == 0)
-            return;
         ref var typeBatches = ref batches[fallback].TypeBatches;
         pool.Take(bodies.ActiveSet.Count, out split.Counts);
         split.Counts.Clear(0, split.Counts.Length);

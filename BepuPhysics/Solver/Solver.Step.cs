@@ -61,6 +61,8 @@ public sealed unsafe partial class Solver
         public int Batch;
         public int FirstBlock;
         public int BlockCount;
+        // Blocks that are done one after the other, as one: those of small batches in a row. 0 where each is for itself.
+        public int BlocksInRow;
         public SolverPoint Point;
         public int Optional;
         public Substep Substep;
@@ -69,6 +71,7 @@ public sealed unsafe partial class Solver
     // A range of bundles of one type batch.
     struct Block
     {
+        public int Batch;
         public int TypeBatch;
         public int StartBundle;
         public int EndBundle;
@@ -80,6 +83,8 @@ public sealed unsafe partial class Solver
         public int Start;
         public int JointCount;
         public int Count;
+        // Whether it has so few constraints that sharing them takes longer than solving them.
+        public bool IsSmall;
     }
 
     // Whether the last step changed velocities in an optional stage after its substeps.
@@ -112,7 +117,6 @@ public sealed unsafe partial class Solver
             work.Bodies = new SolverBodies(set);
             BuildBlocks(ref work);
             BuildStages(ref work);
-            BuildSplitBodies(ref work.Split);
             integrator.Prepare(substepDt);
             StagedWork.Run(ref work, dispatcher);
             ReadError();
@@ -173,23 +177,42 @@ public sealed unsafe partial class Solver
                 work.BlocksOfBatch.Add(default, pool);
                 continue;
             }
-            AddBlocks(ref work, batches[i], ofJoints: true);
+            var bundles = AddBlocks(ref work, i, ofJoints: true);
             var firstContacts = work.Blocks.Count;
-            AddBlocks(ref work, batches[i], ofJoints: false);
-            work.BlocksOfBatch.Add(new() { Start = start, JointCount = firstContacts - start, Count = work.Blocks.Count - start }, pool);
+            bundles += AddBlocks(ref work, i, ofJoints: false);
+            work.BlocksOfBatch.Add(new()
+            {
+                Start = start,
+                JointCount = firstContacts - start,
+                Count = work.Blocks.Count - start,
+                IsSmall = bundles <= ConstraintBundlesPerBlock && batches[i].Kind == BatchKind.Coloured,
+            }, pool);
         }
     }
 
-    void AddBlocks(ref SolveWork work, in ConstraintBatch batch, bool ofJoints)
+    // Returns the number of bundles.
+    int AddBlocks(ref SolveWork work, int batchIndex, bool ofJoints)
     {
+        ref var batch = ref ActiveSet.Batches[batchIndex];
+        var sum = 0;
         for (int i = 0; i < batch.TypeBatches.Count; ++i)
         {
             if (batch.TypeBatches[i].TypeId >= ConstraintTypeIds.ContactTypeCount != ofJoints)
                 continue;
             var bundles = batch.TypeBatches[i].BundleCount;
+            sum += bundles;
             for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
-                work.Blocks.Add(new() { TypeBatch = i, StartBundle = bundle, EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles) }, pool);
+            {
+                work.Blocks.Add(new()
+                {
+                    Batch = batchIndex,
+                    TypeBatch = i,
+                    StartBundle = bundle,
+                    EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles),
+                }, pool);
+            }
         }
+        return sum;
     }
 
     void BuildStages(ref SolveWork work)
@@ -249,6 +272,9 @@ public sealed unsafe partial class Solver
     void AddIntegration(ref SolveWork work, IntegrationStage stage)
     {
         var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
+        // Who is split, and how, has nothing to do with the motion of bodies: another worker finds out meanwhile.
+        if (stage == IntegrationStage.First && HasFallback)
+            ++blocks;
         work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, BlockCount = blocks }, pool);
     }
 
@@ -325,9 +351,31 @@ public sealed unsafe partial class Solver
     {
         if (blockCount == 0)
             return;
-        work.Stages.Add(new() { Kind = kind, Substep = substep, Batch = batch, FirstBlock = firstBlock, BlockCount = blockCount }, pool);
+        var isSmall = work.BlocksOfBatch[batch].IsSmall;
+        if (isSmall && TryContinueRow(ref work, kind, firstBlock, blockCount))
+            return;
+        work.Stages.Add(new()
+        {
+            Kind = kind,
+            Substep = substep,
+            Batch = batch,
+            FirstBlock = firstBlock,
+            BlockCount = isSmall ? 1 : blockCount,
+            BlocksInRow = isSmall ? blockCount : 0,
+        }, pool);
         if (IsFallback(batch))
             work.Stages.Add(new() { Kind = StageKind.JoinParts, Batch = batch, BlockCount = -1 }, pool);
+    }
+
+    // A body with hundreds of contacts has a batch for each of the first of them, most of which have no other constraint. To hand work over after each
+    // would take longer than the work.
+    static bool TryContinueRow(ref SolveWork work, StageKind kind, int firstBlock, int blockCount)
+    {
+        ref var last = ref work.Stages[work.Stages.Count - 1];
+        if (last.Kind != kind || last.BlocksInRow == 0 || last.FirstBlock + last.BlocksInRow != firstBlock)
+            return false;
+        last.BlocksInRow += blockCount;
+        return true;
     }
 
     bool IsFallback(int batch) => ActiveSet.Batches[batch].Kind == BatchKind.Fallback;
@@ -363,6 +411,11 @@ public sealed unsafe partial class Solver
             switch (stage.Kind)
             {
                 case StageKind.Integrate:
+                    if (stage.Integration == IntegrationStage.First && Solver.HasFallback && blockIndex-- == 0)
+                    {
+                        Solver.BuildSplitBodies(ref Split);
+                        break;
+                    }
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.Awake.Count);
                     var start = blockIndex * BodyBundlesPerBlock;
                     Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
@@ -370,7 +423,10 @@ public sealed unsafe partial class Solver
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                 case StageKind.Relax:
-                    RunConstraints(stage, Blocks[stage.FirstBlock + blockIndex]);
+                    if (stage.BlocksInRow == 0)
+                        RunConstraints(stage, Blocks[stage.FirstBlock + blockIndex]);
+                    for (int i = 0; i < stage.BlocksInRow; ++i)
+                        RunConstraints(stage, Blocks[stage.FirstBlock + i]);
                     break;
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;
@@ -390,7 +446,7 @@ public sealed unsafe partial class Solver
 
         readonly void RunConstraints(in Stage stage, in Block block)
         {
-            ref var constraints = ref Solver.ActiveSet.Batches[stage.Batch];
+            ref var constraints = ref Solver.ActiveSet.Batches[block.Batch];
             ref var batch = ref constraints.TypeBatches[block.TypeBatch];
             var processor = Solver.Processor(batch.TypeId);
             ref readonly var substep = ref stage.Substep;

@@ -22,6 +22,8 @@ public struct TypeBatch
     public Buffer<float> AccumulatedImpulses;
     /// <summary>Handle of each constraint.</summary>
     public Buffer<ConstraintHandle> IndexToHandle;
+    /// <summary>What is left to be done to descriptions and impulses, while that is deferred (Solver.Deferral.cs).</summary>
+    internal PendingColumns Pending;
 
     /// <summary>Number of bundles in use.</summary>
     public readonly int BundleCount => (ConstraintCount + Vector<float>.Count - 1) / Vector<float>.Count;

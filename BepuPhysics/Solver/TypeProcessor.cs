@@ -49,8 +49,15 @@ public abstract partial class TypeProcessor
     internal abstract void SolveSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle);
 
     /// <summary>Appends a constraint with zero impulses and an unwritten description.</summary>
+    /// <param name="batch">The batch.</param>
+    /// <param name="handle">Its handle.</param>
+    /// <param name="encodedBodies">References to its bodies.</param>
+    /// <param name="minimumCapacity">Constraints that a new batch has room for.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <param name="isWrittenWhole">Whether description and impulses are left alone, as the caller writes both, and clears what else is in the bundle.</param>
     /// <returns>Its index in the batch.</returns>
-    internal int Allocate(ref TypeBatch batch, ConstraintHandle handle, ReadOnlySpan<int> encodedBodies, int minimumCapacity, BufferPool pool)
+    internal int Allocate(ref TypeBatch batch, ConstraintHandle handle, ReadOnlySpan<int> encodedBodies, int minimumCapacity, BufferPool pool,
+        bool isWrittenWhole = false)
     {
         Check.That(encodedBodies.Length == BodiesPerConstraint);
         if (batch.ConstraintCount == batch.IndexToHandle.Length)
@@ -58,16 +65,20 @@ public abstract partial class TypeProcessor
         var index = batch.ConstraintCount++;
         batch.IndexToHandle[index] = handle;
         if (index % Vector<float>.Count == 0)
-            ClearBundle(ref batch, index / Vector<float>.Count);
+            ClearBundle(ref batch, index / Vector<float>.Count, isWrittenWhole);
         for (int slot = 0; slot < encodedBodies.Length; ++slot)
             BodyReference(ref batch, index, slot) = encodedBodies[slot];
-        ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
+        if (!isWrittenWhole)
+            ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
         return index;
     }
 
     /// <summary>Removes a constraint by moving the last one into its place.</summary>
+    /// <param name="batch">The batch.</param>
+    /// <param name="index">The constraint's index.</param>
+    /// <param name="movesColumns">Whether description and impulses move along; otherwise the caller sees to that.</param>
     /// <returns>Handle of the constraint that was moved; its value is -1 where none was.</returns>
-    internal ConstraintHandle Remove(ref TypeBatch batch, int index)
+    internal ConstraintHandle Remove(ref TypeBatch batch, int index, bool movesColumns = true)
     {
         var last = --batch.ConstraintCount;
         var moved = new ConstraintHandle(-1);
@@ -75,7 +86,9 @@ public abstract partial class TypeProcessor
         {
             moved = batch.IndexToHandle[last];
             var move = new MoveInBundles(last, index);
-            VisitColumns(ref batch, ref move);
+            VisitNames(ref batch, ref move);
+            if (movesColumns)
+                VisitContents(ref batch, ref move);
         }
         for (int slot = 0; slot < BodiesPerConstraint; ++slot)
             BodyReference(ref batch, last, slot) = EncodedBody.Empty;
@@ -116,10 +129,39 @@ public abstract partial class TypeProcessor
     // The handles tell the capacity, so they come last, should the system refuse memory in between.
     void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
     {
-        visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
+        VisitContents(ref batch, ref visitor);
+        VisitNames(ref batch, ref visitor);
+    }
+
+    // What a constraint holds.
+    void VisitContents<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
+    {
         visitor.Visit(ref batch.Prestep, PrestepFloats);
         visitor.Visit(ref batch.AccumulatedImpulses, ImpulseFloats);
+    }
+
+    // Who a constraint is, and what it connects.
+    void VisitNames<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
+    {
+        visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
         visitor.Visit(ref batch.IndexToHandle, 1);
+    }
+
+    /// <summary>Copies what a constraint holds to the place of another one.</summary>
+    internal void MoveColumns(ref TypeBatch batch, int from, int to)
+    {
+        var move = new MoveInBundles(from, to);
+        VisitContents(ref batch, ref move);
+    }
+
+    /// <summary>Clears what is in the lanes of the last bundle that have no constraint.</summary>
+    internal void ClearUnusedLanes(ref TypeBatch batch)
+    {
+        for (int index = batch.ConstraintCount; index % Vector<float>.Count != 0; ++index)
+        {
+            ClearColumn(ref batch.Prestep, PrestepFloats, index);
+            ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
+        }
     }
 
     internal void Dispose(ref TypeBatch batch, BufferPool pool)
@@ -141,11 +183,14 @@ public abstract partial class TypeProcessor
         index / Vector<float>.Count * floats * Vector<float>.Count + index % Vector<float>.Count;
 
     // Unused lanes are computed with and never stored. Zeros keep them from being slow denormals or from trapping in a checked build.
-    void ClearBundle(ref TypeBatch batch, int bundle)
+    void ClearBundle(ref TypeBatch batch, int bundle, bool isWrittenWhole)
     {
         var lanes = Vector<float>.Count;
-        batch.Prestep.Clear(bundle * lanes * PrestepFloats, lanes * PrestepFloats);
-        batch.AccumulatedImpulses.Clear(bundle * lanes * ImpulseFloats, lanes * ImpulseFloats);
+        if (!isWrittenWhole)
+        {
+            batch.Prestep.Clear(bundle * lanes * PrestepFloats, lanes * PrestepFloats);
+            batch.AccumulatedImpulses.Clear(bundle * lanes * ImpulseFloats, lanes * ImpulseFloats);
+        }
         for (int i = 0; i < lanes * BodiesPerConstraint; ++i)
             batch.BodyReferences[bundle * lanes * BodiesPerConstraint + i] = EncodedBody.Empty;
     }

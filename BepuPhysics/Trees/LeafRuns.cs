@@ -20,9 +20,12 @@ unsafe struct LeafRuns
     public const int RunLength = 8;
 
     const int ArrayCount = 7;
+    // Two cache lines: what threads write over and over without need, they write apart.
+    const int Separation = 32;
 
     Buffer<float> memory;
     Buffer<int> firstLeaves;
+    TreeParts parts;
     readonly int stride;
     readonly int* packings;
 
@@ -30,21 +33,45 @@ unsafe struct LeafRuns
     static readonly int[] Packings = MakePackings();
 
     /// <summary>Copies the boxes of a tree in depth-first order.</summary>
-    public LeafRuns(in Tree tree, BufferPool pool)
+    public LeafRuns(in Tree tree, BufferPool pool) : this(tree, 0, pool) => Fill(tree, 0, tree.NodeCount, tree.NodeCount);
+
+    /// <summary>Prepares for a tree of at least two leaves in depth-first order; its boxes are copied by <see cref="FillPart"/>.</summary>
+    public static LeafRuns Prepare(in Tree tree, int threadCount, BufferPool pool)
+    {
+        var parts = new TreeParts(tree, threadCount, pool);
+        var runs = new LeafRuns(tree, parts.Parts.Count * Separation, pool) { parts = parts };
+        for (var i = 0; i < parts.Tops.Count; ++i)
+            runs.Fill(tree, parts.Tops[i], parts.Tops[i] + 1, tree.NodeCount);
+        return runs;
+    }
+
+    /// <summary>Number of independent parts whose boxes are left to be copied.</summary>
+    public readonly int PartCount => parts.Parts.Count;
+
+    /// <summary>Copies the boxes of one part.</summary>
+    public readonly void FillPart(in Tree tree, int part) =>
+        Fill(tree, parts.Parts[part].Start, parts.Parts[part].End, tree.NodeCount + (part + 1) * Separation);
+
+    LeafRuns(in Tree tree, int unused, BufferPool pool)
     {
         Check.That(tree.IsDepthFirst);
         // Whole runs are read wherever a run begins, so a run of padding follows the last leaf.
         stride = tree.LeafCount + RunLength;
         packings = (int*)Unsafe.AsPointer(ref Packings[0]);
         pool.TakeAtLeast(ArrayCount * stride, out memory);
-        pool.TakeAtLeast(tree.NodeCount + 1, out firstLeaves);
-        Fill(tree);
+        pool.TakeAtLeast(tree.NodeCount + 1 + unused, out firstLeaves);
+        firstLeaves[0] = 0;
+        // One run of eight floats.
+        for (var array = 0; array < ArrayCount; ++array)
+            Vector256<float>.Zero.Store(memory.Memory + tree.LeafCount + array * stride);
     }
 
     public void Dispose(BufferPool pool)
     {
         pool.Return(ref memory);
         pool.Return(ref firstLeaves);
+        if (parts.Tops.Span.Allocated)
+            parts.Dispose(pool);
     }
 
     /// <summary>Place of the first leaf below a node. The node's first child begins there too, its second after all leaves of the
@@ -54,23 +81,21 @@ unsafe struct LeafRuns
     /// <summary>Index in the tree of the leaf at each place.</summary>
     public readonly int* LeafIndices => (int*)memory.Memory + 6 * stride;
 
-    readonly void Fill(in Tree tree)
+    // The nodes [start, end), where the place of a first leaf that nobody asks for is written to an index past the last node.
+    readonly void Fill(in Tree tree, int start, int end, int unused)
     {
         var first = firstLeaves.Memory;
         var boxes = memory.Memory;
         var indices = LeafIndices;
-        var nodeCount = tree.NodeCount;
-        first[0] = 0;
-        for (var node = 0; node < nodeCount; ++node)
+        for (var node = start; node < end; ++node)
         {
             var child = tree.Children + 2 * node;
             var place = first[node];
             for (var side = 0; side < 2; ++side, ++child)
             {
                 // No branch on what a child is: a subtree is written where its first leaf will be, and that comes later in order.
-                // Where it is a leaf, the place of its first leaf goes to one past the last node.
                 var index = child->Index;
-                first[index < 0 ? nodeCount : index] = place;
+                first[index < 0 ? unused : index] = place;
                 boxes[place] = child->Min.X;
                 boxes[place + stride] = child->Min.Y;
                 boxes[place + 2 * stride] = child->Min.Z;
@@ -81,9 +106,6 @@ unsafe struct LeafRuns
                 place += child->LeafCount;
             }
         }
-        // One run of eight floats.
-        for (var array = 0; array < ArrayCount; ++array)
-            Vector256<float>.Zero.Store(boxes + tree.LeafCount + array * stride);
     }
 
     static int[] MakePackings()

@@ -7,16 +7,25 @@ namespace BepuPhysics.Trees;
 public unsafe partial struct Tree
 {
     /// <summary>Builds the tree anew over its present leaves, which keep their indices. Leaves the nodes in depth-first order.</summary>
-    public void BinnedBuild(BufferPool pool)
+    public void BinnedBuild(BufferPool pool) => BinnedBuild(pool, null);
+
+    /// <summary>As <see cref="BinnedBuild(BufferPool)"/>, on many threads if the tree is large: the same tree.</summary>
+    internal void BinnedBuild(BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (LeafCount > 2)
+        if (LeafCount <= 2)
+            return;
+        using var scratch = new BuildScratch(LeafCount, pool);
+        if (IsWorthThreads(dispatcher))
         {
-            using var scratch = new BuildScratch(LeafCount, pool);
-            for (var leaf = 0; leaf < LeafCount; ++leaf)
-                scratch.Items[leaf] = Children[Leaves[leaf].Slot];
-            BuildAll(scratch);
+            Metanodes[0].ParentSlot = -1;
+            TreeBuildWork.Run(this, scratch.Items, scratch.Spare, scratch.NodeIndices, MaximumHeight, pool, dispatcher!);
+            isDepthFirst = true;
+            return;
         }
+        for (var leaf = 0; leaf < LeafCount; ++leaf)
+            scratch.Items[leaf] = Children[Leaves[leaf].Slot];
+        BuildAll(scratch);
     }
 
     /// <summary>Replaces the content of the tree: leaf i gets box i. Leaves the nodes in depth-first order.</summary>

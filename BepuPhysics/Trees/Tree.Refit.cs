@@ -1,12 +1,17 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using BepuUtilities;
 using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics.Trees;
 
 public unsafe partial struct Tree
 {
+    /// <summary>Below this many leaves a dispatch costs as much as a pass over all nodes.</summary>
+    const int MinimumLeafCountForThreads = 2048;
+
     /// <summary>Fits the box of every node to its children, from the leaves up; the shape of the tree and the places of its nodes
     /// stay.</summary>
     public readonly void Refit()
@@ -21,29 +26,76 @@ public unsafe partial struct Tree
 
     /// <summary>Fits the box of every node to its children and brings the nodes into depth-first order if they are not. The shape of the
     /// tree stays.</summary>
-    public void Refit(BufferPool pool)
+    public void Refit(BufferPool pool) => Refit(pool, null);
+
+    /// <summary>As <see cref="Refit(BufferPool)"/>, on many threads if the tree is large.</summary>
+    internal void Refit(BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
         if (!IsDepthFirst)
             SortNodes(pool);
-        if (LeafCount > 2)
+        if (LeafCount <= 2)
+            return;
+        if (!IsWorthThreads(dispatcher))
+        {
             SweepBounds();
+            return;
+        }
+        var work = new RefitWork { Tree = this, Parts = new TreeParts(this, dispatcher!.ThreadCount, pool) };
+        try
+        {
+            StagedWork.Run(ref work, dispatcher);
+        }
+        finally
+        {
+            work.Parts.Dispose(pool);
+        }
+    }
+
+    /// <summary>Whether going over all nodes takes so long that threads are worth waking.</summary>
+    readonly bool IsWorthThreads(IThreadDispatcher? dispatcher) => dispatcher is { ThreadCount: > 1 } && LeafCount >= MinimumLeafCountForThreads;
+
+    // Subtrees write to nobody's nodes but their own, and to the slots that they hang on.
+    struct RefitWork : IStagedWork
+    {
+        public Tree Tree;
+        public TreeParts Parts;
+
+        public readonly int StageCount => 2;
+        public readonly int GetBlockCount(int stage) => stage == 0 ? Parts.Parts.Count : 1;
+
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            if (stage == 0)
+            {
+                var part = Parts.Parts[block];
+                Tree.SweepBounds(part.Start, part.End);
+                return;
+            }
+            for (var i = Parts.Tops.Count - 1; i > 0; --i)
+                Tree.FitBoundsOfSlot(Parts.Tops[i]);
+        }
     }
 
     /// <summary>In depth-first order all that is below a node comes after it, so one sweep from the end sees children before
     /// parents.</summary>
-    readonly void SweepBounds()
+    readonly void SweepBounds() => SweepBounds(1, NodeCount);
+
+    // Every node writes into its parent unasked: that leaves no branch to predict.
+    readonly void SweepBounds(int start, int end)
+    {
+        for (var node = end - 1; node >= start; --node)
+            FitBoundsOfSlot(node);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void FitBoundsOfSlot(int node)
     {
         var children = Children;
-        var metanodes = Metanodes.Memory;
-        // Every node writes into its parent unasked: that leaves no branch to predict.
-        for (var node = NodeCount - 1; node > 0; --node)
-        {
-            var a = children + 2 * node;
-            BoxMath.StoreBox(children + metanodes[node].ParentSlot,
-                BoxMath.Min(BoxMath.LoadMin(a), BoxMath.LoadMin(a + 1)),
-                BoxMath.Max(BoxMath.LoadMax(a), BoxMath.LoadMax(a + 1)));
-        }
+        var a = children + 2 * node;
+        BoxMath.StoreBox(children + Metanodes.Memory[node].ParentSlot,
+            BoxMath.Min(BoxMath.LoadMin(a), BoxMath.LoadMin(a + 1)),
+            BoxMath.Max(BoxMath.LoadMax(a), BoxMath.LoadMax(a + 1)));
     }
 
     /// <summary>Walks the tree in post-order along its links, without a stack and in any order of nodes.</summary>
@@ -115,7 +167,7 @@ public unsafe partial struct Tree
 
     /// <summary>Brings box and leaf count of the child that stands for a node in its parent up to date.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly void FitSlotToNode(int node)
+    internal readonly void FitSlotToNode(int node)
     {
         var children = Children;
         var a = children + 2 * node;

@@ -213,7 +213,7 @@ public unsafe partial struct Tree
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly int HeightOf(NodeChild* child) => child->Index < 0 ? 0 : Metanodes[child->Index].Height;
+    internal readonly int HeightOf(NodeChild* child) => child->Index < 0 ? 0 : Metanodes[child->Index].Height;
 
     /// <summary>Height of a node from those of its children.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

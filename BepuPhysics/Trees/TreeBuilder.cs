@@ -20,10 +20,10 @@ unsafe ref struct TreeBuilder
     // Sorting so few costs less than filling and sweeping bins, and finds the best split instead of a good one.
     const int SortedCount = 8;
 
-    NodeChild* children;
-    Metanode* metanodes;
-    Leaf* leaves;
-    int* nodeIndices;
+    readonly NodeChild* children;
+    readonly Metanode* metanodes;
+    readonly Leaf* leaves;
+    readonly int* nodeIndices;
     Bins* bins;
 
     /// <summary>Scratch of a split; a node is done with it before its children begin.</summary>
@@ -47,35 +47,54 @@ unsafe ref struct TreeBuilder
     public static int Build(in Tree tree, NodeChild* items, NodeChild* spare, int count, int* nodeIndices, int allowedHeight)
     {
         Bins bins;
-        var builder = new TreeBuilder
-        {
-            children = tree.Children,
-            metanodes = tree.Metanodes.Memory,
-            leaves = tree.Leaves.Memory,
-            nodeIndices = nodeIndices,
-            bins = &bins
-        };
-        return builder.BuildNode(items, spare, count, 0, allowedHeight);
+        return new TreeBuilder(tree, nodeIndices, &bins).BuildNode(items, spare, count, 0, allowedHeight);
+    }
+
+    /// <summary>Divides the items of a node in two, as <see cref="Build"/> does, and builds nothing.</summary>
+    /// <param name="items">The items, at least two; left in another order.</param>
+    /// <param name="spare">Room for as many items.</param>
+    /// <param name="count">Number of items.</param>
+    /// <param name="allowedHeight">Height that the tree over the items must not exceed.</param>
+    /// <param name="moved">Whether the items are in what was the room now.</param>
+    /// <returns>Number of items on the left, which come first.</returns>
+    public static int Split(NodeChild* items, NodeChild* spare, int count, int allowedHeight, out bool moved)
+    {
+        Bins bins;
+        return new TreeBuilder { bins = &bins }.SplitItems(items, spare, count, allowedHeight, out moved);
+    }
+
+    /// <summary>Builds what is below a slot over items, and writes the slot, as <see cref="Build"/> does.</summary>
+    public static void BuildBelow(in Tree tree, int slot, NodeChild* items, NodeChild* spare, int count, int* nodeIndices, int order, int allowedHeight)
+    {
+        Bins bins;
+        new TreeBuilder(tree, nodeIndices, &bins).BuildChild(items, spare, count, slot, order, allowedHeight);
+    }
+
+    TreeBuilder(in Tree tree, int* nodeIndices, Bins* bins)
+    {
+        children = tree.Children;
+        metanodes = tree.Metanodes.Memory;
+        leaves = tree.Leaves.Memory;
+        this.nodeIndices = nodeIndices;
+        this.bins = bins;
+    }
+
+    readonly int SplitItems(NodeChild* items, NodeChild* spare, int count, int allowedHeight, out bool moved)
+    {
+        moved = false;
+        if (count <= 2 || Tree.HalvingHeight(count) >= allowedHeight)
+            return count >> 1;
+        if (count <= SortedCount)
+            return SortAndSplit(items, count);
+        var split = BinAndSplit(items, spare, count);
+        moved = split > 0;
+        return moved ? split : count >> 1;
     }
 
     readonly int BuildNode(NodeChild* items, NodeChild* spare, int count, int order, int allowedHeight)
     {
         var node = nodeIndices[order];
-        var leftCount = count >> 1;
-        var moved = false;
-        if (count > 2 && Tree.HalvingHeight(count) < allowedHeight)
-        {
-            if (count <= SortedCount)
-            {
-                leftCount = SortAndSplit(items, count);
-            }
-            else
-            {
-                var split = BinAndSplit(items, spare, count);
-                moved = split > 0;
-                leftCount = moved ? split : leftCount;
-            }
-        }
+        var leftCount = SplitItems(items, spare, count, allowedHeight, out var moved);
         var source = moved ? spare : items;
         var other = moved ? items : spare;
         --allowedHeight;

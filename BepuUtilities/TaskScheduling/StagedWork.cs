@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics;
 using System.Runtime.CompilerServices;
 using System.Runtime.ExceptionServices;
 using BepuUtilities.Diagnostics;
@@ -43,8 +44,36 @@ public static unsafe class StagedWork
             for (int block = 0; block < blockCount; ++block)
                 work.Execute(stage, block, 0);
         }
-        if (stage < stageCount)
+        if (stage == stageCount)
+            return;
+        if (dispatcher is IStagedWorkObserver observer)
+            RunObserved(ref work, observer, stage, stageCount, blockCount);
+        else
             Dispatch(ref work, dispatcher!, workerCount, stage, stageCount, blockCount);
+    }
+
+    static void RunObserved<TWork>(ref TWork work, IStagedWorkObserver observer, int stage, int stageCount, int blockCount)
+        where TWork : struct, IStagedWork
+    {
+        while (true)
+        {
+            long longest = 0;
+            var start = Stopwatch.GetTimestamp();
+            var last = start;
+            for (int block = 0; block < blockCount; ++block)
+            {
+                // Each worker's memory gets its share, as it would with as many threads.
+                work.Execute(stage, block, block % observer.ThreadCount);
+                var now = Stopwatch.GetTimestamp();
+                longest = Math.Max(longest, now - last);
+                last = now;
+            }
+            if (blockCount > 0)
+                observer.StageEnded(blockCount, last - start, longest);
+            if (++stage == stageCount)
+                return;
+            blockCount = StagedRun<TWork>.GetBlockCount(ref work, stage);
+        }
     }
 
     /// <summary>Compiles what <see cref="Run"/> needs for a kind of work.</summary>

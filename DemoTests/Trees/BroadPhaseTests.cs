@@ -17,7 +17,7 @@ public class BroadPhaseTests
     [Theory]
     [InlineData(0, 0), InlineData(1, 0), InlineData(0, 5), InlineData(1, 1), InlineData(2, 1), InlineData(9, 1), InlineData(300, 0),
      InlineData(300, 300),
-     InlineData(1500, 40), InlineData(260, 3000)]
+     InlineData(1500, 40), InlineData(2600, 40), InlineData(260, 3000)]
     public void EveryNumberOfWorkersFindsEachPairOnceAndKeepsTheSameTree(int activeCount, int staticCount)
     {
         byte[]? expectedTree = null;

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using BepuUtilities;
@@ -130,6 +131,40 @@ public unsafe class StagedWorkTests
         StagedWork.Run(ref limited, strange, 1);
         limited.RequireDone();
         Assert.Equal(0, strange.DispatchCount);
+    }
+
+    /// <summary>Whoever watches does all of it, and is told of each stage that has blocks, but for those that need nobody.</summary>
+    [Fact]
+    public void AnObserverIsToldOfEachStage()
+    {
+        var observer = new Observer(3);
+        var work = new RecordingWork(1, 0, 4, 0, 1, 2) { WorkerLimit = 3 };
+        StagedWork.Run(ref work, observer);
+        work.RequireDone();
+        Assert.Equal([4, 1, 2], observer.BlockCounts);
+        Assert.All(observer.Times, times => Assert.InRange(times.Longest, 0, times.All));
+    }
+
+    sealed class Observer(int threadCount) : IStagedWorkObserver
+    {
+        public List<int> BlockCounts { get; } = [];
+        public List<(long All, long Longest)> Times { get; } = [];
+        public int ThreadCount => threadCount;
+        public void* UnmanagedContext => null;
+        public object? ManagedContext => null;
+        public WorkerBufferPools WorkerPools => throw new NotSupportedException();
+
+        public void StageEnded(int blockCount, long ticks, long longestBlockTicks)
+        {
+            BlockCounts.Add(blockCount);
+            Times.Add((ticks, longestBlockTicks));
+        }
+
+        public void DispatchWorkers(delegate*<int, IThreadDispatcher, void> workerBody, int maximumWorkerCount, void* unmanagedContext,
+            object? managedContext) => throw new NotSupportedException();
+
+        public void DispatchWorkers(Action<int> workerBody, int maximumWorkerCount, void* unmanagedContext, object? managedContext) =>
+            throw new NotSupportedException();
     }
 
     /// <summary>A dispatcher that runs its workers one after another, forwards, backwards, some, or none: the work gets done all the same.</summary>

@@ -5,6 +5,7 @@ using Demos.Fuzz;
 using Demos.Mechanisms;
 using Demos.Pages;
 using Demos.Sleeping;
+using Demos.Stages;
 using Demos.Towers;
 
 namespace Demos.Engine;
@@ -17,6 +18,6 @@ static class EngineCommands
     public static IEnumerable<Command> Create(Func<ParseResult, Func<int>, int> guard) =>
         [
             FuzzCommand.Create(guard), TowersCommand.Create(guard), MechanismCommand.Create(guard), SleepCommand.Create(guard),
-            ConstraintPagesCommand.Create(guard),
+            StageCommand.Create(guard), ConstraintPagesCommand.Create(guard),
         ];
 }

@@ -33,6 +33,8 @@ public static class SceneLibrary
         Chains.Thousandfold,
         RopeNet.Scene,
         ManyStatics.Scene,
+        Boulder.Scene,
+        Rain.Scene,
         WakingWave.Scene,
         SettledCity.Scene,
         SettledCity.Alone,

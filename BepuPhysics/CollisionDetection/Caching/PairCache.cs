@@ -92,14 +92,23 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Finds the manifold of two children or a patch, or adds it without contacts.</summary>
     public ref ChildManifold FindOrAdd(ref CachedPair pair, ChildIds children, BufferPool pool)
     {
+        // The memory may be another one afterwards.
+        var index = FindOrAddIndex(ref pair, children, pool);
+        return ref Manifolds.Memory[index];
+    }
+
+    /// <summary>Finds the manifold of two children or a patch, or adds it without contacts.</summary>
+    /// <returns>Its index.</returns>
+    public int FindOrAddIndex(ref CachedPair pair, ChildIds children, BufferPool pool)
+    {
         var previous = FindPrevious(ref pair, children);
         var next = Link(ref pair, previous);
         if (next != PairRecords<ChildManifold>.None && Manifolds.Memory[next].Children == children)
-            return ref Manifolds.Memory[next];
+            return next;
         var added = Manifolds.Take(pool);
         Manifolds.Memory[added] = new() { Manifold = CachedManifold.Empty, Children = children, Next = next };
         Link(ref pair, previous) = added;
-        return ref Manifolds.Memory[added];
+        return added;
     }
 
     // The last manifold before that of two children.
