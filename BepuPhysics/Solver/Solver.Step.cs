@@ -68,25 +68,6 @@ public sealed unsafe partial class Solver
         public Substep Substep;
     }
 
-    // A range of bundles of one type batch.
-    struct Block
-    {
-        public int Batch;
-        public int TypeBatch;
-        public int StartBundle;
-        public int EndBundle;
-    }
-
-    // Blocks of a batch: those of joints, then those of contacts.
-    struct BlockRange
-    {
-        public int Start;
-        public int JointCount;
-        public int Count;
-        // Whether it has so few constraints that sharing them takes longer than solving them.
-        public bool IsSmall;
-    }
-
     // Whether the last step changed velocities in an optional stage after its substeps.
     bool endsWithVelocities;
 
@@ -162,57 +143,6 @@ public sealed unsafe partial class Solver
         if (work.Order.Span.Allocated)
             work.Order.Dispose(pool);
         work.Split.Dispose(pool);
-    }
-
-    void BuildBlocks(ref SolveWork work)
-    {
-        ref var batches = ref ActiveSet.Batches;
-        work.Blocks = new QuickList<Block>(64, pool);
-        work.BlocksOfBatch = new QuickList<BlockRange>(Math.Max(1, batches.Count), pool);
-        for (int i = 0; i < batches.Count; ++i)
-        {
-            var start = work.Blocks.Count;
-            if (batches[i].Kind is BatchKind.Direct or BatchKind.Disabled)
-            {
-                work.BlocksOfBatch.Add(default, pool);
-                continue;
-            }
-            var bundles = AddBlocks(ref work, i, ofJoints: true);
-            var firstContacts = work.Blocks.Count;
-            bundles += AddBlocks(ref work, i, ofJoints: false);
-            work.BlocksOfBatch.Add(new()
-            {
-                Start = start,
-                JointCount = firstContacts - start,
-                Count = work.Blocks.Count - start,
-                IsSmall = bundles <= ConstraintBundlesPerBlock && batches[i].Kind == BatchKind.Coloured,
-            }, pool);
-        }
-    }
-
-    // Returns the number of bundles.
-    int AddBlocks(ref SolveWork work, int batchIndex, bool ofJoints)
-    {
-        ref var batch = ref ActiveSet.Batches[batchIndex];
-        var sum = 0;
-        for (int i = 0; i < batch.TypeBatches.Count; ++i)
-        {
-            if (batch.TypeBatches[i].TypeId >= ConstraintTypeIds.ContactTypeCount != ofJoints)
-                continue;
-            var bundles = batch.TypeBatches[i].BundleCount;
-            sum += bundles;
-            for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
-            {
-                work.Blocks.Add(new()
-                {
-                    Batch = batchIndex,
-                    TypeBatch = i,
-                    StartBundle = bundle,
-                    EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles),
-                }, pool);
-            }
-        }
-        return sum;
     }
 
     void BuildStages(ref SolveWork work)
@@ -322,60 +252,6 @@ public sealed unsafe partial class Solver
             if (count > 0)
                 work.Stages.Add(new() { Kind = StageKind.Optional, Substep = work.Substep, Point = point, Optional = i, BlockCount = count }, pool);
         }
-    }
-
-    void AddSweep(ref SolveWork work, StageKind kind, in Substep substep)
-    {
-        if (!work.ShufflesOrder)
-        {
-            for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
-                AddBatch(ref work, kind, substep, i, work.BlocksOfBatch[i].Start, work.BlocksOfBatch[i].Count);
-            return;
-        }
-        for (int i = 0; i < work.Order.Count; ++i)
-        {
-            var batch = work.Order[i];
-            ref var blocks = ref work.BlocksOfBatch[batch];
-            // Split bodies are joined once for all of their constraints.
-            AddBatch(ref work, kind, substep, batch, blocks.Start, IsFallback(batch) ? blocks.Count : blocks.JointCount);
-        }
-        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
-        {
-            ref var blocks = ref work.BlocksOfBatch[i];
-            if (!IsFallback(i) || blocks.JointCount == 0)
-                AddBatch(ref work, kind, substep, i, blocks.Start + blocks.JointCount, blocks.Count - blocks.JointCount);
-        }
-    }
-
-    void AddBatch(ref SolveWork work, StageKind kind, in Substep substep, int batch, int firstBlock, int blockCount)
-    {
-        if (blockCount == 0)
-            return;
-        var isSmall = work.BlocksOfBatch[batch].IsSmall;
-        if (isSmall && TryContinueRow(ref work, kind, firstBlock, blockCount))
-            return;
-        work.Stages.Add(new()
-        {
-            Kind = kind,
-            Substep = substep,
-            Batch = batch,
-            FirstBlock = firstBlock,
-            BlockCount = isSmall ? 1 : blockCount,
-            BlocksInRow = isSmall ? blockCount : 0,
-        }, pool);
-        if (IsFallback(batch))
-            work.Stages.Add(new() { Kind = StageKind.JoinParts, Batch = batch, BlockCount = -1 }, pool);
-    }
-
-    // A body with hundreds of contacts has a batch for each of the first of them, most of which have no other constraint. To hand work over after each
-    // would take longer than the work.
-    static bool TryContinueRow(ref SolveWork work, StageKind kind, int firstBlock, int blockCount)
-    {
-        ref var last = ref work.Stages[work.Stages.Count - 1];
-        if (last.Kind != kind || last.BlocksInRow == 0 || last.FirstBlock + last.BlocksInRow != firstBlock)
-            return false;
-        last.BlocksInRow += blockCount;
-        return true;
     }
 
     bool IsFallback(int batch) => ActiveSet.Batches[batch].Kind == BatchKind.Fallback;

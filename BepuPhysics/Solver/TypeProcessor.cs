@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
@@ -133,7 +134,8 @@ public abstract partial class TypeProcessor
         VisitNames(ref batch, ref visitor);
     }
 
-    // What a constraint holds.
+    // What a constraint holds. Never inlined, as the next: what calls both would be more than the inliner takes.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     void VisitContents<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
     {
         visitor.Visit(ref batch.Prestep, PrestepFloats);
@@ -141,6 +143,7 @@ public abstract partial class TypeProcessor
     }
 
     // Who a constraint is, and what it connects.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     void VisitNames<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
     {
         visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
