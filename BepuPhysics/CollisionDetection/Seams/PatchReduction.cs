@@ -45,7 +45,7 @@ static unsafe class PatchReduction
             greatest = Math.Max(greatest, patches[i].ContactCount);
             Lanes.Write(patches[i].Normal, ref normals, i);
             Lanes.Write(results[patches[i].Slot].Manifold.Contact0.Offset, ref frames.Origin, i);
-            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].AreKnown ? placed[patches[i].Slot].InnerRadius() : 0;
+            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].InnerRadius();
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
         Fill(ref memory, results, patches, reduces, greatest, ref frames, pool);
