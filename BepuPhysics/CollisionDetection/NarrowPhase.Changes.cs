@@ -25,6 +25,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public bool KeepsHistory { get; } = keepsHistory;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
+        /// <summary>Place of what the contacts take over from others of their body; negative where there is nothing.</summary>
+        public int Inherited = StaticPairs.Nothing;
     }
 
     // A pair with a coefficient of restitution.
@@ -83,7 +85,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < order.Count; ++i)
         {
             PrefetchPending(i);
-            Apply(workers[order[i].Worker].Pending[order[i].Index]);
+            Apply(workers[order[i].Worker].Pending[order[i].Index], workers[order[i].Worker].Statics);
         }
         WatchBouncingPairs();
     }
@@ -145,7 +147,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Prefetch.Read(Unsafe.AsPointer(ref pending.Material));
     }
 
-    void Apply(in PendingManifold pending)
+    void Apply(in PendingManifold pending, in StaticPairs statics)
     {
         ContactPatch old = default;
         var solver = Simulation.Solver;
@@ -177,6 +179,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var contactCount = pending.Manifold.Count;
         if (contactCount == 0)
             return;
+        if (pending.Inherited != StaticPairs.Nothing)
+            old = statics.Inheritances[pending.Inherited].Load;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
         new ContactConstraint(solver, manifold.Constraint, contactCount).WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
     }
@@ -191,7 +195,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < order.Count; ++i)
         {
             ref var bouncing = ref workers[order[i].Worker].Bouncing[order[i].Index];
-            foreach (ref var manifold in Pairs.ManifoldsOf(Pairs.Pairs.IndexOf(bouncing.Pair)))
+            var index = Pairs.Pairs.IndexOf(bouncing.Pair);
+            // Statics beside it have taken its contacts.
+            if (index < 0)
+                continue;
+            foreach (ref var manifold in Pairs.ManifoldsOf(index))
             {
                 if (manifold.HasConstraint)
                     Restitution.Watch(manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId), bouncing.Coefficient);

@@ -25,6 +25,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OverlapFinder.Compile<LayeredOverlaps>();
         }
         StagedWork.Compile<FlushWork>();
+        StagedWork.Compile<SeamWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));

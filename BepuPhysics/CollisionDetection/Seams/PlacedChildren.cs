@@ -48,6 +48,9 @@ unsafe struct PlacedChildren
     /// <summary>What is next to a triangle.</summary>
     public TriangleCone ConeA, ConeB;
 
+    /// <summary>Greatest distance at which a contact exists, m.</summary>
+    public float SpeculativeMargin;
+
     /// <summary>Whether the mover is B: what touches the others, and tells how high a lip is that does not stop it.</summary>
     public bool MoverIsB;
 
@@ -55,8 +58,9 @@ unsafe struct PlacedChildren
     public readonly bool AreKnown => TypeA >= 0 && TypeB >= 0;
 
     /// <summary>Keeps what a task has said of two children.</summary>
-    public void Write(in ChildShapes children, bool moverIsB)
+    public void Write(in ChildShapes children, bool moverIsB, float speculativeMargin)
     {
+        SpeculativeMargin = speculativeMargin;
         MoverIsB = moverIsB;
         TypeA = Keep(children.TypeA, children.ShapeA, ref ShapeA);
         TypeB = Keep(children.TypeB, children.ShapeB, ref ShapeB);
