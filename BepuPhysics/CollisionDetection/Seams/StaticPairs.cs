@@ -84,7 +84,7 @@ struct StaticPairs
     /// <summary>Velocities of what the body touches.</summary>
     public QuickList<BodyVelocity> Groups;
     /// <summary>Hands on what contacts carry.</summary>
-    public LoadTransfer Transfer;
+    public LoadHandover Transfer;
     /// <summary>Makes pairs agree.</summary>
     public BodyAgreement Agreement;
     PatchResults shown;

@@ -10,7 +10,7 @@ namespace BepuPhysics.CollisionDetection;
 /// A contact gets what the one with its feature carried; one that is new takes over from the nearest that is gone; what is left then is shared by all. Within
 /// a pair that is what its constraint does itself. So only pairs that gave or took something are told what they take over.
 /// </remarks>
-struct LoadTransfer(BufferPool pool)
+struct LoadHandover(BufferPool pool)
 {
     // Cosine of the greatest angle between contacts that take over from each other, as of patches of one pair.
     const float LeastCosine = 0.9f;
