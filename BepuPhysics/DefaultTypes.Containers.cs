@@ -18,6 +18,16 @@ public static partial class DefaultTypes
         registry.Register(new ContainerPairTask<BigCompound, Mesh>());
         registry.Register(new ContainerPairTask<Mesh, Mesh>());
         RegisterContainer<HeightField>(registry);
+        RegisterOnGround<Compound>(registry);
+        RegisterOnGround<BigCompound>(registry);
+        RegisterOnGround<Mesh>(registry);
+    }
+
+    // Of shapes for statics there are no pairs.
+    static void RegisterOnGround<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer
+    {
+        registry.Register(new ContainerPairTask<TContainer, HeightField>());
+        registry.Register(new ContainerPlaneTask<TContainer>());
     }
 
     static void RegisterContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer

@@ -35,6 +35,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public int Old = NotRead;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
+        /// <summary>Place of what the contacts take over from others of their body; negative where there is nothing.</summary>
+        public int Inherited = StaticPairs.Nothing;
 
         public const int NotRead = -1;
     }
@@ -326,7 +328,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var pending = ref worker.Pending[constraint.Index];
         ContactPatch none = default;
         ref var old = ref none;
-        if (constraint.Old != PendingManifold.NotRead)
+        if (pending.Inherited != StaticPairs.Nothing)
+            old = ref worker.Statics.Inheritances[pending.Inherited].Load;
+        else if (constraint.Old != PendingManifold.NotRead)
             old = ref worker.Old[constraint.Old];
         ref var manifold = ref Pairs.Pairs.Values[constraint.PairIndex].Single;
         if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
@@ -345,7 +349,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < order.Count; ++i)
         {
             ref var bouncing = ref workers[order[i].Worker].Bouncing[order[i].Index];
-            foreach (ref var manifold in Pairs.ManifoldsOf(Pairs.Pairs.IndexOf(bouncing.Pair)))
+            var index = Pairs.Pairs.IndexOf(bouncing.Pair);
+            // Statics beside it have taken its contacts.
+            if (index < 0)
+                continue;
+            foreach (ref var manifold in Pairs.ManifoldsOf(index))
             {
                 if (manifold.HasConstraint)
                     Restitution.Watch(manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId), bouncing.Coefficient);

@@ -49,6 +49,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return cached.IsOfChildren ? cached.FirstManifold : PairRecords<ChildManifold>.None;
     }
 
+    // Of several constraints that there are some is all that is asked for.
+    int ConstraintTypeOfChildren(in TestedPair tested)
+    {
+        if (tested.CacheIndex < 0)
+            return CachedManifold.NoConstraint;
+        ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
+        return cached.IsOfChildren && cached.ChildConstraintCount > 0 ? 0 : CachedManifold.NoConstraint;
+    }
+
     void BeginChildren(int workerIndex, int pairId)
     {
         ref var worker = ref workers[workerIndex];
@@ -77,8 +86,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <summary>Finds the patches that a pair had in the last step.</summary>
     void RecallPatches(int workerIndex, int pairId, out KnownPatches known)
     {
+        ref var tested = ref workers[workerIndex].TestedPairs[pairId];
+        RecallPatches(tested, out known);
+        known.KeepsChildren = Waits(tested);
+    }
+
+    void RecallPatches(in TestedPair tested, out KnownPatches known)
+    {
         known = default;
-        for (int i = FirstManifold(workers[workerIndex].TestedPairs[pairId]); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
+        for (int i = FirstManifold(tested); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
         {
             ref var manifold = ref Pairs.Manifolds.Memory[i];
             if (!manifold.Children.IsPatch)
@@ -106,11 +122,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             NoteSensed(workerIndex, tested.Pair, results);
             return;
         }
+        var waits = Waits(tested);
+        if (waits)
+            worker.Statics.Show(results);
         if (!Configure(workerIndex, tested.Pair, offsetB, results, out var material))
         {
             foreach (ref var result in results)
                 result.Manifold.Count = 0;
+            waits = tested.Pair.B.Mobility != CollidableMobility.Dynamic && tested.ConstraintTypeId != CachedManifold.NoConstraint;
         }
+        if (waits)
+            worker.Statics.Add(tested, results, worker.Batcher.KeptChildren, material, worker.Pool);
+        else
+            CompleteChildren(ref worker, tested, results, material);
+    }
+
+    void CompleteChildren(ref Worker worker, in TestedPair tested, Span<ChildResult> results, in PairMaterialProperties material)
+    {
         // A pair of which nothing is left is not seen, and goes as a whole.
         int i = SkipForgotten(results, 0);
         if (i == results.Length)
@@ -122,12 +150,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             ref var result = ref results[i];
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
-            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material };
+            var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
+            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material, Inherited = inherited };
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
-                if (TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
+                if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
                 {
                     if (result.Children.IsPatch)
                         record->Patch.Write(result.Manifold);

@@ -30,6 +30,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
         public QuickList<CollidablePair> Sensed;
+        /// <summary>Pairs that wait for others of their body.</summary>
+        public StaticPairs Statics;
         /// <summary>Null where the worker has no memory: before a step, and after it.</summary>
         public BufferPool Pool;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
@@ -131,8 +133,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
         tested.IsSensor = isSensor;
+        tested.IsAtSeam = collidableA.IsAtSeam;
+        tested.SpeculativeMargin = margin;
         if (task.Expands)
         {
+            tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
             TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
             return;
         }
@@ -188,10 +193,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             NoteSensed(workerIndex, tested.Pair, ref manifold);
             return;
         }
+        if (Waits(tested))
+        {
+            CompleteLater(workerIndex, tested, ref manifold);
+            return;
+        }
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
             if (tested.KeepsHistory)
-                CompleteWithoutContacts(ref workers[workerIndex], tested);
+                CompleteWithoutContacts(workerIndex, tested);
             return;
         }
         if (typeof(TManifold) != typeof(ConvexContactManifold))
@@ -200,20 +210,45 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
+        Complete(ref worker, tested, convex, material, StaticPairs.Nothing);
+    }
+
+    // What is inherited is of pairs that have waited.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void Complete(ref Worker worker, in TestedPair tested, in ConvexContactManifold convex, in PairMaterialProperties material, int inherited)
+    {
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
-            if (tested.KeepsConstraint(typeId))
+            if (inherited == StaticPairs.Nothing && tested.KeepsConstraint(typeId))
             {
                 worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, convex, material);
                 return;
             }
         }
-        var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material };
+        var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material, Inherited = inherited };
         if (tested.ConstraintTypeId >= 0)
             Read(ref worker, ref pending, Pairs.Pairs.Values[tested.CacheIndex].Single);
         Note(ref worker.Pending, pending, worker.Pool);
+    }
+
+    // As what does not wait, but for what becomes of the contacts.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void CompleteLater<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        var shown = manifold;
+        if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
+        {
+            if (tested.KeepsHistory)
+                CompleteWithoutContacts(workerIndex, tested);
+            return;
+        }
+        ref var worker = ref workers[workerIndex];
+        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
+        NoteSurface(workerIndex, tested.Pair, ref manifold);
+        CallbackChecks.Contacts(tested.Pair, convex, material);
+        worker.Statics.Add(tested, convex, material, isOfGame: !BytesOf.AreEqual(shown, manifold), worker.Pool);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -229,6 +264,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.
+    void CompleteWithoutContacts(int workerIndex, in TestedPair tested)
+    {
+        ref var worker = ref workers[workerIndex];
+        CompleteWithoutContacts(ref worker, tested);
+        worker.Statics.NoteGone(tested, worker.Pool);
+    }
+
     void CompleteWithoutContacts(ref Worker worker, in TestedPair tested)
     {
         if (tested.CacheIndex >= 0)
@@ -253,6 +295,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Release(ref worker.Bouncing, worker.Pool);
         Release(ref worker.Gone, worker.Pool);
         Release(ref worker.Sensed, worker.Pool);
+        worker.Statics.Release(worker.Pool);
         worker.Pool = null!;
     }
 

@@ -46,6 +46,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Simulation.Layers, Pool, dispatcher);
                 TryTestPairs(count, dt, dispatcher);
             }
+            AgreeAtSeams(count, dispatcher);
             var skipped = 0L;
             for (int i = 0; i < count; ++i)
                 skipped += workers[i].SkippedPairCount;
@@ -54,6 +55,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         catch
         {
             // Callbacks are the game's and may throw: the step is lost, the memory is not.
+            Release(ref order, Pool);
             ReleaseWorkers();
             throw;
         }

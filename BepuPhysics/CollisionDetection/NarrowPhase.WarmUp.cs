@@ -26,6 +26,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         StagedWork.Compile<FlushWork>();
         StagedWork.Compile<WriteWork>();
+        StagedWork.Compile<SeamWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<ContactPatch>));
         Precompilation.Compile(typeof(QuickList<AddedConstraint>));

@@ -20,7 +20,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly WorldLock World;
     internal PairCache Pairs;
     private protected readonly Restitution Restitution;
-    Buffer<CollidablePair> pairOfConstraint;
+    private protected Buffer<CollidablePair> pairOfConstraint;
 
     /// <summary>Tests of shape pairs.</summary>
     public CollisionTaskRegistry CollisionTaskRegistry { get; }
@@ -65,6 +65,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// scene that makes sense. Bodies in such a crowd meet only some of the others there.
     /// </summary>
     public long SkippedPairCount { get; private protected set; }
+
+    /// <summary>Whether the contacts of a body with several statics agree; each pair is for itself otherwise. To be changed before the first step.</summary>
+    internal bool JoinsStatics { get; set; } = true;
 
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
@@ -196,7 +199,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     }
 
     /// <summary>Finds the manifold of a contact constraint.</summary>
-    bool TryFind(ConstraintHandle handle, out int pairIndex, out ChildIds children)
+    private protected bool TryFind(ConstraintHandle handle, out int pairIndex, out ChildIds children)
     {
         children = ChildIds.None;
         pairIndex = Pairs.Pairs.IndexOf(pairOfConstraint[handle.Slot]);

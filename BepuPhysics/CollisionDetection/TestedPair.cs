@@ -16,6 +16,12 @@ struct TestedPair
     /// <summary>Whether one of the two is a sensor, so that the pair has no constraint.</summary>
     public bool IsSensor;
 
+    /// <summary>Whether A touched several things in the last step that do not give way.</summary>
+    public bool IsAtSeam;
+
+    /// <summary>Greatest distance at which a contact exists, m.</summary>
+    public float SpeculativeMargin;
+
     /// <summary>Whether the pair's constraint can be written in place.</summary>
     /// <param name="typeId">Type id of the constraint that the pair is to have.</param>
     // A pair whose shapes have become such as keep a history gets it with the changes.

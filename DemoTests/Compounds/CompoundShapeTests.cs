@@ -222,6 +222,7 @@ public sealed class CompoundShapeTests : IDisposable
         MissingShape,
         NoShape,
         CompoundInside,
+        HalfSpace,
         NaNPosition,
         FarPosition,
         LongOrientation,
@@ -232,6 +233,7 @@ public sealed class CompoundShapeTests : IDisposable
     [InlineData(Fault.MissingShape)]
     [InlineData(Fault.NoShape)]
     [InlineData(Fault.CompoundInside)]
+    [InlineData(Fault.HalfSpace)]
     [InlineData(Fault.NaNPosition)]
     [InlineData(Fault.FarPosition)]
     [InlineData(Fault.LongOrientation)]
@@ -246,6 +248,7 @@ public sealed class CompoundShapeTests : IDisposable
             case Fault.MissingShape: child.ShapeIndex = new(Box.Id, 3); break;
             case Fault.NoShape: child.ShapeIndex = default; break;
             case Fault.CompoundInside: child.ShapeIndex = good; break;
+            case Fault.HalfSpace: child.ShapeIndex = Shapes.Add(new HalfSpace(Vector3.UnitY)); break;
             case Fault.NaNPosition: child.LocalPosition.Y = float.NaN; break;
             case Fault.FarPosition: child.LocalPosition.Z = 2e7f; break;
             case Fault.LongOrientation: child.LocalOrientation *= 1.1f; break;
@@ -256,7 +259,7 @@ public sealed class CompoundShapeTests : IDisposable
         Assert.ThrowsAny<ArgumentException>(() => new BigCompound(given, Shapes, workshop.Pool));
         Assert.ThrowsAny<ArgumentException>(() => Shapes.Add(new BigCompound { Children = given }));
         Assert.Equal(before, workshop.Pool.GetTotalAllocatedByteCount());
-        Assert.Equal(fault == Fault.CompoundInside ? 1 : 0, Shapes.RegisteredTypeSpan > Compound.Id ? Shapes[Compound.Id]!.Count : 0);
+        Assert.Equal(fault == Fault.CompoundInside ? 1 : 0, Shapes.RegisteredTypeSpan > Compound.Id ? Shapes[Compound.Id]?.Count ?? 0 : 0);
         workshop.Pool.Return(ref children);
     }
 }

@@ -4,6 +4,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
+using DemoTests.Collidables.Meshes;
 
 namespace DemoTests.Compounds;
 
@@ -65,13 +66,47 @@ sealed class CompoundWorkshop : IDisposable
 
     public TypedIndex AddCompound(int count, float radius, bool isBig, int firstType = 0) => Add(CreateChildren(count, radius, firstType), isBig);
 
+    /// <summary>Whether a shape is made of children.</summary>
+    public static bool IsContainer(TypedIndex name) => name.Type is Compound.Id or BigCompound.Id or Mesh.Id or HeightField.Id;
+
     /// <summary>Children of a shape: itself, for one without.</summary>
     public CompoundChild[] ChildrenOf(TypedIndex name) => name.Type switch
     {
         Compound.Id => Copy(Shapes.GetShape<Compound>(name.Index).Children),
         BigCompound.Id => Copy(Shapes.GetShape<BigCompound>(name.Index).Children),
+        Mesh.Id => CopyTriangles(Shapes.GetShape<Mesh>(name.Index), Shapes.GetShape<Mesh>(name.Index).ChildCount),
+        HeightField.Id => CopyTriangles(Shapes.GetShape<HeightField>(name.Index), 2 * Shapes.GetShape<HeightField>(name.Index).CellCountX *
+            Shapes.GetShape<HeightField>(name.Index).CellCountZ),
         _ => [new(RigidPose.Identity, name)],
     };
+
+    unsafe CompoundChild[] CopyTriangles<TContainer>(TContainer container, int count) where TContainer : unmanaged, IContainer
+    {
+        var copy = new CompoundChild[count];
+        var scratch = stackalloc Vector4[IContainer.ScratchByteCount / sizeof(Vector4)];
+        for (int i = 0; i < count; ++i)
+        {
+            container.GetChild(i, Shapes, scratch, out var child);
+            copy[i] = new(child.Pose, Shapes.Add(*(Triangle*)child.Shape));
+        }
+        return copy;
+    }
+
+    /// <summary>Adds a closed mesh of about a metre.</summary>
+    public TypedIndex AddMesh()
+    {
+        var torus = MeshSample.Torus(Next(.6f, 1), .3f, 9, 6);
+        return Shapes.Add(new Mesh(torus.Vertices, torus.Indices, new(Next(.8f, 1.2f), 1, 1), Pool));
+    }
+
+    /// <summary>Adds ground with hills, about the origin.</summary>
+    public TypedIndex AddHills()
+    {
+        var heights = new float[13 * 11];
+        foreach (ref var height in heights.AsSpan())
+            height = Next(-.4f, .4f);
+        return Shapes.Add(new HeightField(13, 11, .7f, .9f, heights, Pool));
+    }
 
     static CompoundChild[] Copy(Buffer<CompoundChild> children)
     {

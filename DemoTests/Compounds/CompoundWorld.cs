@@ -63,7 +63,7 @@ sealed class CompoundWorld : IDisposable
     {
         Simulation.Bodies.Clear();
         Simulation.Statics.Clear();
-        foreach (var type in (int[])[BigCompound.Id, Compound.Id])
+        foreach (var type in (int[])[HeightField.Id, Mesh.Id, BigCompound.Id, Compound.Id])
         {
             for (int i = 0; type < Simulation.Shapes.RegisteredTypeSpan && Simulation.Shapes[type] is { } batch && i < batch.Capacity; ++i)
             {

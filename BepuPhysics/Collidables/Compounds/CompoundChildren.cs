@@ -60,6 +60,8 @@ static unsafe class CompoundChildren
             throw new ArgumentException(
                 $"Child {index} is {child.ShapeIndex}, which is itself made of children: a child must be convex. Add its children instead.", nameof(child));
         }
+        if (shapes.GetBatch(child.ShapeIndex.Type).IsForStaticsOnly)
+            throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is for statics: a child must have an end.", nameof(child));
     }
 
     public static void Add(ref Buffer<CompoundChild> children, in CompoundChild child, BufferPool pool)

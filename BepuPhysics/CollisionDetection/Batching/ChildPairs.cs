@@ -51,6 +51,8 @@ unsafe struct ChildPairs(BufferPool pool)
     public QuickList<int> Tested = new(PairBatch.Capacity, pool);
     /// <summary>What parents are joined with.</summary>
     public SeamMemory Seams = new(pool);
+    /// <summary>The children that the parent which was completed last was joined of, if these were asked for.</summary>
+    public QuickList<SeamChild> Kept;
     WaitingList<WaitingChild> waiting = new(InitialCapacity, pool);
     WaitingList<OpenParent> parents = new(InitialCapacity, pool);
 
@@ -121,7 +123,7 @@ unsafe struct ChildPairs(BufferPool pool)
         result.KeepsHistory = keepsHistory;
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
-            target.Placed[target.SlotCount].Write(shapes, target.MoverIsB);
+            target.Placed[target.SlotCount].Write(shapes, target.MoverIsB, target.SpeculativeMargin);
         ++target.WaitCount;
         return new(parent, target.SlotCount++);
     }
@@ -156,12 +158,26 @@ unsafe struct ChildPairs(BufferPool pool)
         ref var open = ref parents[parent];
         var results = Results(parent, 0);
         var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
+        Kept.Count = 0;
         if (!Seams.Rank(results, pool))
             return 0;
         TriangleNeighbours.Apply(ref Seams, results, placed, open.SpeculativeMargin, pool);
         Seams.Sort(results);
-        ChildAgreement.Run(ref Seams, results, placed, open.SpeculativeMargin, pool);
+        ChildAgreement.Run(ref Seams, results, placed, pool);
+        if (known.KeepsChildren)
+            Keep(results, placed, pool);
         return PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+    }
+
+    void Keep(Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)
+    {
+        if (!Kept.Span.Allocated)
+            Kept = new(InitialCapacity, pool);
+        foreach (ref var child in Seams.Ranked.AsSpan())
+        {
+            if (results[child.Slot].Manifold.Count > 0)
+                Kept.Add(new() { Class = child.Class, Result = results[child.Slot], Placed = placed[child.Slot] }, pool);
+        }
     }
 
     /// <summary>Id that a parent was added with.</summary>
@@ -201,6 +217,8 @@ unsafe struct ChildPairs(BufferPool pool)
         Tested.Dispose(pool);
         Found.Dispose(pool);
         Seams.Dispose(pool);
+        if (Kept.Span.Allocated)
+            Kept.Dispose(pool);
         Batches.Dispose(pool);
     }
 }

@@ -9,6 +9,9 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
 {
     readonly ChildPairs* Children => childPairs.Memory;
 
+    /// <summary>The children of the pair that is being completed, if <see cref="KnownPatches.KeepsChildren"/> was said of it.</summary>
+    internal readonly Span<SeamChild> KeptChildren => Children->Kept.AsSpan();
+
     /// <summary>Adds a pair of shapes that exist to a task that expands it, with a pose that is known to be sound.</summary>
     internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in PairMotion motion)
@@ -133,6 +136,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             TCallbacks.RecallPatches(ref Callbacks, pairId, out var known);
             patchCount = Children->Join(parent, known, Pool);
         }
+        else
+            Children->Kept.Count = 0;
         TCallbacks.OnChildrenCompleted(ref Callbacks, pairId, Children->OffsetB(parent), Children->Results(parent, patchCount));
         Children->Close(parent, Pool);
     }

@@ -54,6 +54,9 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Notes that a pair is still one in this step. Workers mark different pairs, so no two write the same byte.</summary>
     public readonly void MarkSeen(int index) => seen[index] = 1;
 
+    /// <summary>Whether a pair is one in this step.</summary>
+    public readonly bool IsSeen(int index) => seen[index] != 0;
+
     /// <summary>Index of a pair, or -1.</summary>
     /// <param name="pair">The pair.</param>
     /// <param name="guess">What <see cref="QuickDictionary{TKey, TValue, TComparer}.PrefetchElement"/> has said of it.</param>

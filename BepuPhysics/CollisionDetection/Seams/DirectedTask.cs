@@ -17,9 +17,6 @@ unsafe interface IDirectedTask
 
     /// <summary>Radius of a ball that lies in a shape of the first type, m; zero for one that is flat.</summary>
     float InnerRadiusA(void* shape);
-
-    /// <summary>Radius of a ball that lies in a shape of the second type, m; zero for one that is flat.</summary>
-    float InnerRadiusB(void* shape);
 }
 
 /// <summary>Finds depth and contacts of pairs along directions, from nothing but farthest points and features.</summary>
@@ -142,16 +139,11 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         return Vector.LessThan(outerB, outerA);
     }
 
-    public float InnerRadiusA(void* shape) => InnerRadius<TShapeA, TShapeWideA, TSupportA>((TShapeA*)shape);
-
-    public float InnerRadiusB(void* shape) => InnerRadius<TShapeB, TShapeWideB, TSupportB>((TShapeB*)shape);
-
-    static float InnerRadius<TShape, TShapeWide, TSupport>(TShape* shape)
-        where TShape : unmanaged where TShapeWide : unmanaged, IWide<TShape> where TSupport : unmanaged, ISupport<TShapeWide>
+    public float InnerRadiusA(void* shape)
     {
-        var wide = default(TShapeWide);
-        Lanes.Write(*shape, ref wide, 0);
-        TSupport.GetExtents(wide, out _, out var inner, out _);
-        return inner[0] + TSupport.Margin(wide)[0];
+        var wide = default(TShapeWideA);
+        Lanes.Write(*(TShapeA*)shape, ref wide, 0);
+        TSupportA.GetExtents(wide, out _, out var inner, out _);
+        return inner[0] + TSupportA.Margin(wide)[0];
     }
 }

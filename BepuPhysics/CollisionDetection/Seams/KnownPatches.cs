@@ -25,6 +25,8 @@ struct KnownPatches
 {
     /// <summary>Number of patches.</summary>
     public int Count;
+    /// <summary>Whether the children are wanted after they were joined, as the pair may have to agree with others.</summary>
+    public bool KeepsChildren;
     PatchNumbers numbers;
     PatchMemories memories;
 

@@ -25,17 +25,16 @@ static unsafe class PatchReduction
         public Vector<float> Size;
     }
 
-    /// <summary>Chooses contacts.</summary>
+    /// <summary>Chooses contacts. Their names are <see cref="SeamMemory.Kept"/>, patch by patch.</summary>
     /// <param name="memory">The children that touch, with their patches, and room for candidates.</param>
     /// <param name="results">What was found for each child.</param>
     /// <param name="placed">Shapes and poses of each.</param>
     /// <param name="patches">The patches.</param>
     /// <param name="count">Number of patches.</param>
     /// <param name="reduces">A bit for each patch that is to be reduced.</param>
-    /// <param name="target">Where the contacts go.</param>
     /// <param name="pool">Source of memory.</param>
     public static void Reduce(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int count,
-        int reduces, Span<ChildResult> target, BufferPool pool)
+        int reduces, BufferPool pool)
     {
         var greatest = 0;
         var normals = Vector3Wide.Zero;
@@ -45,27 +44,27 @@ static unsafe class PatchReduction
             greatest = Math.Max(greatest, patches[i].ContactCount);
             Lanes.Write(patches[i].Normal, ref normals, i);
             Lanes.Write(results[patches[i].Slot].Manifold.Contact0.Offset, ref frames.Origin, i);
-            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].AreKnown ? placed[patches[i].Slot].InnerRadius() : 0;
+            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].InnerRadius();
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
         Fill(ref memory, results, patches, reduces, greatest, ref frames, pool);
         Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
+        memory.Kept.Count = 0;
         for (int i = 0; i < count; ++i)
         {
             if ((reduces & 1 << i) == 0)
                 continue;
-            ref var manifold = ref PatchSet.Find(target, patches[i]).Manifold;
-            var share = patches[i].Share;
-            Add(results, deepest, i, share, ref manifold);
+            var end = memory.Kept.Count + patches[i].Share;
+            Add(ref memory, deepest, i, end);
             if (secondExists[i] != 0)
-                Add(results, farthest, i, share, ref manifold);
+                Add(ref memory, farthest, i, end);
             // The larger side first: there may be room for one.
             for (int side = 0; side < 2; ++side)
             {
                 if ((sides.TipIsLeft[i] != 0) == (side == 0))
-                    AddIf(sides.LeftExists | sides.BeyondMask, results, sides.Left, i, share, ref manifold);
+                    AddIf(sides.LeftExists | sides.BeyondMask, ref memory, sides.Left, i, end);
                 else
-                    AddIf(sides.RightExists | sides.BeyondMask, results, sides.Right, i, share, ref manifold);
+                    AddIf(sides.RightExists | sides.BeyondMask, ref memory, sides.Right, i, end);
             }
         }
     }
@@ -101,6 +100,8 @@ static unsafe class PatchReduction
                 var place = contact.Offset - origin;
                 var feature = result.Children.Mix(contact.FeatureId);
                 var isFirst = patch.IsKnown && feature == patch.Memory.First;
+                // Of a patch of several pairs it is known of each contact.
+                isFirst |= (child.Remembered & 1 << i) != 0;
                 var isRemembered = isFirst || (patch.IsKnown && feature == patch.Memory.Second);
                 GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, axisX);
                 GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, axisY);
@@ -127,20 +128,16 @@ static unsafe class PatchReduction
         ContactReduction<FaceCandidate>.ChooseSides(candidates, count, none, deepest, farthest, SideLean, secondExists, out sides);
     }
 
-    static void AddIf(Vector<int> exists, Span<ChildResult> results, in ContactChoice choice, int lane, int share, ref ConvexContactManifold manifold)
+    static void AddIf(Vector<int> exists, ref SeamMemory memory, in ContactChoice choice, int lane, int end)
     {
         if (exists[lane] != 0)
-            Add(results, choice, lane, share, ref manifold);
+            Add(ref memory, choice, lane, end);
     }
 
-    static void Add(Span<ChildResult> results, in ContactChoice choice, int lane, int share, ref ConvexContactManifold manifold)
+    // There is room for the contacts of all patches.
+    static void Add(ref SeamMemory memory, in ContactChoice choice, int lane, int end)
     {
-        if (manifold.Count == share)
-            return;
-        var name = choice.Name[lane];
-        ref var result = ref results[name / ConvexContactManifold.MaximumContactCount];
-        ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++);
-        contact = ConvexContactManifold.GetConvexContactReference(ref result.Manifold, name % ConvexContactManifold.MaximumContactCount);
-        contact.FeatureId = result.Children.Mix(contact.FeatureId);
+        if (memory.Kept.Count < end)
+            memory.Kept.AddUnsafely(choice.Name[lane]);
     }
 }

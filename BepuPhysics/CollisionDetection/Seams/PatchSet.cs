@@ -75,10 +75,76 @@ struct PatchSet
                 reduces |= 1 << i;
         }
         if (reduces != 0)
-            PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, target, pool);
+        {
+            PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, pool);
+            foreach (var name in memory.Kept.AsSpan())
+                patches.Add(results, name, memory.PatchOf(name), target);
+        }
         foreach (ref var child in memory.Ranked.AsSpan())
             results[child.Slot].Manifold.Count = 0;
         return count;
+    }
+
+    void Add(Span<ChildResult> results, int name, int patch, Span<ChildResult> target)
+    {
+        ref var result = ref results[name / ConvexContactManifold.MaximumContactCount];
+        ref var manifold = ref Find(target, this[patch]).Manifold;
+        ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++);
+        contact = ConvexContactManifold.GetConvexContactReference(ref result.Manifold, name % ConvexContactManifold.MaximumContactCount);
+        contact.FeatureId = result.Children.Mix(contact.FeatureId);
+    }
+
+    /// <summary>Leaves of the contacts of several pairs of one body with one normal those that it would have with one.</summary>
+    /// <remarks>More contacts would carry it on more springs, and lift it.</remarks>
+    /// <param name="memory">The children that touch, in their order; those that lose contacts are marked as having yielded.</param>
+    /// <param name="results">What was found for each child, and then what is left of it.</param>
+    /// <param name="placed">Shapes and poses of each.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void Thin(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)
+    {
+        Unsafe.SkipInit(out PatchSet patches);
+        var ranked = memory.Ranked.AsSpan();
+        var count = patches.Group(ranked, results);
+        var reduces = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            patches[i].Share = ConvexContactManifold.MaximumContactCount;
+            if (HasSeveralPairs(ranked, i))
+                reduces |= 1 << i;
+        }
+        if (reduces == 0)
+            return;
+        PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, pool);
+        foreach (ref var child in ranked)
+        {
+            if (child.Patch < 0 || (reduces & 1 << child.Patch) == 0)
+                continue;
+            ref var manifold = ref results[child.Slot].Manifold;
+            var before = manifold.Count;
+            manifold.Count = 0;
+            for (int i = 0; i < before; ++i)
+            {
+                if (!memory.Kept.AsSpan().Contains(child.Slot * ConvexContactManifold.MaximumContactCount + i))
+                    continue;
+                ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++) =
+                    ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+            }
+            child.HasYielded |= manifold.Count != before;
+        }
+    }
+
+    static bool HasSeveralPairs(Span<RankedChild> ranked, int patch)
+    {
+        var pair = 0;
+        foreach (ref var child in ranked)
+        {
+            if (child.Patch != patch)
+                continue;
+            if (pair != 0 && pair != child.Pair)
+                return true;
+            pair = child.Pair;
+        }
+        return false;
     }
 
     // By normals, in the order of children, so that the first of a patch is its deepest.

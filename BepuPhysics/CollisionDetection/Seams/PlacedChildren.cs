@@ -37,7 +37,7 @@ unsafe struct ShapeCopy
 /// <remarks>Shapes are copied: some are made up when they are asked for, and those of a batch are gone when it is expanded.</remarks>
 unsafe struct PlacedChildren
 {
-    /// <summary>Type ids of the shapes.</summary>
+    /// <summary>Type ids of the shapes; negative for those that cannot be looked at along a direction.</summary>
     public int TypeA, TypeB;
     /// <summary>The shapes.</summary>
     public ShapeCopy ShapeA, ShapeB;
@@ -48,25 +48,22 @@ unsafe struct PlacedChildren
     /// <summary>What is next to a triangle.</summary>
     public TriangleCone ConeA, ConeB;
 
+    /// <summary>Greatest distance at which a contact exists, m.</summary>
+    public float SpeculativeMargin;
+
     /// <summary>Whether the mover is B: what touches the others, and tells how high a lip is that does not stop it.</summary>
     public bool MoverIsB;
 
     /// <summary>Whether both shapes are among those that can be looked at along a direction.</summary>
-    public readonly bool AreKnown => TypeA >= 0;
+    public readonly bool AreKnown => TypeA >= 0 && TypeB >= 0;
 
     /// <summary>Keeps what a task has said of two children.</summary>
-    public void Write(in ChildShapes children, bool moverIsB)
+    public void Write(in ChildShapes children, bool moverIsB, float speculativeMargin)
     {
+        SpeculativeMargin = speculativeMargin;
         MoverIsB = moverIsB;
-        if (!ShapeCopy.Fits(children.TypeA) || !ShapeCopy.Fits(children.TypeB))
-        {
-            TypeA = TypeB = -1;
-            return;
-        }
-        TypeA = children.TypeA;
-        TypeB = children.TypeB;
-        ShapeA.Write(TypeA, children.ShapeA);
-        ShapeB.Write(TypeB, children.ShapeB);
+        TypeA = Keep(children.TypeA, children.ShapeA, ref ShapeA);
+        TypeB = Keep(children.TypeB, children.ShapeB, ref ShapeB);
         OffsetB = children.OffsetB - children.OffsetA;
         OrientationA = children.OrientationA;
         OrientationB = children.OrientationB;
@@ -74,16 +71,28 @@ unsafe struct PlacedChildren
         ConeB = children.ConeB;
     }
 
-    /// <summary>Radius of a ball that lies in the mover, m; of a triangle, which is flat, that of the other.</summary>
-    public float InnerRadius()
+    static int Keep(int typeId, void* shape, ref ShapeCopy copy)
     {
-        var task = (IDirectedTask)DirectedTasks.Registry.GetTask(TypeA, TypeB, out _, out var flipped);
-        fixed (byte* a = ShapeA.Bytes, b = ShapeB.Bytes)
-        {
-            var radiusA = flipped ? task.InnerRadiusB(a) : task.InnerRadiusA(a);
-            var radiusB = flipped ? task.InnerRadiusA(b) : task.InnerRadiusB(b);
-            var (mover, other) = MoverIsB ? (radiusB, radiusA) : (radiusA, radiusB);
-            return mover > 0 ? mover : other;
-        }
+        if (!ShapeCopy.Fits(typeId))
+            return -1;
+        copy.Write(typeId, shape);
+        return typeId;
+    }
+
+    /// <summary>Radius of a ball that lies in the mover, m; of a triangle, which is flat, that of the other.</summary>
+    public readonly float InnerRadius()
+    {
+        var radius = MoverIsB ? InnerRadius(TypeB, ShapeB) : InnerRadius(TypeA, ShapeA);
+        if (radius > 0)
+            return radius;
+        return MoverIsB ? InnerRadius(TypeA, ShapeA) : InnerRadius(TypeB, ShapeB);
+    }
+
+    static float InnerRadius(int typeId, in ShapeCopy shape)
+    {
+        if (typeId < 0)
+            return 0;
+        fixed (byte* bytes = shape.Bytes)
+            return ((IDirectedTask)DirectedTasks.Registry.GetTask(typeId, typeId, out _, out _)).InnerRadiusA(bytes);
     }
 }

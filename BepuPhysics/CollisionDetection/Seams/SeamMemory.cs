@@ -28,6 +28,9 @@ struct SeamMemory(BufferPool pool)
     /// <summary>Contacts that patches are chosen from, a lane for each patch.</summary>
     public QuickList<FaceCandidate> Candidates = new(InitialCapacity, pool);
 
+    /// <summary>Names of the contacts that the last reduction has chosen: a slot, times the contacts of a manifold, and a contact.</summary>
+    public QuickList<int> Kept = new(InitialCapacity, pool);
+
     const int InitialCapacity = 16;
 
     /// <summary>Lists the children that touch.</summary>
@@ -56,6 +59,7 @@ struct SeamMemory(BufferPool pool)
             child.Depth = manifold.GetDepth(0);
             for (int j = 1; j < manifold.Count; ++j)
                 child.Depth = Math.Max(child.Depth, manifold.GetDepth(j));
+            child.Overlap = RankedChild.Unknown;
             Ranked[count++] = child;
         }
         Ranked.Count = count;
@@ -65,6 +69,17 @@ struct SeamMemory(BufferPool pool)
         QuickSort.Sort(Ranked.Span, count, ref order);
     }
 
+    /// <summary>Patch of a contact, by its name.</summary>
+    public readonly int PatchOf(int name)
+    {
+        foreach (ref var child in Ranked.AsSpan())
+        {
+            if (child.Slot == name / ConvexContactManifold.MaximumContactCount)
+                return child.Patch;
+        }
+        return -1;
+    }
+
     public void Dispose(BufferPool pool)
     {
         Tests.Dispose(pool);
@@ -72,5 +87,6 @@ struct SeamMemory(BufferPool pool)
         Leaders.Dispose(pool);
         Chosen.Dispose(pool);
         Candidates.Dispose(pool);
+        Kept.Dispose(pool);
     }
 }

@@ -110,7 +110,7 @@ static class TriangleNeighbours
 
     // Nothing is next to what is no triangle of a surface.
     static bool IsSurface(in PlacedChildren placed, bool isA) =>
-        (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;
+        placed.AreKnown && (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;
 
     static Surface Create(in PlacedChildren placed, bool isA) => isA
         ? new(placed.ShapeA.Read<Triangle>(), placed.OrientationA, placed.ConeA, isA)

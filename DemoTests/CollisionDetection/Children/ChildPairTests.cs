@@ -47,7 +47,7 @@ public class ChildPairTests
     {
         var world = new ClusterWorld(isCluster, threads);
         world.Rules.Order = order;
-        world.Rules.Joins = false;
+        world.Rules.Joins = world.JoinsStatics = false;
         world.AddStatics(CreatePlates(world.Simulation, childCount));
         var box = new Box(.5f, .4f, .6f);
         for (int i = 0; i < 3; ++i)
@@ -229,7 +229,7 @@ public class ChildPairTests
     static ClusterWorld CreateCorner(out BodyHandle body)
     {
         var world = new ClusterWorld(isCluster: true);
-        world.Rules.Joins = false;
+        world.Rules.Joins = world.JoinsStatics = false;
         var box = world.Simulation.Shapes.Add(new Box(1, 1, 1));
         world.AddStatics([
             new(box, new RigidPose(new Vector3(0, -.5f, 0))), new(box, new RigidPose(new Vector3(1, -.5f, 0))),

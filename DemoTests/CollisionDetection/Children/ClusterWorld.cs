@@ -58,7 +58,7 @@ sealed class ClusterWorld : IDisposable
     readonly ThreadDispatcher? dispatcher;
     readonly BufferPool pool = new();
     readonly List<Buffer<ClusterChild>> owned = [];
-    readonly List<ConvexHull> hulls = [];
+    readonly List<Action<BufferPool>> disposals = [];
     readonly bool isCluster;
 
     public ClusterWorld(bool isCluster, int threads = 1)
@@ -68,6 +68,13 @@ sealed class ClusterWorld : IDisposable
         Simulation = Simulation.Create(
             pool, new ClusterCallbacks(Behaviour, isCluster), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
         Register(Simulation.NarrowPhase.CollisionTaskRegistry, Rules);
+    }
+
+    /// <summary>Whether separate statics agree on their normals.</summary>
+    public bool JoinsStatics
+    {
+        get => NarrowPhase.JoinsStatics;
+        set => NarrowPhase.JoinsStatics = value;
     }
 
     public static void Register(CollisionTaskRegistry registry, ClusterRules rules)
@@ -99,8 +106,8 @@ sealed class ClusterWorld : IDisposable
         return Simulation.Shapes.Add(new Cluster { Children = buffer });
     }
 
-    /// <summary>Returns the memory of a hull at the end.</summary>
-    public void Own(ConvexHull hull) => hulls.Add(hull);
+    /// <summary>Returns the memory of a shape at the end.</summary>
+    public void Own<TShape>(TShape shape) where TShape : unmanaged, IDisposableShape => disposals.Add(pool => shape.Dispose(pool));
 
     /// <summary>A static for each child, or one cluster of all.</summary>
     public void AddStatics(IReadOnlyList<ClusterChild> children)
@@ -191,11 +198,8 @@ sealed class ClusterWorld : IDisposable
             var returned = buffer;
             pool.Return(ref returned);
         }
-        foreach (var hull in hulls)
-        {
-            var returned = hull;
-            returned.Dispose(pool);
-        }
+        foreach (var dispose in disposals)
+            dispose(pool);
         pool.AssertEmpty();
         dispatcher?.WorkerPools.AssertEmpty();
         dispatcher?.Dispose();

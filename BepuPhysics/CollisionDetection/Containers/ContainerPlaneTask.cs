@@ -1,0 +1,86 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Expands a container and a half-space into pairs of the half-space and each child that it may touch.</summary>
+/// <remarks>A plane that is not across an axis is in the box of everything: nodes are compared with the plane itself.</remarks>
+/// <typeparam name="TContainer">The shape made of children; its type id is less than that of half-spaces.</typeparam>
+sealed unsafe class ContainerPlaneTask<TContainer> : ExpandingTask<TContainer, HalfSpace> where TContainer : unmanaged, IContainer
+{
+    const int InitialCapacity = 64;
+
+    // Behind the pairs is room for a child that is made on the way.
+    internal override int BatchByteCount => ScratchStart + IContainer.ScratchByteCount;
+
+    int ScratchStart => (base.BatchByteCount + 15) & ~15;
+
+    // Tests look at the container as it is, so nothing is needed but what is within the margin now.
+    internal override void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        var entries = Entries(batch);
+        var nodes = new QuickList<int>(InitialCapacity, pool);
+        for (int i = 0; i < batch.Count; ++i)
+        {
+            ref var pair = ref entries[i].Pair;
+            var (offset, container, plane) = pair.Flipped
+                ? (-pair.OffsetB, pair.OrientationB, pair.OrientationA)
+                : (pair.OffsetB, pair.OrientationA, pair.OrientationB);
+            var normal = Exact.Rotate(entries[i].B.Normal, plane);
+            // Of what touches, over the container's centre.
+            var height = Exact.Dot(normal, offset) + pair.SpeculativeMargin + Exact.Length(offset) * RelativeMotionWide.Rounding;
+            Find(entries[i].A, Exact.Rotate(normal, Exact.Conjugate(container)), height, i, pair.Flipped, shapes, ref nodes, ref found, pool);
+        }
+        nodes.Dispose(pool);
+    }
+
+    static void Find(in TContainer container, in Vector3 normal, float height, int parent, bool flipped, Shapes shapes, ref QuickList<int> nodes,
+        ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        pool.TakeAtLeast<NodeChild>(container.MaximumFanOut, out var below);
+        var size = Vector3.Abs(normal);
+        nodes.Count = 0;
+        nodes.Add(0, pool);
+        while (nodes.Count > 0)
+        {
+            var count = container.Open(nodes[--nodes.Count], shapes, below.Memory);
+            for (int i = 0; i < count; ++i)
+            {
+                var center = (below[i].Min + below[i].Max) * .5f;
+                var half = below[i].Max - center;
+                var rounding = (Exact.Length(center) + Exact.Length(half)) * RelativeMotionWide.Rounding;
+                if (Exact.Dot(normal, center) - Exact.Dot(size, half) > height + rounding)
+                    continue;
+                if (below[i].Index >= 0)
+                    nodes.Add(below[i].Index, pool);
+                else
+                    found.Add(new(parent, flipped ? new(0, ~below[i].Index) : new(~below[i].Index, 0)), pool);
+            }
+        }
+        pool.Return(ref below);
+    }
+
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    {
+        ref var entry = ref Entries(batch)[found.Parent];
+        var scratch = batch.Bundles.Memory + ScratchStart;
+        ContainerPlaces.SetParents(entry.Pair, out children);
+        if (entry.Pair.Flipped)
+        {
+            ContainerPlaces.SetB(ref children, entry.A, found.Children.B, shapes, scratch);
+            children.TypeA = HalfSpace.Id;
+            children.ShapeA = Unsafe.AsPointer(ref entry.B);
+        }
+        else
+        {
+            ContainerPlaces.SetA(ref children, entry.A, found.Children.A, shapes, scratch);
+            children.TypeB = HalfSpace.Id;
+            children.ShapeB = Unsafe.AsPointer(ref entry.B);
+        }
+    }
+}

@@ -1,0 +1,324 @@
+using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs of one dynamic body with several things that do not give way: statics side by side, and kinematic bodies that move alike. Each pair is tested and
+// shown to the game as if it were alone. Where a body touched several in the last step, and where a pair has no contacts yet, its contacts are not written
+// but wait until all pairs are tested; then those of each body agree, body by body, and go on as all contacts do.
+//
+// A body that begins to touch a second thing is the only case in which one pair's contacts are written already: the others agree with these.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static bool Waits(in TestedPair tested) =>
+        tested.Pair.B.Mobility != CollidableMobility.Dynamic && (tested.IsAtSeam || tested.ConstraintTypeId == CachedManifold.NoConstraint);
+
+    struct SeamWork : IStagedWork
+    {
+        public NarrowPhase<TCallbacks> NarrowPhase;
+        public int BlockCount;
+
+        public readonly int StageCount => 1;
+        public readonly int GetBlockCount(int stage) => BlockCount;
+        // What a block makes of its bodies goes to the memory of the worker of its number, whoever does it.
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            NarrowPhase.World.MarkWorker();
+            NarrowPhase.AgreeInBlock(block, NarrowPhase.FirstOfBlock(block, BlockCount), NarrowPhase.FirstOfBlock(block + 1, BlockCount));
+        }
+    }
+
+    /// <summary>Makes the pairs of each body that wait agree, and hands them on.</summary>
+    void AgreeAtSeams(int workerCount, IThreadDispatcher? dispatcher)
+    {
+        order.Count = 0;
+        for (int i = 0; i < workerCount; ++i)
+        {
+            ref var statics = ref workers[i].Statics;
+            for (int j = 0; j < statics.Pairs.Count; ++j)
+                Note(ref order, new() { Key = Key(statics.Pairs[j].Tested.Pair), Worker = i, Index = j }, Pool);
+        }
+        if (order.Count == 0)
+            return;
+        SortByKey();
+        var work = new SeamWork { NarrowPhase = this, BlockCount = workerCount };
+        StagedWork.Run(ref work, dispatcher);
+    }
+
+    // All pairs of a body are in one block.
+    int FirstOfBlock(int block, int blockCount)
+    {
+        var first = (int)((long)order.Count * block / blockCount);
+        while (first > 0 && first < order.Count && BodyOf(first) == BodyOf(first - 1))
+            ++first;
+        return first;
+    }
+
+    uint BodyOf(int index) => (uint)(order[index].Key >> 32);
+
+    void AgreeInBlock(int block, int first, int end)
+    {
+        if (first == end)
+            return;
+        ref var worker = ref workers[block];
+        worker.Statics.PrepareAgreement(worker.Pool);
+        while (first < end)
+        {
+            var next = first + 1;
+            while (next < end && BodyOf(next) == BodyOf(first))
+                ++next;
+            AgreeOfBody(ref worker, first, next);
+            first = next;
+        }
+        worker.Contacts.Flush(Simulation.Solver);
+    }
+
+    ref StaticPair Waiting(int place) => ref workers[order[place].Worker].Statics.Pairs[order[place].Index];
+
+    ref ChildResult ResultOf(int place, int result) => ref workers[order[place].Worker].Statics.Results[result];
+
+    void AgreeOfBody(ref Worker worker, int first, int end)
+    {
+        ref var location = ref Simulation.Bodies.Locations[Waiting(first).Tested.Pair.A.Slot];
+        ref var collidable = ref Simulation.Bodies.SetOf(location).Collidables[location.Index];
+        ref var statics = ref worker.Statics;
+        ListOldPatches(ref statics, first, end, worker.Pool);
+        var touchCount = 0;
+        for (int i = first; i < end; ++i)
+            touchCount += HasContacts(i) ? 1 : 0;
+        foreach (ref var old in statics.Old.AsSpan())
+            touchCount += old.IsWritten ? 1 : 0;
+        collidable.IsAtSeam = JoinsStatics && touchCount > 1;
+        if (collidable.IsAtSeam)
+            Agree(ref worker, first, end);
+        if (JoinsStatics)
+            HandOver(ref statics, first, end, worker.Pool);
+        for (int i = first; i < end; ++i)
+            HandOn(ref worker, i);
+    }
+
+    bool HasContacts(int place)
+    {
+        ref var pair = ref Waiting(place);
+        for (int i = pair.Start; i < pair.End; ++i)
+        {
+            if (ResultOf(place, i).Manifold.Count > 0)
+                return true;
+        }
+        return false;
+    }
+
+    // Which of the body's contact constraints are with something that does not give way, and what becomes of them.
+    void ListOldPatches(ref StaticPairs statics, int first, int end, BufferPool pool)
+    {
+        statics.Old.Count = 0;
+        var a = Waiting(first).Tested.Pair.A;
+        ref var location = ref Simulation.Bodies.Locations[a.Slot];
+        if (location.SetIndex != 0)
+            return;
+        var solver = Simulation.Solver;
+        var list = Simulation.Bodies.Awake.Constraints[location.Index];
+        var edge = list.First;
+        for (int i = 0; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+        {
+            var slot = solver.Edges.ConstraintSlot(edge);
+            if (solver.Locations[slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
+                continue;
+            var pair = pairOfConstraint[slot];
+            if (pair.A.Packed != a.Packed || pair.B.Mobility == CollidableMobility.Dynamic)
+                continue;
+            var handle = solver.ReferenceOf(edge).ConnectingConstraintHandle;
+            if (!TryFind(handle, out var cacheIndex, out var children))
+                continue;
+            var old = new OldPatch { Constraint = handle, CacheIndex = cacheIndex, Children = children, Pair = StaticPairs.Nothing };
+            old.ContactCount = ConstraintTypeIds.ContactCount(solver.Locations[slot].TypeId);
+            foreach (ref var manifold in Pairs.ManifoldsOf(cacheIndex))
+            {
+                if (manifold.HasConstraint && manifold.Constraint == handle)
+                    old.Features = manifold.Features;
+            }
+            for (int j = first; j < end; ++j)
+            {
+                if (Waiting(j).Tested.Pair.B.Packed == pair.B.Packed)
+                    old.Pair = j;
+            }
+            old.IsWritten = old.Pair < 0 && Pairs.IsSeen(cacheIndex);
+            statics.Old.Add(old, pool);
+        }
+    }
+
+    void Agree(ref Worker worker, int first, int end)
+    {
+        ref var statics = ref worker.Statics;
+        ref var agreement = ref statics.Agreement;
+        agreement.Begin();
+        statics.Groups.Count = 0;
+        for (int i = first; i < end; ++i)
+        {
+            ref var pair = ref Waiting(i);
+            pair.Slot = StaticPairs.Nothing;
+            if (!HasContacts(i))
+                continue;
+            pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, worker.Pool);
+            var number = i - first + 1;
+            if (pair.IsOfGame)
+            {
+                for (int j = pair.Start; j < pair.End; ++j)
+                {
+                    ref var manifold = ref ResultOf(i, j).Manifold;
+                    if (manifold.Count > 0)
+                        agreement.AddFixed(manifold.Normal, DeepestOf(manifold), number, pair.Group, worker.Pool);
+                }
+            }
+            else if (pair.IsOfChildren)
+            {
+                for (int j = 0; j < pair.ChildCount; ++j)
+                {
+                    ref var child = ref workers[order[i].Worker].Statics.Children[pair.FirstChild + j];
+                    agreement.Add(child, number, pair.Group, Remembered(statics, i, child.Result, mixes: true), worker.Pool);
+                }
+            }
+            else
+            {
+                Place(pair, ResultOf(i, pair.FirstResult).Manifold, out var child);
+                pair.Slot = agreement.Add(child, number, pair.Group, Remembered(statics, i, child.Result, mixes: false), worker.Pool);
+            }
+        }
+        for (int i = 0; i < statics.Old.Count; ++i)
+        {
+            ref var old = ref statics.Old[i];
+            if (!old.IsWritten)
+                continue;
+            var rows = new ContactRows(Simulation.Solver, Simulation.Bodies, old.Constraint, old.ContactCount);
+            var depth = rows.Depth(0);
+            for (int j = 1; j < old.ContactCount; ++j)
+                depth = MathHelper.Max(depth, rows.Depth(j));
+            var group = GroupOf(ref statics, Pairs.Pairs.Keys[old.CacheIndex].B, worker.Pool);
+            agreement.AddFixed(rows.Normal, depth, end - first + 1 + i, group, worker.Pool);
+        }
+        if (!agreement.Run(worker.Pool))
+            return;
+        for (int i = first; i < end; ++i)
+        {
+            ref var pair = ref Waiting(i);
+            if (pair.IsOfGame || !agreement.HasChanged(i - first + 1))
+                continue;
+            if (pair.IsOfChildren)
+            {
+                RecallPatches(pair.Tested, out var known);
+                var room = workers[order[i].Worker].Statics.Results.AsSpan().Slice(pair.FirstResult - PatchSet.Capacity, PatchSet.Capacity);
+                pair.PatchCount = agreement.BuildPatches(i - first + 1, known, room, worker.Pool);
+            }
+            else
+                ResultOf(i, pair.FirstResult).Manifold = agreement[pair.Slot].Manifold;
+        }
+    }
+
+    // A bit for each contact that a constraint of its pair has, too.
+    static int Remembered(in StaticPairs statics, int place, in ChildResult result, bool mixes)
+    {
+        var remembered = 0;
+        foreach (ref var old in statics.Old.AsSpan())
+        {
+            for (int i = 0; i < result.Manifold.Count && old.Pair == place; ++i)
+            {
+                var feature = Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), i).FeatureId;
+                if (((ReadOnlySpan<int>)old.Features)[..old.ContactCount].Contains(mixes ? result.Children.Mix(feature) : feature))
+                    remembered |= 1 << i;
+            }
+        }
+        return remembered;
+    }
+
+    static float DeepestOf(in ConvexContactManifold manifold)
+    {
+        var depth = manifold.Contact0.Depth;
+        for (int i = 1; i < manifold.Count; ++i)
+            depth = MathHelper.Max(depth, Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i).Depth);
+        return depth;
+    }
+
+    // Statics and what rests are the first; what turns is alone.
+    int GroupOf(ref StaticPairs statics, CollidableReference b, BufferPool pool)
+    {
+        var velocity = default(BodyVelocity);
+        if (b.Mobility != CollidableMobility.Static)
+        {
+            ref var location = ref Simulation.Bodies.Locations[b.Slot];
+            velocity = Simulation.Bodies.SetOf(location).MotionStates[location.Index].Velocity;
+        }
+        if (velocity.Linear == default && velocity.Angular == default)
+            return 0;
+        for (int i = 0; i < statics.Groups.Count && velocity.Angular == default; ++i)
+        {
+            if (statics.Groups[i].Linear == velocity.Linear && statics.Groups[i].Angular == default)
+                return i + 1;
+        }
+        statics.Groups.Add(velocity, pool);
+        return statics.Groups.Count;
+    }
+
+    void Place(in StaticPair pair, in ConvexContactManifold manifold, out SeamChild child)
+    {
+        var bodies = Simulation.Bodies;
+        var (a, b) = (pair.Tested.Pair.A, pair.Tested.Pair.B);
+        ref var locationA = ref bodies.Locations[a.Slot];
+        ref var setA = ref bodies.SetOf(locationA);
+        var shapeA = setA.Collidables[locationA.Index].Shape;
+        ref var poseA = ref setA.MotionStates[locationA.Index].Pose;
+        TypedIndex shapeB;
+        ref var poseB = ref Unsafe.NullRef<RigidPose>();
+        if (b.Mobility == CollidableMobility.Static)
+        {
+            ref var other = ref Simulation.Statics.StaticsBuffer[Simulation.Statics.Indices[b.Slot]];
+            shapeB = other.Shape;
+            poseB = ref other.Pose;
+        }
+        else
+        {
+            ref var locationB = ref bodies.Locations[b.Slot];
+            ref var setB = ref bodies.SetOf(locationB);
+            shapeB = setB.Collidables[locationB.Index].Shape;
+            poseB = ref setB.MotionStates[locationB.Index].Pose;
+        }
+        Unsafe.SkipInit(out child);
+        child.Class = 0;
+        child.Result = new() { Children = new(0, 0), Manifold = manifold };
+        ChildShapes shapes = new()
+        {
+            TypeA = shapeA.Type,
+            TypeB = shapeB.Type,
+            ShapeA = Simulation.Shapes.GetBatch(shapeA.Type).GetPointer(shapeA.Index),
+            ShapeB = Simulation.Shapes.GetBatch(shapeB.Type).GetPointer(shapeB.Index),
+            OffsetB = poseB.Position - poseA.Position,
+            OrientationA = poseA.Orientation,
+            OrientationB = poseB.Orientation,
+        };
+        child.Placed.Write(shapes, moverIsB: false, pair.Tested.SpeculativeMargin);
+    }
+
+    void HandOn(ref Worker worker, int place)
+    {
+        ref var pair = ref Waiting(place);
+        if (pair.IsOfChildren)
+        {
+            var results = workers[order[place].Worker].Statics.Results.AsSpan()[pair.Start..pair.End];
+            CompleteChildren(ref worker, pair.Tested, results, pair.Material);
+        }
+        else if (pair.ResultCount > 0)
+        {
+            ref var manifold = ref ResultOf(place, pair.FirstResult).Manifold;
+            if (manifold.Count > 0)
+                Complete(ref worker, pair.Tested, manifold, pair.Material, worker.Statics.FindInheritance(pair.Tested.Pair, ChildIds.None));
+            else if (pair.Tested.KeepsHistory)
+                CompleteWithoutContacts(ref worker, pair.Tested);
+        }
+    }
+}

@@ -1,0 +1,216 @@
+using System;
+using BepuPhysics.Collidables;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A pair of a dynamic body and something that does not give way, whose contacts wait for those of the body's other such pairs.</summary>
+struct StaticPair
+{
+    /// <summary>The pair.</summary>
+    public TestedPair Tested;
+    /// <summary>How its surfaces behave.</summary>
+    public PairMaterialProperties Material;
+    /// <summary>Place of its results: for patches there is room before it.</summary>
+    public int FirstResult;
+    /// <summary>Number of its patches, which are right before the results; of a pair of convex shapes there are none.</summary>
+    public int PatchCount;
+    /// <summary>Number of results, without patches; zero for a pair that was completed without contacts.</summary>
+    public int ResultCount;
+    /// <summary>Place of the children that touch, of those that were kept; number of them.</summary>
+    public int FirstChild, ChildCount;
+    /// <summary>Whether one of its shapes is made of children.</summary>
+    public bool IsOfChildren;
+    /// <summary>Whether a game has changed its contacts: then it knows best.</summary>
+    public bool IsOfGame;
+    /// <summary>Number of those that move as its B; where bodies agree.</summary>
+    public int Group;
+    /// <summary>Place among the children of the body, of a pair of convex shapes.</summary>
+    public int Slot;
+
+    /// <summary>Place of the first of its results, patches before all.</summary>
+    public readonly int Start => FirstResult - PatchCount;
+
+    /// <summary>Place after the last of its results.</summary>
+    public readonly int End => FirstResult + ResultCount;
+}
+
+/// <summary>What contacts that are new take over from contacts of the same body with something else.</summary>
+struct Inheritance
+{
+    /// <summary>The pair whose contacts are new.</summary>
+    public CollidablePair Pair;
+    /// <summary>Which of its manifolds it is.</summary>
+    public ChildIds Children;
+    /// <summary>What the others carried in the last step.</summary>
+    public ContactPatch Load;
+}
+
+/// <summary>A constraint that a body had in the last step with something that does not give way.</summary>
+struct OldPatch
+{
+    /// <summary>The constraint.</summary>
+    public ConstraintHandle Constraint;
+    /// <summary>Number of its contacts.</summary>
+    public int ContactCount;
+    /// <summary>Features of its contacts.</summary>
+    public FeatureIds Features;
+    /// <summary>Index of its pair in the cache.</summary>
+    public int CacheIndex;
+    /// <summary>Which of the pair's manifolds it is.</summary>
+    public ChildIds Children;
+    /// <summary>Place of the pair among those that wait; negative where it does not.</summary>
+    public int Pair;
+    /// <summary>Number that it has where loads are handed on.</summary>
+    public int Source;
+    /// <summary>Whether the contacts of this step have been written to it already.</summary>
+    public bool IsWritten;
+}
+
+/// <summary>The pairs of one worker that wait, and its memory for making them agree. There is none before the first pair.</summary>
+struct StaticPairs
+{
+    /// <summary>The pairs.</summary>
+    public QuickList<StaticPair> Pairs;
+    /// <summary>Results of the pairs, each with room for patches before them.</summary>
+    public QuickList<ChildResult> Results;
+    /// <summary>Children that touch.</summary>
+    public QuickList<SeamChild> Children;
+    /// <summary>What new contacts take over.</summary>
+    public QuickList<Inheritance> Inheritances;
+    /// <summary>Constraints of the body whose pairs agree.</summary>
+    public QuickList<OldPatch> Old;
+    /// <summary>Velocities of what the body touches.</summary>
+    public QuickList<BodyVelocity> Groups;
+    /// <summary>Hands on what contacts carry.</summary>
+    public LoadHandover Transfer;
+    /// <summary>Makes pairs agree.</summary>
+    public BodyAgreement Agreement;
+    PatchResults shown;
+    int shownCount;
+
+    /// <summary>Index of what there is not.</summary>
+    public const int Nothing = -1;
+
+    const int InitialCapacity = 16;
+
+    [System.Runtime.CompilerServices.InlineArray(PatchSet.Capacity)]
+    struct PatchResults
+    {
+        ConvexContactManifold first;
+    }
+
+    void Prepare(BufferPool pool)
+    {
+        if (Pairs.Span.Allocated)
+            return;
+        Pairs = new(InitialCapacity, pool);
+        Results = new(InitialCapacity * 2, pool);
+        Children = new(InitialCapacity, pool);
+    }
+
+    /// <summary>Makes room for what bodies need that agree.</summary>
+    public void PrepareAgreement(BufferPool pool)
+    {
+        Inheritances = new(InitialCapacity, pool);
+        Old = new(InitialCapacity, pool);
+        Groups = new(InitialCapacity, pool);
+        Transfer = new(pool);
+        Agreement = new(pool);
+    }
+
+    /// <summary>Adds a pair of convex shapes.</summary>
+    public void Add(in TestedPair tested, in ConvexContactManifold manifold, in PairMaterialProperties material, bool isOfGame, BufferPool pool)
+    {
+        Prepare(pool);
+        Pairs.Add(new() { Tested = tested, Material = material, FirstResult = Results.Count, ResultCount = 1, IsOfGame = isOfGame }, pool);
+        Results.Add(new() { Children = ChildIds.None, KeepsHistory = tested.KeepsHistory, Manifold = manifold }, pool);
+    }
+
+    /// <summary>Notes a pair of convex shapes that had contacts, has none any more, and was completed.</summary>
+    public void NoteGone(in TestedPair tested, BufferPool pool)
+    {
+        if (tested.Pair.B.Mobility == CollidableMobility.Dynamic || tested.ConstraintTypeId == CachedManifold.NoConstraint)
+            return;
+        Prepare(pool);
+        Pairs.Add(new() { Tested = tested, FirstResult = Results.Count }, pool);
+    }
+
+    /// <summary>Remembers the patches of a pair as a game is shown them.</summary>
+    public void Show(Span<ChildResult> results)
+    {
+        shownCount = 0;
+        for (int i = 0; i < results.Length && results[i].Children.IsPatch; ++i)
+            shown[shownCount++] = results[i].Manifold;
+    }
+
+    /// <summary>Adds a pair of which one shape is made of children.</summary>
+    public void Add(in TestedPair tested, Span<ChildResult> results, Span<SeamChild> children, in PairMaterialProperties material, BufferPool pool)
+    {
+        Prepare(pool);
+        var patchCount = 0;
+        while (patchCount < results.Length && results[patchCount].Children.IsPatch)
+            ++patchCount;
+        var isOfGame = patchCount != shownCount;
+        for (int i = 0; i < patchCount && !isOfGame; ++i)
+            isOfGame = !BytesOf.AreEqual(shown[i], results[i].Manifold);
+        Results.EnsureCapacity(Results.Count + PatchSet.Capacity + results.Length, pool);
+        Results.Count += PatchSet.Capacity - patchCount;
+        foreach (ref var result in results)
+            Results.AddUnsafely(result);
+        Pairs.Add(new()
+        {
+            Tested = tested,
+            Material = material,
+            FirstResult = Results.Count - results.Length + patchCount,
+            PatchCount = patchCount,
+            ResultCount = results.Length - patchCount,
+            FirstChild = Children.Count,
+            ChildCount = children.Length,
+            IsOfChildren = true,
+            IsOfGame = isOfGame,
+        }, pool);
+        foreach (ref var child in children)
+            Children.Add(child, pool);
+    }
+
+    /// <summary>Place of what a manifold takes over; <see cref="Nothing"/> where there is nothing.</summary>
+    // Only those of one body are looked through, which are last.
+    public readonly int FindInheritance(in CollidablePair pair, ChildIds children)
+    {
+        for (int i = Inheritances.Count - 1; i >= 0 && Inheritances[i].Pair.A.Packed == pair.A.Packed; --i)
+        {
+            if (Inheritances[i].Pair.B.Packed == pair.B.Packed && Inheritances[i].Children == children)
+                return i;
+        }
+        return Nothing;
+    }
+
+    public void Release(BufferPool pool)
+    {
+        if (Inheritances.Span.Allocated)
+        {
+            Inheritances.Dispose(pool);
+            Old.Dispose(pool);
+            Groups.Dispose(pool);
+            Transfer.Dispose(pool);
+            Agreement.Dispose(pool);
+        }
+        if (Pairs.Span.Allocated)
+        {
+            Pairs.Dispose(pool);
+            Results.Dispose(pool);
+            Children.Dispose(pool);
+        }
+        this = default;
+    }
+}
+
+/// <summary>Compares values of any kind bit by bit.</summary>
+static class BytesOf
+{
+    /// <summary>Whether two values are the same in all bits.</summary>
+    public static bool AreEqual<T>(in T a, in T b) where T : unmanaged => System.Runtime.InteropServices.MemoryMarshal.AsBytes(new ReadOnlySpan<T>(in a))
+        .SequenceEqual(System.Runtime.InteropServices.MemoryMarshal.AsBytes(new ReadOnlySpan<T>(in b)));
+}
