@@ -151,7 +151,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var result = ref results[i];
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
-            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory) { Manifold = result.Manifold, Material = material, Inherited = inherited };
+            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory)
+            {
+                Manifold = result.Manifold,
+                Material = material,
+                Inherited = inherited,
+            };
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
                 var record = Pairs.Manifolds.Memory + known;
