@@ -13,6 +13,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var manifold = typeof(ConvexContactManifold);
         Precompilation.CompileAll(typeof(NarrowPhase<TCallbacks>));
         Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(Complete), manifold);
+        Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(CompleteLater), manifold);
         Precompilation.Compile(typeof(NarrowPhase<TCallbacks>), nameof(OnPairCompleted), manifold);
         Precompilation.Compile(typeof(Completion), nameof(ICollisionCallbacks.OnPairCompleted), manifold);
         Precompilation.Compile(typeof(TCallbacks));

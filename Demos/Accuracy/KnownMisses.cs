@@ -9,9 +9,6 @@ static class KnownMisses
 
     static KnownMisses()
     {
-        Add("C2", "separate triangles have an edge between them",
-            ("cylinder rolling at 5 m/s, yaw 0.5, two triangles", "s16 i1 r1 stiff"),
-            ("cylinder rolling at 5 m/s, yaw 0.5, two triangles", "s4 i1"));
         Add("C2", "a prism is no cylinder, and loses energy at each edge",
             ("prism of 64 sides rolling on 20 degrees, box", "s16 i1 r1 stiff"),
             ("prism of 64 sides rolling on 20 degrees, box", "s4 i1"),
@@ -38,8 +35,6 @@ static class KnownMisses
             ("HorizontalStraight, 1:1000", "s16 i1 r1 stiff"),
             ("HorizontalZigzag, 1:1", "s16 i1 r1 stiff"),
             ("HorizontalZigzag, 1:1000", "s16 i1 r1 stiff"));
-        Add("R1", "it rolls over the gap between the boxes",
-            ("lying cylinder on two boxes", "s4 i1"));
         // Rollers on rollers hold nothing back, and where a layer moves aside, contacts that give way tilt it further that way: rounding grows by e in a
         // few seconds.
         Add("R1", "in labile balance: rounding alone makes it fall",
