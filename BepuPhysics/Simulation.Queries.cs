@@ -105,7 +105,7 @@ public sealed partial class Simulation
             Handler.OnRayHit(ray, ref maximumT, t, normal, Collidable, childIndex);
     }
 
-    void GetPoseAndShape(CollidableReference collidable, out RigidPose pose, out TypedIndex shape)
+    internal void GetPoseAndShape(CollidableReference collidable, out RigidPose pose, out TypedIndex shape)
     {
         if (collidable.Mobility == CollidableMobility.Static)
         {

@@ -267,27 +267,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void Place(in StaticPair pair, in ConvexContactManifold manifold, out SeamChild child)
     {
-        var bodies = Simulation.Bodies;
-        var (a, b) = (pair.Tested.Pair.A, pair.Tested.Pair.B);
-        ref var locationA = ref bodies.Locations[a.Slot];
-        ref var setA = ref bodies.SetOf(locationA);
-        var shapeA = setA.Collidables[locationA.Index].Shape;
-        ref var poseA = ref setA.MotionStates[locationA.Index].Pose;
-        TypedIndex shapeB;
-        ref var poseB = ref Unsafe.NullRef<RigidPose>();
-        if (b.Mobility == CollidableMobility.Static)
-        {
-            ref var other = ref Simulation.Statics.StaticsBuffer[Simulation.Statics.Indices[b.Slot]];
-            shapeB = other.Shape;
-            poseB = ref other.Pose;
-        }
-        else
-        {
-            ref var locationB = ref bodies.Locations[b.Slot];
-            ref var setB = ref bodies.SetOf(locationB);
-            shapeB = setB.Collidables[locationB.Index].Shape;
-            poseB = ref setB.MotionStates[locationB.Index].Pose;
-        }
+        Simulation.GetPoseAndShape(pair.Tested.Pair.A, out var poseA, out var shapeA);
+        Simulation.GetPoseAndShape(pair.Tested.Pair.B, out var poseB, out var shapeB);
         Unsafe.SkipInit(out child);
         child.Class = 0;
         child.Result = new() { Children = new(0, 0), Manifold = manifold };

@@ -31,55 +31,60 @@ public sealed unsafe partial class Solver
     {
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
         Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
-        var old = Locations[constraint];
-        var processor = Processor(old.TypeId);
-        ref var typeBatch = ref TypeBatchAt(old);
-        var handle = typeBatch.IndexToHandle[old.IndexInTypeBatch];
-        for (int i = 0; i < processor.BodiesPerConstraint; ++i)
-        {
-            var slot = BodySlotOf(old, i);
-            var isKinematic = (processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag) != 0;
-            encoded[i] = isKinematic ? slot | EncodedBody.KinematicFlag : slot;
-            if (isKinematic)
-                CountAsleep(slot, 1);
-        }
-        processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
-        var kind = KindOf(old) == BatchKind.Coloured ? BatchKind.Fallback : KindOf(old);
-        RemoveFromBatch(old);
+        var handle = TakeOut(constraint, 1, column, encoded, out var processor, out var kind);
+        kind = kind == BatchKind.Coloured ? BatchKind.Fallback : kind;
         ref var set = ref Sets[AsleepSet];
         if (!set.Batches.Span.Allocated)
             set.Batches = new QuickList<ConstraintBatch>(2, pool);
         var batchIndex = FindOrCreateBatch(ref set, kind);
-        var index = processor.Allocate(
-            ref set.Batches[batchIndex].FindOrCreate(old.TypeId, pool), handle, encoded[..processor.BodiesPerConstraint], MinimumCapacityPerTypeBatch, pool);
-        Locations[constraint] = new() { SetIndex = AsleepSet, BatchIndex = batchIndex, TypeId = old.TypeId, IndexInTypeBatch = index };
-        processor.WriteColumn(ref TypeBatchAt(Locations[constraint]), index, column);
+        ref var typeBatch = ref set.Batches[batchIndex].FindOrCreate(processor.TypeId, pool);
+        var index = processor.Allocate(ref typeBatch, handle, encoded[..processor.BodiesPerConstraint], MinimumCapacityPerTypeBatch, pool);
+        Locations[constraint] = new() { SetIndex = AsleepSet, BatchIndex = batchIndex, TypeId = processor.TypeId, IndexInTypeBatch = index };
+        processor.WriteColumn(ref typeBatch, index, column);
     }
 
     /// <summary>Moves a constraint that sleeps into the active set, with its impulses. After its bodies.</summary>
     internal void Awaken(int constraint)
     {
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
+        Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
         Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];
+        var handle = TakeOut(constraint, -1, column, encoded, out var processor, out var kind);
+        for (int i = 0; i < processor.BodiesPerConstraint; ++i)
+            handles[i] = bodies.HandleAt(encoded[i] & EncodedBody.IndexMask);
+        kind = kind == BatchKind.Fallback ? BatchKind.Coloured : kind;
+        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], processor.TypeId, kind);
+        Locations[constraint] = location;
+        processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
+        if (processor.MakesHubs && kind != BatchKind.Disabled)
+            MarkHubs(location);
+    }
+
+    /// <summary>Takes a constraint out of its batch, with all that it holds.</summary>
+    /// <param name="constraint">The constraint.</param>
+    /// <param name="asleepChange">What is added to the number of sleeping constraints of its kinematic bodies.</param>
+    /// <param name="column">Receives description and impulses.</param>
+    /// <param name="encoded">Receives the slots of its bodies, with the mark of kinematic ones.</param>
+    /// <param name="processor">Its processor.</param>
+    /// <param name="kind">Kind of the batch that it was in.</param>
+    ConstraintHandle TakeOut(int constraint, int asleepChange, Span<float> column, Span<int> encoded, out TypeProcessor processor, out BatchKind kind)
+    {
         var old = Locations[constraint];
-        var processor = Processor(old.TypeId);
+        processor = Processor(old.TypeId);
         ref var typeBatch = ref TypeBatchAt(old);
         var handle = typeBatch.IndexToHandle[old.IndexInTypeBatch];
         for (int i = 0; i < processor.BodiesPerConstraint; ++i)
         {
             var slot = BodySlotOf(old, i);
-            handles[i] = bodies.HandleAt(slot);
-            if ((processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag) != 0)
-                CountAsleep(slot, -1);
+            var mark = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag;
+            encoded[i] = slot | mark;
+            if (mark != 0)
+                CountAsleep(slot, asleepChange);
         }
         processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
-        var kind = KindOf(old) == BatchKind.Fallback ? BatchKind.Coloured : KindOf(old);
+        kind = KindOf(old);
         RemoveFromBatch(old);
-        var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, kind);
-        Locations[constraint] = location;
-        processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
-        if (processor.MakesHubs && kind != BatchKind.Disabled)
-            MarkHubs(location);
+        return handle;
     }
 
     /// <summary>Follows a body of the active set that is about to leave it, or has just come.</summary>

@@ -17,13 +17,13 @@ public sealed class ContactEventHandlerTests
     {
         public List<Vector3> Places { get; } = [];
 
-        public void OnContactAdded<TManifold>(CollidableReference eventSource, CollidablePair pair, ref TManifold contactManifold,
-            Vector3 contactOffset, Vector3 contactNormal, float depth, int featureId, int contactIndex, int workerIndex)
-            where TManifold : unmanaged, IContactManifold<TManifold>
+        public void OnContactAdded<T>(
+            CollidableReference heard, CollidablePair both, ref T contacts, Vector3 place, Vector3 normal, float depth, int feature, int index, int worker)
+            where T : unmanaged, IContactManifold<T>
         {
-            Assert.Equal(featureId, contactManifold.GetFeatureId(contactIndex));
-            Assert.Equal(contactOffset, contactManifold.GetOffset(contactIndex));
-            Places.Add(contactOffset);
+            Assert.Equal(feature, contacts.GetFeatureId(index));
+            Assert.Equal(place, contacts.GetOffset(index));
+            Places.Add(place);
         }
     }
 

@@ -24,6 +24,35 @@ static unsafe class ContainerPlaces
         children.ConeB = default;
     }
 
+    /// <summary>A child of a container, and a shape that has none.</summary>
+    /// <param name="pair">The container and the shape.</param>
+    /// <param name="containerIsA">Whether the container is A.</param>
+    /// <param name="container">The container.</param>
+    /// <param name="ids">The child.</param>
+    /// <param name="typeId">Type of the shape.</param>
+    /// <param name="shape">The shape.</param>
+    /// <param name="shapes">Shapes that children may be.</param>
+    /// <param name="scratch">Room for a child that is made on the way.</param>
+    /// <param name="children">Receives the two.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Set<TContainer>(in ParentPair pair, bool containerIsA, in TContainer container, ChildIds ids, int typeId, void* shape, Shapes shapes,
+        void* scratch, out ChildShapes children) where TContainer : unmanaged, IContainer
+    {
+        SetParents(pair, out children);
+        if (containerIsA)
+        {
+            SetA(ref children, container, ids.A, shapes, scratch);
+            children.TypeB = typeId;
+            children.ShapeB = shape;
+        }
+        else
+        {
+            SetB(ref children, container, ids.B, shapes, scratch);
+            children.TypeA = typeId;
+            children.ShapeA = shape;
+        }
+    }
+
     /// <summary>Replaces A, which is a container, by a child of it.</summary>
     public static void SetA<TContainer>(ref ChildShapes children, in TContainer container, int index, Shapes shapes, void* scratch)
         where TContainer : unmanaged, IContainer

@@ -68,19 +68,8 @@ sealed unsafe class ContainerPlaneTask<TContainer> : ExpandingTask<TContainer, H
     internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
-        var scratch = batch.Bundles.Memory + ScratchStart;
-        ContainerPlaces.SetParents(entry.Pair, out children);
-        if (entry.Pair.Flipped)
-        {
-            ContainerPlaces.SetB(ref children, entry.A, found.Children.B, shapes, scratch);
-            children.TypeA = HalfSpace.Id;
-            children.ShapeA = Unsafe.AsPointer(ref entry.B);
-        }
-        else
-        {
-            ContainerPlaces.SetA(ref children, entry.A, found.Children.A, shapes, scratch);
-            children.TypeB = HalfSpace.Id;
-            children.ShapeB = Unsafe.AsPointer(ref entry.B);
-        }
+        ContainerPlaces.Set(
+            entry.Pair, containerIsA: !entry.Pair.Flipped, entry.A, found.Children, HalfSpace.Id, Unsafe.AsPointer(ref entry.B), shapes,
+            batch.Bundles.Memory + ScratchStart, out children);
     }
 }

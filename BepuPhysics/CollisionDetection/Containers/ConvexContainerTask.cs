@@ -59,19 +59,8 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
-        var scratch = batch.Bundles.Memory + ScratchStart;
-        ContainerPlaces.SetParents(entry.Pair, out children);
-        if (entry.Pair.Flipped)
-        {
-            ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);
-            children.TypeB = TConvex.TypeId;
-            children.ShapeB = Unsafe.AsPointer(ref entry.A);
-        }
-        else
-        {
-            ContainerPlaces.SetB(ref children, entry.B, found.Children.B, shapes, scratch);
-            children.TypeA = TConvex.TypeId;
-            children.ShapeA = Unsafe.AsPointer(ref entry.A);
-        }
+        ContainerPlaces.Set(
+            entry.Pair, containerIsA: entry.Pair.Flipped, entry.B, found.Children, TConvex.TypeId, Unsafe.AsPointer(ref entry.A), shapes,
+            batch.Bundles.Memory + ScratchStart, out children);
     }
 }
