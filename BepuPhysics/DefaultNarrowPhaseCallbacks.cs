@@ -52,6 +52,9 @@ public struct DefaultNarrowPhaseCallbacks : ISurfaceCallbacks<DefaultNarrowPhase
     }
 
     /// <inheritdoc/>
+    public static bool DecidesOnChildren => false;
+
+    /// <inheritdoc/>
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 
     /// <inheritdoc/>

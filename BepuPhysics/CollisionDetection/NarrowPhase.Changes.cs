@@ -31,6 +31,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public CollidablePair Pair { get; } = pair;
         public ChildIds Children { get; } = children;
         public bool KeepsHistory { get; } = keepsHistory;
+        /// <summary>Whether the pair as a whole is to have a history.</summary>
+        public bool KeepsParentHistory;
         /// <summary>What the constraint holds that the manifold has had so far, in the list of the worker; negative where it has not been read.</summary>
         public int Old = NotRead;
         public ConvexContactManifold Manifold;
@@ -273,6 +275,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (pending.Children.IsPatch)
                 record.Patch.Write(pending.Manifold);
         }
+        if (pending.KeepsParentHistory && cached.Single.History < 0)
+            cached.Single.History = Pairs.Parents.Take(Pool);
         if (pending.KeepsHistory && manifold.History < 0)
             manifold.History = Pairs.Histories.Take(Pool);
         var contactCount = pending.Manifold.Count;

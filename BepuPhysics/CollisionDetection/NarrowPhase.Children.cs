@@ -122,6 +122,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             NoteSensed(workerIndex, tested.Pair, results);
             return;
         }
+        tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry;
+        if (HasParentHistory(tested))
+            Record(tested, worker.Batcher.Dt, offsetB, results);
+        CompleteChildren(workerIndex, tested, offsetB, results);
+    }
+
+    void CompleteChildren(int workerIndex, in TestedPair tested, Vector3 offsetB, Span<ChildResult> results)
+    {
+        ref var worker = ref workers[workerIndex];
         var waits = Waits(tested);
         if (waits)
             worker.Statics.Show(results);
@@ -137,6 +146,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             CompleteChildren(ref worker, tested, results, material);
     }
 
+    // What is carried along are patches alone: the children keep their histories.
     void CompleteChildren(ref Worker worker, in TestedPair tested, Span<ChildResult> results, in PairMaterialProperties material)
     {
         // A pair of which nothing is left is not seen, and goes as a whole.
@@ -153,6 +163,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
             var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory)
             {
+                KeepsParentHistory = tested.MayCarry && result.Children.IsPatch,
                 Manifold = result.Manifold,
                 Material = material,
                 Inherited = inherited,
@@ -172,7 +183,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             }
             Note(ref worker.Pending, pending, worker.Pool);
         }
-        SkipGone(ref worker, tested.Pair, ref known, ulong.MaxValue);
+        SkipGone(ref worker, tested.Pair, ref known, tested.IsCarried ? ChildIds.EndOfPatches : ulong.MaxValue);
     }
 
     // Children without contacts are remembered for their history.

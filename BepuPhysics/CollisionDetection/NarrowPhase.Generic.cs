@@ -137,7 +137,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.SpeculativeMargin = margin;
         if (task.Expands)
         {
+            tested.MayCarry = tested.IsCarried = false;
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
+            if (!TCallbacks.DecidesOnChildren && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
+                return;
             TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
             return;
         }

@@ -15,6 +15,7 @@ public abstract partial class NarrowPhase
         int contactPairCount = 0;
         int constraintCount = 0;
         int historyCount = 0;
+        int parentHistoryCount = 0;
         int childManifoldCount = 0;
         for (int j = 0; j < Pairs.Pairs.Count + Pairs.Asleep.Count; ++j)
         {
@@ -26,6 +27,9 @@ public abstract partial class NarrowPhase
             Invariant.Require(table.IndexOf(key) == i, "place of pair", j);
             Invariant.Require(!isAsleep || Pairs.Pairs.IndexOf(key) < 0, "second place of sleeping pair", i);
             ref var cached = ref table.Values[i];
+            var hasParentHistory = cached.IsOfChildren && cached.Single.History >= 0;
+            Invariant.Require(!hasParentHistory || Pairs.Parents.MayExist(cached.Single.History), "history of pair of parents", i, cached.Single.History);
+            parentHistoryCount += hasParentHistory ? 1 : 0;
             var constraintCountBefore = constraintCount;
             var last = 0ul;
             for (var manifolds = Pairs.ManifoldsOf(ref cached); manifolds.MoveNext();)
@@ -51,6 +55,7 @@ public abstract partial class NarrowPhase
         }
         Invariant.Require(contactPairCount == PairCount, "number of pairs with contacts, counted are", contactPairCount, PairCount);
         Invariant.Require(historyCount == Pairs.Histories.Count, "number of histories, pairs have", historyCount, Pairs.Histories.Count);
+        Invariant.Require(parentHistoryCount == Pairs.Parents.Count, "number of histories of parents, pairs have", parentHistoryCount, Pairs.Parents.Count);
         Invariant.Require(childManifoldCount == Pairs.Manifolds.Count, "number of manifolds, pairs have", childManifoldCount, Pairs.Manifolds.Count);
         Invariant.Require(CountContactConstraints() == constraintCount, "number of contact constraints, manifolds are", constraintCount);
     }

@@ -53,7 +53,12 @@ unsafe struct PairQueue
         if (third >= taken && elements[third % Length] >= 0)
         {
             ref var cached = ref cache.Pairs.Values[elements[third % Length]];
-            if (cached.Single.History >= 0)
+            if (cached.Single.History >= 0 && cached.IsOfChildren)
+            {
+                cache.Parents.Prefetch(cached.Single.History);
+                cache.Parents.PrefetchRest(cached.Single.History);
+            }
+            else if (cached.Single.History >= 0)
             {
                 cache.Histories.Prefetch(cached.Single.History);
                 if (cached.Single.HasConstraint)

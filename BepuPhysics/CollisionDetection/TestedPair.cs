@@ -19,6 +19,9 @@ struct TestedPair
     /// <summary>Whether A touched several things in the last step that do not give way.</summary>
     public bool IsAtSeam;
 
+    /// <summary>Of a pair with children: whether its patches may be carried along, and whether they are.</summary>
+    public bool MayCarry, IsCarried;
+
     /// <summary>Greatest distance at which a contact exists, m.</summary>
     public float SpeculativeMargin;
 

@@ -27,6 +27,8 @@ struct SceneNarrowPhaseCallbacks(ContactRecorder recorder, PairMaterialPropertie
         return true;
     }
 
+    public static bool DecidesOnChildren => false;
+
     public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -53,6 +53,11 @@ unsafe struct ChildPairs(BufferPool pool)
     public SeamMemory Seams = new(pool);
     /// <summary>The children that the parent which was completed last was joined of, if these were asked for.</summary>
     public QuickList<SeamChild> Kept;
+    /// <summary>
+    /// Whether the patches of the parent that was completed last may be carried along while it hardly moves. What has round children and may roll is not:
+    /// a contact that is carried along goes up behind it and pushes it on. Only where a round child lies with an end flat, it has three or more.
+    /// </summary>
+    public bool MayCarry;
     WaitingList<WaitingChild> waiting = new(InitialCapacity, pool);
     WaitingList<OpenParent> parents = new(InitialCapacity, pool);
 
@@ -70,6 +75,7 @@ unsafe struct ChildPairs(BufferPool pool)
         public Vector3 OffsetB;
         public float SpeculativeMargin;
         public bool MoverIsB;
+        public bool HasRound;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -104,6 +110,7 @@ unsafe struct ChildPairs(BufferPool pool)
             SpeculativeMargin = pair.SpeculativeMargin,
             // The shape of the lower type: a convex one before a container. Of two of one type it is the caller's A, the body where B is a static.
             MoverIsB = pair.Flipped,
+            HasRound = PlacedChildren.IsRound(pair.NameA.Type) || PlacedChildren.IsRound(pair.NameB.Type),
             PairId = pair.PairId,
             WaitCount = 1,
         };
@@ -159,6 +166,7 @@ unsafe struct ChildPairs(BufferPool pool)
         var results = Results(parent, 0);
         var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
         Kept.Count = 0;
+        MayCarry = false;
         if (!Seams.Rank(results, pool))
             return 0;
         TriangleNeighbours.Apply(ref Seams, results, placed, open.SpeculativeMargin, pool);
@@ -166,7 +174,19 @@ unsafe struct ChildPairs(BufferPool pool)
         ChildAgreement.Run(ref Seams, results, placed, pool);
         if (known.KeepsChildren)
             Keep(results, placed, pool);
+        MayCarry = open.HasRound || AreAllCarried(results, placed);
         return PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+    }
+
+    readonly bool AreAllCarried(Span<ChildResult> results, Span<PlacedChildren> placed)
+    {
+        foreach (ref var child in Seams.Ranked.AsSpan())
+        {
+            var count = results[child.Slot].Manifold.Count;
+            if (count != 0 && count < placed[child.Slot].LeastCarriedContactCount)
+                return false;
+        }
+        return true;
     }
 
     void Keep(Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)

@@ -12,6 +12,9 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     /// <summary>The children of the pair that is being completed, if <see cref="KnownPatches.KeepsChildren"/> was said of it.</summary>
     internal readonly Span<SeamChild> KeptChildren => Children->Kept.AsSpan();
 
+    /// <summary>Whether the patches of the pair that is being completed may be carried along while it hardly moves.</summary>
+    internal readonly bool MayCarry => Children->MayCarry;
+
     /// <summary>Adds a pair of shapes that exist to a task that expands it, with a pose that is known to be sound.</summary>
     internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in PairMotion motion)
@@ -137,7 +140,10 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             patchCount = Children->Join(parent, known, Pool);
         }
         else
+        {
             Children->Kept.Count = 0;
+            Children->MayCarry = false;
+        }
         TCallbacks.OnChildrenCompleted(ref Callbacks, pairId, Children->OffsetB(parent), Children->Results(parent, patchCount));
         Children->Close(parent, Pool);
     }

@@ -16,6 +16,9 @@ readonly record struct ChildIds(int A, int B)
     /// <summary>Whether this is a patch; <see cref="B"/> is its number.</summary>
     public bool IsPatch => A == PatchMark;
 
+    /// <summary>What the order of all patches is below.</summary>
+    public static ulong EndOfPatches => new ChildIds(PatchMark + 1, 0).Order;
+
     /// <summary>Number by which the manifolds of a pair are in order: patches, then children.</summary>
     public ulong Order => (ulong)((uint)A ^ 1u << 31) << 32 | (uint)B;
 
@@ -67,7 +70,7 @@ struct ChildManifold
 // 32 bytes, so that none lies across two cache lines.
 struct CachedPair
 {
-    /// <summary>The manifold of a pair of convex shapes. Of other pairs the type id says that they are such, and the rest nothing.</summary>
+    /// <summary>The manifold of a pair of convex shapes. Of other pairs the type id says that they are such, and the history is that of the pair as a whole.</summary>
     public CachedManifold Single;
     /// <summary>Index of the first of several manifolds; <see cref="PairRecords{T}.None"/> where there is none.</summary>
     public int FirstManifold;

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
@@ -15,15 +16,16 @@ struct CarriedContacts
     FeatureIds features;
 
     /// <summary>Finds the contacts where the shapes are now.</summary>
-    /// <param name="bound">Which contacts there are, and where the shapes were.</param>
+    /// <param name="bound">Where the shapes were.</param>
+    /// <param name="contactMask">A bit for each place that has a contact.</param>
     /// <param name="offsetB">Position of B less that of A.</param>
     /// <param name="translation">By how much the smaller shape has moved since, in the frame of the larger.</param>
     /// <param name="relative">Its orientation in that frame.</param>
     /// <param name="larger">Orientation of the larger shape.</param>
     /// <param name="result">The contacts.</param>
     // Each contact is a point of the larger shape's surface and one of the smaller's, half its depth to either side.
-    public readonly void Carry(in RetestBound bound, in Vector3 offsetB, in Vector3 translation, in Quaternion relative, in Quaternion larger,
-        ref ConvexContactManifold result)
+    public readonly void Carry(in RetestBound bound, int contactMask, in Vector3 offsetB, in Vector3 translation, in Quaternion relative,
+        in Quaternion larger, ref ConvexContactManifold result)
     {
         Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(bound.Orientation), relative), out var rotation);
         Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
@@ -33,9 +35,9 @@ struct CarriedContacts
         var across = bound.AIsLarger ? normal : -normal;
         var center = bound.AIsLarger ? offsetB : default;
         var count = 0;
-        for (int i = 0; bound.ContactMask >> i != 0; ++i)
+        for (int i = 0; contactMask >> i != 0; ++i)
         {
-            if ((bound.ContactMask >> i & 1) == 0)
+            if ((contactMask >> i & 1) == 0)
                 continue;
             ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, count++);
             var halfway = across * (depths[i] * 0.5f);
@@ -47,6 +49,22 @@ struct CarriedContacts
             carried.FeatureId = features[i];
         }
         result.Count = count;
+    }
+
+    /// <summary>Keeps contacts that were found where the shapes are now; they are in the first places.</summary>
+    /// <param name="manifold">The contacts.</param>
+    /// <param name="center">Centre of the smaller shape less that of A.</param>
+    /// <param name="toLarger">Rotation from the world to the frame of the larger shape.</param>
+    public void Record(in ConvexContactManifold manifold, in Vector3 center, in Quaternion toLarger)
+    {
+        normal = Exact.Rotate(manifold.Normal, toLarger);
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref Unsafe.AsRef(in manifold), i);
+            positions[i] = Exact.Rotate(contact.Offset - center, toLarger);
+            depths[i] = contact.Depth;
+            features[i] = contact.FeatureId;
+        }
     }
 }
 

@@ -48,6 +48,9 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     /// <summary>Histories of the pairs that have one; changed in place by the worker that tests the pair.</summary>
     public PairRecords<PairHistory> Histories;
 
+    /// <summary>Histories of pairs of which one shape is made of children, for those that have one.</summary>
+    public PairRecords<ParentHistory> Parents;
+
     /// <summary>Manifolds of the pairs that may have several.</summary>
     public PairRecords<ChildManifold> Manifolds;
 
@@ -198,7 +201,12 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
     public void Empty(ref CachedPair pair, bool ofChildren, BufferPool pool)
     {
         if (pair.Single.History >= 0)
-            Histories.Return(pair.Single.History, pool);
+        {
+            if (pair.IsOfChildren)
+                Parents.Return(pair.Single.History, pool);
+            else
+                Histories.Return(pair.Single.History, pool);
+        }
         while (pair.FirstManifold != PairRecords<ChildManifold>.None)
         {
             var removed = pair.FirstManifold;
@@ -248,6 +256,7 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         if (Asleep.Keys.Allocated)
             Asleep.Clear();
         Histories.Clear();
+        Parents.Clear();
         Manifolds.Clear();
     }
 
@@ -258,6 +267,7 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
             Asleep.Dispose(pool);
         pool.Return(ref seen);
         Histories.Dispose(pool);
+        Parents.Dispose(pool);
         Manifolds.Dispose(pool);
     }
 }

@@ -44,6 +44,20 @@ struct RetestBound
     /// <summary>Relative rounding of offsets and depths, with a margin: what shapes that are apart must be farther apart by.</summary>
     public const float Rounding = 1e-5f;
 
+    /// <summary>Begins anew, with the shapes where they are now.</summary>
+    /// <param name="offsetB">Position of B less that of A.</param>
+    /// <param name="currentA">Orientation of A.</param>
+    /// <param name="currentB">Orientation of B.</param>
+    /// <param name="toLarger">Rotation from the world to the frame of the larger shape.</param>
+    public void Place(in Vector3 offsetB, in Quaternion currentA, in Quaternion currentB, out Quaternion toLarger)
+    {
+        // The same operations in the same order as in Holds: a pair that has not moved has the pose that was recorded.
+        toLarger = Exact.Conjugate(AIsLarger ? currentA : currentB);
+        Orientation = Exact.Concatenate(AIsLarger ? currentB : currentA, toLarger);
+        Offset = Exact.Rotate(AIsLarger ? offsetB : -offsetB, toLarger);
+        Remaining = Lifetime;
+    }
+
     /// <summary>Whether the outcome holds for this step, which is then one of those that remain.</summary>
     /// <param name="offsetB">Position of B less that of A.</param>
     /// <param name="currentA">Orientation of A.</param>

@@ -57,6 +57,21 @@ unsafe struct PlacedChildren
     /// <summary>Whether both shapes are among those that can be looked at along a direction.</summary>
     public readonly bool AreKnown => TypeA >= 0 && TypeB >= 0;
 
+    /// <summary>Number of contacts from which on they may be carried along while the shapes hardly move; more than there can be of shapes that are not known.
+    /// </summary>
+    public readonly int LeastCarriedContactCount
+    {
+        get
+        {
+            if (!AreKnown)
+                return ConvexContactManifold.MaximumContactCount + 1;
+            return IsRound(TypeA) || IsRound(TypeB) ? 3 : 1;
+        }
+    }
+
+    /// <summary>Whether shapes of a type have an axis that they may roll about: that of their y, or any.</summary>
+    public static bool IsRound(int typeId) => typeId == Sphere.Id || typeId == Capsule.Id || typeId == Cylinder.Id;
+
     /// <summary>Keeps what a task has said of two children.</summary>
     public void Write(in ChildShapes children, bool moverIsB, float speculativeMargin)
     {

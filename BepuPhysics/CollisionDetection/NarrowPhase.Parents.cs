@@ -1,0 +1,70 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs of which one shape at least is made of children, as a whole: what has hardly moved keeps its patches, and its children are not looked for.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    /// <summary>Goes on with the patches of the last test of a pair, if that still holds.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    bool TryCarry(int workerIndex, in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB, in RigidPose poseA, in RigidPose poseB)
+    {
+        if (!HasParentHistory(tested))
+            return false;
+        ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
+        history.Identify(Identify(shapeA), Identify(shapeB));
+        // What agrees with others of its body may come out otherwise though it has not moved.
+        if (Waits(tested))
+        {
+            history.Forget();
+            return false;
+        }
+        var offsetB = poseB.Position - poseA.Position;
+        Unsafe.SkipInit(out ParentHistory.Results results);
+        var count = history.TryCarry(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
+        if (count == 0)
+            return false;
+        CompleteChildren(workerIndex, tested with { IsCarried = true }, offsetB, results[..count]);
+        return true;
+    }
+
+    bool HasParentHistory(in TestedPair tested) =>
+        tested.CacheIndex >= 0 && Pairs.Pairs.Values[tested.CacheIndex] is { IsOfChildren: true, Single.History: >= 0 };
+
+    /// <summary>Keeps the patches that a test has found, if they may be carried along and the bodies are hardly moving.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void Record(in TestedPair tested, float dt, Vector3 offsetB, ReadOnlySpan<ChildResult> results)
+    {
+        ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
+        Simulation.GetPoseAndShape(tested.Pair.A, out var poseA, out var shapeA);
+        Simulation.GetPoseAndShape(tested.Pair.B, out var poseB, out var shapeB);
+        if (history.Reach == 0)
+            history.Measure(ReachOf(shapeA), ReachOf(shapeB));
+        var velocityA = VelocityOf(tested.Pair.A);
+        var velocityB = VelocityOf(tested.Pair.B);
+        // The smaller shape's velocity as the larger one sees it.
+        var turning = history.AIsLarger ? velocityA.Angular : velocityB.Angular;
+        var linear = velocityB.Linear - velocityA.Linear - Exact.Cross(turning, offsetB);
+        var angular = velocityB.Angular - velocityA.Angular;
+        // By how much its points may move in a step.
+        var step = (Exact.Length(linear) + Exact.Length(angular) * history.Reach) * dt;
+        if (tested.MayCarry && history.MayCarry && step < RetestBound.Tolerance * history.Reach)
+            history.Record(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
+        else
+            history.Forget();
+    }
+
+    float ReachOf(TypedIndex shape) => Simulation.Shapes.GetBatch(shape.Type).MaximumRadius(shape.Index);
+
+    BodyVelocity VelocityOf(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            return default;
+        ref var location = ref Simulation.Bodies.Locations[collidable.Slot];
+        return Simulation.Bodies.SetOf(location).MotionStates[location.Index].Velocity;
+    }
+}
