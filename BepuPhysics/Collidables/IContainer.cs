@@ -30,6 +30,9 @@ unsafe interface IContainer : IShape
     /// <summary>Size of the scratch memory that a child may be written to, bytes.</summary>
     const int ScratchByteCount = 128;
 
+    /// <summary>Whether the children are in a list. Their boxes are then measured once for all that may touch it, one after the other.</summary>
+    static abstract bool IsList { get; }
+
     /// <summary>Greatest number of nodes that <see cref="Open"/> writes.</summary>
     int MaximumFanOut { get; }
 
@@ -46,10 +49,10 @@ unsafe interface IContainer : IShape
     /// <summary>Finds the children whose boxes overlap or touch a box, each once, in any fixed order.</summary>
     /// <param name="min">Lower corner in the container's frame, m.</param>
     /// <param name="max">Upper corner, nowhere below the lower.</param>
-    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="list">Of a list, what <see cref="Open"/> writes for its root.</param>
     /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
     /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
-    void FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool);
+    void FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool);
 
     /// <summary>Gets a child.</summary>
     /// <param name="index">Number of the child.</param>

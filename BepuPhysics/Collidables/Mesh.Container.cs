@@ -43,7 +43,9 @@ public unsafe partial struct Mesh : IContainer
         return count;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool) =>
+    static bool IContainer.IsList => false;
+
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
         FindLocalOverlaps(min, max, ref found, pool);
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)

@@ -142,7 +142,9 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         return count;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool)
+    static bool IContainer.IsList => false;
+
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var collector = new Collector { Found = found, Pool = pool };
         Tree.GetOverlaps(min, max, pool, ref collector);

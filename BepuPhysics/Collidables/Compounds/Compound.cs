@@ -96,16 +96,15 @@ public unsafe struct Compound : ICompoundShape, IContainer
         return Children.Length;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool)
+    static bool IContainer.IsList => true;
+
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
-        pool.TakeAtLeast(Math.Max(1, Children.Length), out Buffer<NodeChild> boxes);
-        CompoundChildren.WriteBoxes(Children, shapes, boxes.Memory);
         for (int i = 0; i < Children.Length; ++i)
         {
-            if (BoundingBox.IntersectsUnsafe(min, max, boxes[i].Min, boxes[i].Max))
+            if (BoundingBox.IntersectsUnsafe(min, max, list[i].Min, list[i].Max))
                 found.Add(i, pool);
         }
-        pool.Return(ref boxes);
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>

@@ -27,8 +27,10 @@ public unsafe partial struct HeightField
         child = new() { TypeId = Triangle.Id, Shape = scratch, Pose = new(center), Cone = GetCone(x, z, isSecond, triangle, center) };
     }
 
+    static bool IContainer.IsList => false;
+
     // In the order of their numbers.
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var (firstX, lastX) = FindCells(min.X, max.X, CellWidth, CellCountX);
         var (firstZ, lastZ) = FindCells(min.Z, max.Z, CellLength, CellCountZ);

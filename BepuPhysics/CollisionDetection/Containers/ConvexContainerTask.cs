@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -26,6 +27,8 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     {
         var entries = Entries(batch);
         var children = new QuickList<int>(InitialCapacity, pool);
+        var list = default(Buffer<NodeChild>);
+        var listed = default(TypedIndex);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             var count = Math.Min(Vector<float>.Count, batch.Count - start);
@@ -34,12 +37,29 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             {
                 ref var entry = ref entries[start + i];
                 children.Count = 0;
-                entry.B.FindOverlaps(Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), shapes, ref children, pool);
+                if (TContainer.IsList)
+                    List(entry, shapes, ref list, ref listed, pool);
+                entry.B.FindOverlaps(
+                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), list.Memory, ref children, pool);
                 for (int j = 0; j < children.Count; ++j)
                     found.Add(new(start + i, entry.Pair.Flipped ? new(children[j], 0) : new(0, children[j])), pool);
             }
         }
         children.Dispose(pool);
+        if (list.Allocated)
+            pool.Return(ref list);
+    }
+
+    // Measures the children of a container, unless they are those that were measured last.
+    static void List(in Entry entry, Shapes shapes, ref Buffer<NodeChild> list, ref TypedIndex listed, BufferPool pool)
+    {
+        var name = entry.Pair.Flipped ? entry.Pair.NameA : entry.Pair.NameB;
+        if (name.Exists && name.Packed == listed.Packed)
+            return;
+        listed = name;
+        if (list.Length < entry.B.MaximumFanOut)
+            pool.ResizeToAtLeast(ref list, entry.B.MaximumFanOut, 0);
+        entry.B.Open(0, shapes, list.Memory);
     }
 
     static void FindBoxes(Entry* entries, int count, float dt, out Vector3Wide min, out Vector3Wide max)
