@@ -25,6 +25,7 @@ public partial class MigrationPageTests
         ["four type processors"] = "DocSamplesTests.Code_of_a_page_is_among_the_samples",
         ["pair testers"] = "DocSamplesTests.Code_of_a_page_is_among_the_samples",
         ["narrow phase callbacks"] = "MigrationTests.Ready_made_callbacks_do_not_collide_with_those_of_games",
+        ["the callbacks about children"] = "CarriedPatchTests.Children_are_looked_for_every_sixteen_steps_unless_callbacks_decide_on_them",
         ["Bodies.ActiveSet.Constraints"] = "BodyConstraintsTests.Constraints_are_listed_in_the_order_in_which_they_were_added",
         ["a body of Solver.Constrained"] = "MigrationTests.Kinematic_bodies_with_constraints_are_found",
         ["batcher.CacheShapeB"] = "SmallNamesTests.A_cached_shape_is_added_directly",

@@ -142,6 +142,7 @@ public unsafe partial struct HeightField : IContainer, IDisposableShape
     }
 
     /// <summary>Replaces the heights of a region.</summary>
+    /// <remarks>What lies still on it sees the change after 16 steps at most, and what sleeps when it is woken.</remarks>
     /// <param name="x">First sample along X.</param>
     /// <param name="z">First sample along Z.</param>
     /// <param name="countX">Number of samples along X.</param>
@@ -160,6 +161,7 @@ public unsafe partial struct HeightField : IContainer, IDisposableShape
     }
 
     /// <summary>Replaces a cell.</summary>
+    /// <remarks>What lies still on it sees the change after 16 steps at most, and what sleeps when it is woken.</remarks>
     /// <param name="x">Number of the cell along X.</param>
     /// <param name="z">Number of the cell along Z.</param>
     /// <param name="cell">What it is to be.</param>

@@ -22,10 +22,11 @@ struct CarriedContacts
     /// <param name="translation">By how much the smaller shape has moved since, in the frame of the larger.</param>
     /// <param name="relative">Its orientation in that frame.</param>
     /// <param name="larger">Orientation of the larger shape.</param>
+    /// <param name="rolls">Whether the contacts stay below the smaller shape, wherever that goes on the larger one.</param>
     /// <param name="result">The contacts.</param>
     // Each contact is a point of the larger shape's surface and one of the smaller's, half its depth to either side.
     public readonly void Carry(in RetestBound bound, int contactMask, in Vector3 offsetB, in Vector3 translation, in Quaternion relative,
-        in Quaternion larger, ref ConvexContactManifold result)
+        in Quaternion larger, bool rolls, ref ConvexContactManifold result)
     {
         Matrix3x3.CreateFromQuaternion(Exact.Concatenate(Exact.Conjugate(bound.Orientation), relative), out var rotation);
         Matrix3x3.CreateFromQuaternion(larger, out var toWorld);
@@ -33,6 +34,8 @@ struct CarriedContacts
         Matrix3x3.Transform(normal, toWorld, out result.Normal);
         // From the larger shape's surface to the smaller one's where they touch.
         var across = bound.AIsLarger ? normal : -normal;
+        // By what the contacts stay behind; one that is behind what rolls would push it on.
+        var offset = rolls ? across * Exact.Dot(translation, across) : translation;
         var center = bound.AIsLarger ? offsetB : default;
         var count = 0;
         for (int i = 0; contactMask >> i != 0; ++i)
@@ -41,7 +44,7 @@ struct CarriedContacts
                 continue;
             ref var carried = ref ConvexContactManifold.GetConvexContactReference(ref result, count++);
             var halfway = across * (depths[i] * 0.5f);
-            var onLarger = positions[i] - halfway - translation;
+            var onLarger = positions[i] - halfway - offset;
             Matrix3x3.Transform(positions[i] + halfway, rotation, out var onSmaller);
             Matrix3x3.Transform((onLarger + onSmaller) * 0.5f, toWorld, out var position);
             carried.Offset = position + center;

@@ -74,7 +74,7 @@ unsafe partial struct PairHistory
             result.Normal = default;
             return true;
         }
-        contacts.Carry(bound, bound.ContactMask, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB, ref result);
+        contacts.Carry(bound, bound.ContactMask, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB, rolls: false, ref result);
         return true;
     }
 

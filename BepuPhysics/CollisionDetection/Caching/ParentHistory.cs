@@ -108,7 +108,7 @@ struct ParentHistory
             result.KeepsHistory = false;
             result.OffsetA = default;
             patches[count].Carry(bound, (1 << (codes[count] >> NumberBits)) - 1, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB,
-                ref result.Manifold);
+                rolls: rolling != Rolling.Never, ref result.Manifold);
         }
         return count;
     }
