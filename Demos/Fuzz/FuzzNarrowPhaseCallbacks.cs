@@ -30,6 +30,8 @@ readonly struct FuzzNarrowPhaseCallbacks(FuzzPlan plan) : INarrowPhaseCallbacks
         return true;
     }
 
+    public static bool DecidesOnChildren => false;
+
     public bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
 
     public bool ConfigureContactManifold(
