@@ -81,24 +81,16 @@ unsafe struct ChildPairs(BufferPool pool)
         public int WaitCount;
     }
 
-    // By parent, then by children.
     struct InOrder : IComparerRef<FoundChild>
     {
-        public readonly int Compare(ref FoundChild a, ref FoundChild b) =>
-            a.Parent != b.Parent ? a.Parent.CompareTo(b.Parent) : a.Children.Order.CompareTo(b.Children.Order);
+        public readonly int Compare(ref FoundChild a, ref FoundChild b) => a.Children.Order.CompareTo(b.Children.Order);
     }
 
-    /// <summary>Brings what was found in the order of parents and children; most tasks find it so.</summary>
-    public readonly void SortFound()
+    /// <summary>Brings what was found for one parent in the order of children.</summary>
+    public readonly void SortFound(int start, int end)
     {
         var order = new InOrder();
-        for (int i = 1; i < Found.Count; ++i)
-        {
-            if (order.Compare(ref Found[i - 1], ref Found[i]) < 0)
-                continue;
-            QuickSort.Sort(Found.Span, Found.Count, ref order);
-            return;
-        }
+        QuickSort.Sort(Found.AsSpan()[start..end], ref order);
     }
 
     /// <summary>Opens a parent with room for a number of children. It stays open until <see cref="Release"/> has said that it is complete.</summary>

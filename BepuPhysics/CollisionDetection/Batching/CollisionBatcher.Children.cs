@@ -36,13 +36,13 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         ref var found = ref Children->Found;
         found.Count = 0;
         task.FindChildren(batch, Shapes, Dt, ref found, Pool);
-        Children->SortFound();
         int start = 0;
         for (int i = 0; i < batch.Count; ++i)
         {
             var end = start;
             while (end < found.Count && found[end].Parent == i)
                 ++end;
+            Children->SortFound(start, end);
             Expand(task, batch, i, start, end);
             start = end;
         }

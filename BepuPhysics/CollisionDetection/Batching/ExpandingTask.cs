@@ -69,7 +69,7 @@ abstract unsafe class ExpandingTask : CollisionTask
     /// <param name="batch">The parents.</param>
     /// <param name="shapes">Shapes that children refer to.</param>
     /// <param name="dt">Time that velocities are extrapolated over, s.</param>
-    /// <param name="found">Receives the children, parent by parent, each pair once, in any order.</param>
+    /// <param name="found">Receives the children in the order of the parents, each two once; those of one parent in any order.</param>
     /// <param name="pool">Source of the list's memory.</param>
     internal abstract void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool);
 
