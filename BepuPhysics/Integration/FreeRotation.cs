@@ -20,21 +20,62 @@ static class FreeRotation
     const float AnglePerInnerStep = 0.25f;
     const int MaximumInnerSteps = 32;
 
+    // What is less is nothing: at this speed, rad/s, a body turns by a degree in fifty years, and an orientation that is off by this is off by less than it
+    // can say. The product of this speed and of the square of this component is still a normal float: processors take ten times as long for others, and
+    // what lies still would be slower than what moves.
+    const float LeastSpeed = 1e-11f;
+    const float LeastComponent = 1e-13f;
+
+    // Half of the angle, rad, by which the momentum turns within the body in a substep: a degree takes ten hours at 240 Hz.
+    const float LeastPrecession = 1e-9f;
+
     /// <summary>Turns by the angular velocity, which stays as it is.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static QuaternionWide Turn(in QuaternionWide orientation, in Vector3Wide angular, Vector<float> dt) =>
-        QuaternionWide.Normalize(QuaternionWide.Concatenate(orientation, FromRotationVector(angular * dt)));
+        Tidy(QuaternionWide.Concatenate(orientation, FromRotationVector(WithoutDust(angular, LeastSpeed) * dt)));
 
     /// <summary>Quaternion of a rotation vector; the identity for zero.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static QuaternionWide FromRotationVector(in Vector3Wide rotation)
     {
+        var half = rotation * new Vector<float>(0.5f);
+        var square = half.LengthSquared();
+        var isSmall = Vector.LessThan(square, new Vector<float>(Wide.SinOverAngleLimit));
+        Wide.SinOverAngle(square, out var sin, out var cos);
+        var v = half * sin;
+        QuaternionWide turn = new(v.X, v.Y, v.Z, cos);
+        if (Vector.EqualsAll(isSmall, Vector<int>.AllBitsSet))
+            return turn;
+        // A copy, so that what all others go on with need not have an address.
+        var copy = rotation;
+        return QuaternionWide.Select(isSmall, turn, FromLargeRotation(copy));
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static QuaternionWide FromLargeRotation(in Vector3Wide rotation)
+    {
         var angle = rotation.Length();
         Wide.SinCos(angle * new Vector<float>(0.5f), out var sin, out var cos);
-        // sin(a / 2) / a tends to 1/2; the angle is exactly zero before the division could lose anything.
-        var v = rotation * Vector.ConditionalSelect(Vector.GreaterThan(angle, Vector<float>.Zero), sin / angle, new Vector<float>(0.5f));
+        var v = rotation * (sin / angle);
         return new(v.X, v.Y, v.Z, cos);
     }
+
+    // Of unit length again, after a product of two that were so to rounding: 1 / sqrt(1 + e) is 1 - e / 2.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static QuaternionWide Tidy(in QuaternionWide q)
+    {
+        var unit = q * (new Vector<float>(1.5f) - q.LengthSquared() * new Vector<float>(0.5f));
+        var axis = WithoutDust(new Vector3Wide(unit.X, unit.Y, unit.Z), LeastComponent);
+        return new(axis.X, axis.Y, axis.Z, WithoutDust(unit.W, LeastComponent));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide WithoutDust(in Vector3Wide v, float least) => new(WithoutDust(v.X, least), WithoutDust(v.Y, least), WithoutDust(v.Z, least));
+
+    // NaN stays.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> WithoutDust(Vector<float> x, float least) =>
+        Vector.AndNot(x, Vector.AsVectorSingle(Vector.LessThan(Vector.Abs(x), new Vector<float>(least))));
 
     /// <summary>Turns by the angular velocity, then sets the angular velocity that has the same momentum in the new orientation.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -60,16 +101,24 @@ static class FreeRotation
     internal static unsafe void Tumble(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
         ref QuaternionWide orientation, ref Vector3Wide angular)
     {
-        var turned = Turn(orientation, angular, dt);
-        var tumbles = CanTumble(inverseInertia);
-        if (Vector.EqualsAll(tumbles, Vector<int>.Zero))
+        var own = WithoutDust(angular, LeastSpeed);
+        var tumbles = CanTumble(inverseInertia) & ~Vector.Equals(own.LengthSquared(), Vector<float>.Zero);
+        var turned = orientation;
+        if (!Vector.EqualsAll(tumbles, Vector<int>.AllBitsSet))
         {
-            orientation = turned;
-            return;
+            turned = Turn(orientation, angular, dt);
+            if (Vector.EqualsAll(tumbles, Vector<int>.Zero))
+            {
+                orientation = turned;
+                return;
+            }
         }
-        PrincipalAxes.Find(inverseInertia, tumbles, frames, indices, out var toBody, out var principal);
-        var frame = QuaternionWide.Concatenate(toBody, orientation);
-        var local = QuaternionWide.Conjugate(frame) * angular;
+        var isTilted = PrincipalAxes.Find(inverseInertia, tumbles, frames, indices, out var toBody, out var principal);
+        var tilts = !Vector.EqualsAll(isTilted, Vector<int>.Zero);
+        var frame = orientation;
+        if (tilts)
+            frame = QuaternionWide.Select(isTilted, QuaternionWide.Concatenate(toBody, orientation), orientation);
+        var local = QuaternionWide.Conjugate(frame) * own;
 
         // Principal axes in cyclic order with the middle one last: a cyclic change of names keeps the frame right-handed.
         var middleX = IsBetween(principal.X, principal.Y, principal.Z);
@@ -77,51 +126,60 @@ static class FreeRotation
         principal = Cycle(principal, middleX, middleY);
         local = Cycle(local, middleX, middleY);
 
-        // Lanes that do not tumble compute with unit inertia, so that nothing is divided by zero in them.
+        // Lanes that do not tumble compute with unit inertia, so that nothing is divided by zero in them. All moments are in units of the middle one.
         var one = Vector<float>.One;
         principal = Vector3Wide.Select(tumbles, principal, new(one, one, one));
-        Vector3Wide momentum = new(local.X / principal.X, local.Y / principal.Y, local.Z / principal.Z);
-        var speed = angular.Length();
-        // Rounding in a change of frame must not change the length of what it turns: over a minute it would add up.
-        momentum *= Ratio(speed, local.Length());
-        var momentumInWorld = frame * Cycle(momentum, middleY, middleX);
-        var length = momentum.Length();
-        momentumInWorld *= Ratio(length, momentumInWorld.Length());
+        var inverseU = principal.X / principal.Z;
+        var inverseV = principal.Y / principal.Z;
+        Vector3Wide momentum = new(local.X / inverseU, local.Y / inverseV, local.Z);
+        var about = FromRotationVector((frame * Cycle(momentum, middleY, middleX)) * dt);
 
-        var rateU = principal.X - principal.Z;
-        var rateV = principal.Y - principal.Z;
-        var innerSteps = CountInnerSteps(length * Vector.SquareRoot(Vector.Abs(rateU * rateV)) * dt);
-        var innerDt = dt / innerSteps;
-        var spin = QuaternionWide.Identity;
-        // Half-steps of u at both ends of each inner step: those in the middle join to whole ones.
+        var rateU = (inverseU - one) * dt;
+        var rateV = (inverseV - one) * dt;
+        var innerSteps = CountInnerSteps(Vector.SquareRoot(momentum.LengthSquared() * Vector.Abs(rateU * rateV)));
+        Rotate(rateU, rateV, innerSteps, momentum, out var change, out var spin);
+
+        // What changes is added to what there is: to take the velocity itself to another frame and back would cost it a rounding in each step, always the same
+        // one, and a thousandth in a minute.
+        Vector3Wide localChange = new(change.X * inverseU, change.Y * inverseV, change.Z);
+        localChange += QuaternionWide.Displacement(spin, local + localChange);
+        var turn = Cycle(new Vector3Wide(spin.X, spin.Y, spin.Z), middleY, middleX);
+        var before = frame;
+        frame = Tidy(QuaternionWide.Concatenate(QuaternionWide.Concatenate(new(turn.X, turn.Y, turn.Z, spin.W), frame), about));
+        angular = Vector3Wide.Select(tumbles, about * (own + before * Cycle(localChange, middleY, middleX)), angular);
+        if (tilts)
+            frame = QuaternionWide.Select(isTilted, Tidy(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame)), frame);
+        orientation = QuaternionWide.Select(tumbles, frame, turned);
+    }
+
+    // Turns the momentum within the body by u / 2, v, u / 2, as often as there are inner steps. Half-steps in the middle join to whole ones.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Rotate(Vector<float> rateU, Vector<float> rateV, Vector<float> innerSteps, in Vector3Wide momentum, out Vector3Wide change,
+        out QuaternionWide spin)
+    {
         var half = new Vector<float>(0.5f);
-        RotateU(rateU * innerDt * half, ref momentum, ref spin);
-        var count = innerSteps;
-        for (var i = one; Vector.LessThanAny(i, innerSteps); i += one)
+        var one = Vector<float>.One;
+        var single = Vector.EqualsAll(innerSteps, one);
+        if (!single)
         {
-            var active = Vector.LessThan(i, count);
-            var nextMomentum = momentum;
+            rateU /= innerSteps;
+            rateV /= innerSteps;
+        }
+        change = Vector3Wide.Zero;
+        RotateU(rateU * half, momentum, ref change, out var s, out var c);
+        spin = new(s, Vector<float>.Zero, Vector<float>.Zero, c);
+        for (var i = one; !single && Vector.LessThanAny(i, innerSteps); i += one)
+        {
+            var active = Vector.LessThan(i, innerSteps);
+            var nextChange = change;
             var nextSpin = spin;
-            RotateV(rateV * innerDt, ref nextMomentum, ref nextSpin);
-            RotateU(rateU * innerDt, ref nextMomentum, ref nextSpin);
-            momentum = Vector3Wide.Select(active, nextMomentum, momentum);
+            AppendV(rateV, momentum, ref nextChange, ref nextSpin);
+            AppendU(rateU, momentum, ref nextChange, ref nextSpin);
+            change = Vector3Wide.Select(active, nextChange, change);
             spin = QuaternionWide.Select(active, nextSpin, spin);
         }
-        RotateV(rateV * innerDt, ref momentum, ref spin);
-        RotateU(rateU * innerDt * half, ref momentum, ref spin);
-        momentum *= Ratio(length, momentum.Length());
-
-        var inPrincipal = Cycle(new Vector3Wide(spin.X, spin.Y, spin.Z), middleY, middleX);
-        spin = new(inPrincipal.X, inPrincipal.Y, inPrincipal.Z, spin.W);
-        var about = FromRotationVector(momentumInWorld * (principal.Z * dt));
-        frame = QuaternionWide.Normalize(QuaternionWide.Concatenate(QuaternionWide.Concatenate(spin, frame), about));
-
-        Vector3Wide velocity = new(momentum.X * principal.X, momentum.Y * principal.Y, momentum.Z * principal.Z);
-        var inWorld = frame * Cycle(velocity, middleY, middleX);
-        inWorld *= Ratio(velocity.Length(), inWorld.Length());
-        angular = Vector3Wide.Select(tumbles, inWorld, angular);
-        var result = QuaternionWide.Normalize(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame));
-        orientation = QuaternionWide.Select(tumbles, result, turned);
+        AppendV(rateV, momentum, ref change, ref spin);
+        AppendU(rateU * half, momentum, ref change, ref spin);
     }
 
     // Nothing to conserve for bodies that turn the same way about every axis, or that cannot turn about some.
@@ -145,30 +203,43 @@ static class FreeRotation
         return Wide.Max(up, Vector<float>.One);
     }
 
-    // The body turns about its axis u by rate times L_u; L, fixed in the world, turns the other way in the body.
+    // The body turns about its axis u by rate times L_u; L, fixed in the world, turns the other way in the body. Sine and cosine of half the angle.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateU(Vector<float> rate, ref Vector3Wide l, ref QuaternionWide spin)
+    static void RotateU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
     {
-        Wide.SinCos(rate * l.X * new Vector<float>(0.5f), out var s, out var c);
-        Double(s, c, out var sin, out var cos);
-        (l.Y, l.Z) = (cos * l.Y + sin * l.Z, cos * l.Z - sin * l.Y);
-        spin = QuaternionWide.Concatenate(new(s, Vector<float>.Zero, Vector<float>.Zero, c), spin);
+        Halve(rate * (start.X + change.X), out s, out c);
+        Turn(s, c, start.Y + change.Y, start.Z + change.Z, ref change.Y, ref change.Z);
+    }
+
+    // The product of quaternions, of which the first is a turn about one axis.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void AppendU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
+    {
+        RotateU(rate, start, ref change, out var s, out var c);
+        spin = new(c * spin.X + s * spin.W, c * spin.Y + s * spin.Z, c * spin.Z - s * spin.Y, c * spin.W - s * spin.X);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateV(Vector<float> rate, ref Vector3Wide l, ref QuaternionWide spin)
+    static void AppendV(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
     {
-        Wide.SinCos(rate * l.Y * new Vector<float>(0.5f), out var s, out var c);
-        Double(s, c, out var sin, out var cos);
-        (l.Z, l.X) = (cos * l.Z + sin * l.X, cos * l.X - sin * l.Z);
-        spin = QuaternionWide.Concatenate(new(Vector<float>.Zero, s, Vector<float>.Zero, c), spin);
+        Halve(rate * (start.Y + change.Y), out var s, out var c);
+        Turn(s, c, start.Z + change.Z, start.X + change.X, ref change.Z, ref change.X);
+        spin = new(c * spin.X - s * spin.Z, c * spin.Y + s * spin.W, c * spin.Z + s * spin.X, c * spin.W - s * spin.Y);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Double(Vector<float> s, Vector<float> c, out Vector<float> sin, out Vector<float> cos)
+    static void Halve(Vector<float> angle, out Vector<float> sin, out Vector<float> cos) =>
+        Wide.SinCos(WithoutDust(angle * new Vector<float>(0.5f), LeastPrecession), out sin, out cos);
+
+    // Adds what a vector changes by when it turns: 1 - cos a is 2 sin^2 (a / 2), and loses nothing for small angles.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Turn(Vector<float> s, Vector<float> c, Vector<float> y, Vector<float> z, ref Vector<float> changeY, ref Vector<float> changeZ)
     {
-        sin = (s + s) * c;
-        cos = Vector<float>.One - (s + s) * s;
+        var twice = s + s;
+        var sin = twice * c;
+        var versine = twice * s;
+        changeY += sin * z - versine * y;
+        changeZ -= sin * y + versine * z;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -179,8 +250,4 @@ static class FreeRotation
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector3Wide Cycle(in Vector3Wide v, Vector<int> once, Vector<int> twice) => Vector3Wide.Select(
         once, new(v.Y, v.Z, v.X), Vector3Wide.Select(twice, new(v.Z, v.X, v.Y), v));
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Ratio(Vector<float> wanted, Vector<float> actual) =>
-        Vector.ConditionalSelect(Vector.GreaterThan(actual, Vector<float>.Zero), wanted / actual, Vector<float>.One);
 }

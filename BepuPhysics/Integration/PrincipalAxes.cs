@@ -18,7 +18,8 @@ static class PrincipalAxes
     /// <param name="indices">Indices of the bodies.</param>
     /// <param name="toBody">Rotation from the principal frame to the frame of the tensor; the identity where that is diagonal.</param>
     /// <param name="principal">Diagonal of the tensor in the principal frame.</param>
-    internal static unsafe void Find(
+    /// <returns>Lanes that were asked for and are not diagonal.</returns>
+    internal static unsafe Vector<int> Find(
         in Symmetric3x3Wide tensor, Vector<int> mask, PrincipalFrame* known, Vector<int> indices, out QuaternionWide toBody, out Vector3Wide principal)
     {
         toBody = QuaternionWide.Identity;
@@ -26,7 +27,7 @@ static class PrincipalAxes
         var zero = Vector<float>.Zero;
         var isTilted = mask & ~(Vector.Equals(tensor.YX, zero) & Vector.Equals(tensor.ZX, zero) & Vector.Equals(tensor.ZY, zero));
         if (Vector.EqualsAll(isTilted, Vector<int>.Zero))
-            return;
+            return isTilted;
         var unknown = isTilted;
         if (known != null)
         {
@@ -42,6 +43,7 @@ static class PrincipalAxes
         var axes = Matrix3x3Wide.FromQuaternion(toBody);
         principal = new(
             Vector3Wide.Dot(axes.X, tensor * axes.X), Vector3Wide.Dot(axes.Y, tensor * axes.Y), Vector3Wide.Dot(axes.Z, tensor * axes.Z));
+        return isTilted;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

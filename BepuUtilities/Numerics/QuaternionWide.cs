@@ -42,6 +42,16 @@ public partial struct QuaternionWide : IWide<Quaternion>
         return v + t * q.W + Vector3Wide.Cross(axis, t);
     }
 
+    /// <summary>What a vector changes by when it is rotated by a unit quaternion: exact to a part of the change, not of the vector.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide Displacement(in QuaternionWide q, in Vector3Wide v)
+    {
+        var axis = new Vector3Wide(q.X, q.Y, q.Z);
+        var t = Vector3Wide.Cross(axis, v);
+        t += t;
+        return t * q.W + Vector3Wide.Cross(axis, t);
+    }
+
     /// <summary>Sum of components.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static QuaternionWide operator +(in QuaternionWide a, in QuaternionWide b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z, a.W + b.W);
