@@ -299,10 +299,10 @@ public sealed unsafe partial class Solver
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                 case StageKind.Relax:
-                    if (stage.BlocksInRow == 0)
-                        RunConstraints(stage, Blocks[stage.FirstBlock + blockIndex]);
-                    for (int i = 0; i < stage.BlocksInRow; ++i)
-                        RunConstraints(stage, Blocks[stage.FirstBlock + i]);
+                    var firstBlock = stage.FirstBlock + blockIndex;
+                    var end = firstBlock + Math.Max(1, stage.BlocksInRow);
+                    for (int i = firstBlock; i < end; ++i)
+                        RunConstraints(stage, Blocks[i]);
                     break;
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;
