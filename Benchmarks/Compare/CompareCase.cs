@@ -15,7 +15,7 @@ sealed record CompareCase(string Scene, int Iterations, int Substeps, int Thread
     public string Settings => $"{Iterations}x{Substeps}";
 
     /// <summary>Arguments of the run, without the file that the figures go to.</summary>
-    public List<string> Arguments(int? frames, int? warmup)
+    public List<string> Arguments(int? frames, int? warmup, bool? sleep)
     {
         List<string> arguments =
         [
@@ -25,6 +25,8 @@ sealed record CompareCase(string Scene, int Iterations, int Substeps, int Thread
             arguments.AddRange(["--steps", Text(steps)]);
         if (warmup is int unmeasured)
             arguments.AddRange(["--warmup", Text(unmeasured)]);
+        if (sleep is bool maySleep)
+            arguments.AddRange(["--sleep", maySleep ? "true" : "false"]);
         return arguments;
     }
 

@@ -32,9 +32,10 @@ static class CompareCommand
         var runs = new Option<int>("--runs") { Description = "Pairs of runs of each case.", DefaultValueFactory = _ => 5 };
         var frames = new Option<int?>("--frames") { Description = "Steps of each run [default: as the scene says]." };
         var warmup = new Option<int?>("--warmup") { Description = "First steps that are not measured." };
+        var sleep = new Option<bool?>("--sleep") { Description = "Whether bodies may fall asleep [default: as the scene says]." };
         var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
         var root = new RootCommand("Compares this engine with a peer, scene by scene.");
-        Option[] options = [peer, ours, scenes, threads, settings, lanes, runs, frames, warmup, csv];
+        Option[] options = [peer, ours, scenes, threads, settings, lanes, runs, frames, warmup, sleep, csv];
         foreach (Option option in options)
             root.Options.Add(option);
         root.SetAction(parsed =>
@@ -51,7 +52,7 @@ static class CompareCommand
                     ? new SceneProgram(peerPath)
                     : SceneProgram.BuildPeer(peerPath);
                 List<CompareOutcome> outcomes = Measure(cases, ourProgram, peerProgram, parsed.GetValue(runs),
-                    parsed.GetValue(frames), parsed.GetValue(warmup));
+                    parsed.GetValue(frames), parsed.GetValue(warmup), parsed.GetValue(sleep));
                 CompareReport.Write(Console.Out, outcomes);
                 if (parsed.GetValue(csv) is string path)
                     CompareReport.WriteCsv(path, outcomes);
@@ -66,12 +67,13 @@ static class CompareCommand
         return root.Parse(arguments).Invoke();
     }
 
-    static List<CompareOutcome> Measure(List<CompareCase> cases, SceneProgram ours, SceneProgram peer, int runs, int? frames, int? warmup)
+    static List<CompareOutcome> Measure(List<CompareCase> cases, SceneProgram ours, SceneProgram peer, int runs, int? frames, int? warmup,
+        bool? sleep)
     {
         var outcomes = new List<CompareOutcome>();
         foreach (CompareCase subject in cases)
         {
-            List<string> arguments = subject.Arguments(frames, warmup);
+            List<string> arguments = subject.Arguments(frames, warmup, sleep);
             var pairs = new List<(RunJson, RunJson)>();
             while (pairs.Count < runs)
             {

@@ -27,6 +27,9 @@ public struct BodyActivity
     public byte TimestepsUnderThresholdCount;
     /// <summary>Whether it has rested long enough: it sleeps as soon as all that it is connected with has.</summary>
     public bool SleepCandidate;
+    /// <summary>Whether the body touched several things in the last step that do not give way; their contacts then wait for each other.</summary>
+    // Here is a byte to spare, and collidables keep their 32 bytes.
+    internal bool IsAtSeam;
 
     /// <summary>Takes note of the speed with which a step begins.</summary>
     /// <param name="speedSquared">Speed squared, linear plus angular.</param>

@@ -15,6 +15,4 @@ public struct Collidable
     public float SpeculativeMargin;
     /// <summary>Index of the body's leaf in the broad phase; -1 for a body without a shape.</summary>
     public int BroadPhaseIndex;
-    /// <summary>Whether the body touched several things in the last step that do not give way; their contacts then wait for each other.</summary>
-    internal bool IsAtSeam;
 }

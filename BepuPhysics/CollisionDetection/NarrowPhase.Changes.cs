@@ -18,6 +18,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     QuickList<NoteKey> order;
     QuickList<AddedConstraint> added;
+    // Whether the flush leaves what constraints hold until all are in place, for many threads. To one that is only another pass. What is done is the same.
+    bool sharesChanges;
+    // Whether what a constraint holds is read where a change is noted, which many threads do; otherwise the flush reads it.
+    bool readsEarly;
 
     /// <summary>Something that a worker has noted about a pair, for the flush.</summary>
     interface INote
@@ -101,8 +105,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        var solver = Simulation.Solver;
-        solver.BeginDeferral();
+        sharesChanges = IsWorthSharing(dispatcher);
+        BeginColumns();
         try
         {
             RemoveUnseenPairs();
@@ -116,7 +120,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 // Constraints that wake are whole at once, and those that are replaced are read before others move.
                 FinishColumns(dispatcher);
                 WakeTouched();
-                solver.BeginDeferral();
+                BeginColumns();
             }
             for (int i = 0; i < order.Count; ++i)
             {
@@ -131,12 +135,29 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         WatchBouncingPairs();
     }
 
+    bool IsWorthSharing(IThreadDispatcher? dispatcher)
+    {
+        if (dispatcher is null || dispatcher.ThreadCount == 1)
+            return false;
+        var count = 0;
+        foreach (ref var worker in workers.AsSpan())
+            count += worker.Pending.Count + worker.Gone.Count;
+        return count >= LeastForThreads;
+    }
+
+    void BeginColumns()
+    {
+        if (sharesChanges)
+            Simulation.Solver.BeginDeferral();
+    }
+
     void FinishColumns(IThreadDispatcher? dispatcher)
     {
+        if (!sharesChanges)
+            return;
         Simulation.Solver.PrepareDeferred();
         var work = new WriteWork { NarrowPhase = this };
-        var isWorthThreads = added.Count + Simulation.Solver.DeferredMoveCount >= LeastForThreads;
-        StagedWork.Run(ref work, isWorthThreads ? dispatcher : null);
+        StagedWork.Run(ref work, dispatcher);
         Simulation.Solver.EndDeferral();
     }
 
@@ -283,14 +304,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var old = PendingManifold.NotRead;
         if (manifold.HasConstraint)
         {
+            if (pending.Old == PendingManifold.NotRead && contactCount > 0 && pending.Inherited == StaticPairs.Nothing)
+            {
+                Check.That(!sharesChanges);
+                Read(ref workers[workerIndex], ref pending, manifold);
+            }
             old = pending.Old;
-            Check.That(old != PendingManifold.NotRead || contactCount == 0);
             RemoveConstraint(ref cached, ref manifold);
         }
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        Note(ref added, new()
+        var constraint = new AddedConstraint
         {
             Worker = workerIndex,
             Index = noteIndex,
@@ -298,7 +323,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Constraint = manifold.Constraint,
             PairIndex = index,
             ChildManifold = childManifold,
-        }, Pool);
+        };
+        if (sharesChanges)
+            Note(ref added, constraint, Pool);
+        else
+            WriteAdded(constraint);
     }
 
     // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.

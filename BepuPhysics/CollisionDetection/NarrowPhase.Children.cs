@@ -178,7 +178,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                         record->Patch.Write(result.Manifold);
                     continue;
                 }
-                if (record->Manifold.HasConstraint && result.Manifold.Count > 0)
+                if (readsEarly && record->Manifold.HasConstraint && result.Manifold.Count > 0)
                     Read(ref worker, ref pending, record->Manifold);
             }
             Note(ref worker.Pending, pending, worker.Pool);

@@ -133,7 +133,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
         tested.IsSensor = isSensor;
-        tested.IsAtSeam = collidableA.IsAtSeam;
+        tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
         if (task.Expands)
         {
@@ -196,7 +196,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             NoteSensed(workerIndex, tested.Pair, ref manifold);
             return;
         }
-        if (Waits(tested))
+        // What has no contacts has nothing to wait with.
+        if (manifold.Count > 0 && Waits(tested))
         {
             CompleteLater(workerIndex, tested, ref manifold);
             return;
@@ -231,7 +232,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             }
         }
         var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material, Inherited = inherited };
-        if (tested.ConstraintTypeId >= 0)
+        if (readsEarly && tested.ConstraintTypeId >= 0)
             Read(ref worker, ref pending, Pairs.Pairs.Values[tested.CacheIndex].Single);
         Note(ref worker.Pending, pending, worker.Pool);
     }

@@ -35,6 +35,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var count = dispatcher?.ThreadCount ?? 1;
         if (workers.Length < count)
             Array.Resize(ref workers, count);
+        readsEarly = count > 1;
         try
         {
             if (crowd.CountsFirst)

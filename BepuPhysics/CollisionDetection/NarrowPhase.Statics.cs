@@ -87,7 +87,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void AgreeOfBody(ref Worker worker, int first, int end)
     {
         ref var location = ref Simulation.Bodies.Locations[Waiting(first).Tested.Pair.A.Slot];
-        ref var collidable = ref Simulation.Bodies.SetOf(location).Collidables[location.Index];
+        ref var activity = ref Simulation.Bodies.SetOf(location).Activity[location.Index];
         ref var statics = ref worker.Statics;
         ListOldPatches(ref statics, first, end, worker.Pool);
         var touchCount = 0;
@@ -95,8 +95,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             touchCount += HasContacts(i) ? 1 : 0;
         foreach (ref var old in statics.Old.AsSpan())
             touchCount += old.IsWritten ? 1 : 0;
-        collidable.IsAtSeam = JoinsStatics && touchCount > 1;
-        if (collidable.IsAtSeam)
+        activity.IsAtSeam = JoinsStatics && touchCount > 1;
+        if (activity.IsAtSeam)
             Agree(ref worker, first, end);
         if (JoinsStatics)
             HandOver(ref statics, first, end, worker.Pool);

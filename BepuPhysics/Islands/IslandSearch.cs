@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
 
@@ -80,13 +81,16 @@ readonly unsafe struct IslandSearch
             if (kinds[i] == RestKind.Rests && parents[i] == i && lowest[i] != Held)
                 order[islandCount++] = (ulong)lowest[i] << 32 | (uint)i;
         }
-        order.AsSpan()[..islandCount].Sort();
+        if (islandCount > 0)
+            order.AsSpan()[..islandCount].Sort();
         pool.TakeAtLeast(islandCount + 1, out starts);
         starts[0] = 0;
         // From here on the size of an island is where its next body comes; negative for those that are not given.
-        for (int i = 0; i < set.Count; ++i)
-            lowest[i] = sizes[i];
-        sizes.AsSpan()[..set.Count].Fill(-1);
+        if (islandCount > 0)
+        {
+            sizes.CopyTo(0, lowest, 0, set.Count);
+            sizes.AsSpan()[..set.Count].Fill(-1);
+        }
         while (Count < islandCount && starts[Count] < limit)
         {
             var root = (int)(uint)order[Count];
@@ -120,24 +124,29 @@ readonly unsafe struct IslandSearch
             for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
             {
                 ref var typeBatch = ref batches[i].TypeBatches[j];
-                var processor = solver.Processor(typeBatch.TypeId);
+                var bodyCount = solver.Processor(typeBatch.TypeId).BodiesPerConstraint;
                 // One on a single body connects nothing.
-                if (processor.BodiesPerConstraint == 1)
+                if (bodyCount == 1)
                     continue;
-                for (int k = 0; k < typeBatch.ConstraintCount; ++k)
-                    Connect(processor, ref typeBatch, k, kinds, parents, lowest);
+                var references = typeBatch.BodyReferences.Memory;
+                for (int k = 0; k < typeBatch.ConstraintCount; k += Vector<int>.Count, references += Vector<int>.Count * bodyCount)
+                {
+                    var end = Math.Min(Vector<int>.Count, typeBatch.ConstraintCount - k);
+                    for (int lane = 0; lane < end; ++lane)
+                        Connect(references + lane, bodyCount, kinds, parents, lowest);
+                }
             }
         }
     }
 
-    static void Connect(
-        TypeProcessor processor, ref TypeBatch typeBatch, int constraint, in Buffer<RestKind> kinds, Buffer<int> parents, Buffer<int> lowest)
+    // The bodies of a constraint are a bundle apart.
+    static void Connect(int* references, int bodyCount, in Buffer<RestKind> kinds, Buffer<int> parents, Buffer<int> lowest)
     {
         var joined = -1;
         var holds = false;
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        for (int slot = 0; slot < bodyCount; ++slot)
         {
-            var index = processor.BodyReference(ref typeBatch, constraint, slot) & EncodedBody.IndexMask;
+            var index = references[slot * Vector<int>.Count] & EncodedBody.IndexMask;
             holds |= kinds[index] == RestKind.Holds;
             if (kinds[index] != RestKind.Rests)
                 continue;

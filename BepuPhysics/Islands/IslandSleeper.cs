@@ -12,7 +12,7 @@ namespace BepuPhysics;
 /// What sleeps costs no step anything.
 /// </remarks>
 // A step in which no body may sleep ends here after one comparison. Where some may and others hold them awake, islands are looked for in every eighth
-// step; otherwise in each, as long as some are found.
+// step, and in every 32nd as long as no other number of bodies may; otherwise in each, as long as some are found.
 public sealed unsafe class IslandSleeper
 {
     // Bodies that are put to sleep in one step, or as many of those that are awake; an island that has more goes as a whole.
@@ -20,12 +20,16 @@ public sealed unsafe class IslandSleeper
     const int ShareOfAwake = 16;
     const int StepsAfterFinding = 2;
     const int StepsInVain = 7;
+    const int StepsInVainAgain = 31;
 
     readonly Bodies bodies;
     readonly Solver solver;
     readonly SleepingIslands islands;
     readonly BufferPool pool;
     int stepsToWait;
+    // Steps since islands were looked for in vain, and how many bodies might have slept then.
+    int stepsInVain;
+    int ripeInVain;
 
     internal IslandSleeper(Bodies bodies, Solver solver, SleepingIslands islands, BufferPool pool)
     {
@@ -38,13 +42,19 @@ public sealed unsafe class IslandSleeper
     /// <summary>Puts islands to sleep, if there are such as may.</summary>
     internal void Update()
     {
-        if (bodies.RipeCount == 0)
+        var ripeCount = bodies.RipeCount;
+        if (ripeCount != ripeInVain)
+            ripeInVain = 0;
+        if (ripeCount == 0)
             return;
         if (stepsToWait > 0)
         {
             --stepsToWait;
             return;
         }
+        // Who holds the others awake most likely still does.
+        if (ripeInVain > 0 && ++stepsInVain <= StepsInVainAgain - StepsInVain)
+            return;
         var limit = Math.Max(LeastBodiesPerStep, bodies.Awake.Count / ShareOfAwake);
         var kinematics = new QuickList<int>(16, pool);
         pool.TakeAtLeast<RestKind>(Math.Max(1, bodies.Awake.Count), out var kinds);
@@ -54,6 +64,9 @@ public sealed unsafe class IslandSleeper
         for (int i = 0; i < search.Count; ++i)
         {
             var slots = search.SlotsOf(i);
+            // Who is no number is looked at here, where few are looked at, and keeps its island awake.
+            if (!AreSound(slots))
+                continue;
             islands.PutToSleep(slots);
             asleep += slots.Length;
         }
@@ -63,6 +76,8 @@ public sealed unsafe class IslandSleeper
         PutKinematicsToSleep(kinematics, limit, ref asleep, ref hasMore);
         kinematics.Dispose(pool);
         stepsToWait = hasMore ? 0 : asleep > 0 ? StepsAfterFinding : StepsInVain;
+        ripeInVain = asleep > 0 || hasMore ? 0 : ripeCount;
+        stepsInVain = 0;
     }
 
     // What a game has written since the last step counts: a body that was given a velocity rests no more.
@@ -76,7 +91,7 @@ public sealed unsafe class IslandSleeper
             var speed = Exact.LengthSquared(motion.Velocity.Linear) + Exact.LengthSquared(motion.Velocity.Angular);
             if (!Bodies.IsKinematic(set.LocalInertias[i]))
             {
-                kinds[i] = activity.SleepCandidate && speed <= activity.SleepThreshold && IsSound(ref set, i) ? RestKind.Rests : RestKind.Holds;
+                kinds[i] = activity.SleepCandidate && speed <= activity.SleepThreshold ? RestKind.Rests : RestKind.Holds;
                 continue;
             }
             kinds[i] = speed == 0 ? RestKind.Fixed : RestKind.Holds;
@@ -158,6 +173,16 @@ public sealed unsafe class IslandSleeper
         }
     }
 
+    bool AreSound(ReadOnlySpan<int> slots)
+    {
+        foreach (var slot in slots)
+        {
+            if (!IsSound(ref bodies.Awake, bodies.Locations[slot].Index))
+                return false;
+        }
+        return true;
+    }
+
     // What a game has written since the last step the next one looks at, if the body is awake then.
     static bool IsSound(ref BodySet set, int index)
     {
@@ -211,6 +236,8 @@ public sealed unsafe class IslandSleeper
     internal void Clear()
     {
         stepsToWait = 0;
+        stepsInVain = 0;
+        ripeInVain = 0;
         bodies.RipeCount = 0;
     }
 }

@@ -11,7 +11,7 @@ sealed class BreakStage(Solver solver) : ISolverStage
 
     bool ISolverStage.ChangesVelocities => false;
 
-    bool ISolverStage.IsNeeded => solver.BreakableCount > 0;
+    bool ISolverStage.BeginStep() => solver.BreakableCount > 0;
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point is SolverPoint.BeforeWarmStart or SolverPoint.AfterSubsteps
         ? (solver.BreakableCount + ConstraintsPerBlock - 1) / ConstraintsPerBlock : 0;

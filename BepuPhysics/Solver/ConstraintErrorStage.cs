@@ -29,7 +29,7 @@ sealed unsafe class ConstraintErrorStage(Solver solver, Bodies bodies) : ISolver
 
     bool ISolverStage.ChangesVelocities => false;
 
-    bool ISolverStage.IsNeeded => solver.Governor is not null;
+    bool ISolverStage.BeginStep() => solver.Governor is not null;
 
     int ISolverStage.GetBlockCount(SolverPoint point)
     {

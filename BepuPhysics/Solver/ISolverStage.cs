@@ -11,10 +11,14 @@ enum SolverPoint
     BeforeWarmStart,
     /// <summary>Before the warm start of the first substep only, when all is done that comes before it: the place to look at all velocities.</summary>
     BeforeFirstWarmStart,
+    /// <summary>As the one before, when all stages are done there: the place to arrange what they have seen.</summary>
+    AmidBeforeFirstWarmStart,
     /// <summary>As the one before, when all stages are done there.</summary>
     LastBeforeFirstWarmStart,
-    /// <summary>The impulses of the last substep have been applied: the place for stages that move a load across a whole structure.</summary>
+    /// <summary>The impulses of the last substep have been applied: the place to look at all velocities.</summary>
     AfterWarmStart,
+    /// <summary>As the one before, when all stages are done there: the place for stages that move a load across a whole structure.</summary>
+    LastAfterWarmStart,
     /// <summary>The constraints of a substep have been solved; the bodies have not moved yet.</summary>
     AfterSolve,
     /// <summary>The bodies have moved to where they are at the end of the step.</summary>
@@ -33,8 +37,9 @@ interface ISolverStage
     /// <summary>Whether it changes velocities.</summary>
     bool ChangesVelocities => true;
 
-    /// <summary>Whether it may have blocks anywhere in the step; one that is not needed is not asked where.</summary>
-    bool IsNeeded => true;
+    /// <summary>Makes ready for a step. Called on the caller's thread.</summary>
+    /// <returns>Whether it may have blocks anywhere in the step; one that has none is not asked where.</returns>
+    bool BeginStep() => true;
 
     /// <summary>Number of independent blocks of work at a point, known before the step.</summary>
     int GetBlockCount(SolverPoint point);

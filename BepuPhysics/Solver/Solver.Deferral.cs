@@ -26,9 +26,6 @@ public sealed unsafe partial class Solver
     QuickList<ColumnMove> columnMoves;
     QuickList<TypeBatchName> deferredBatches;
 
-    /// <summary>Number of columns that are to be moved, so far.</summary>
-    internal int DeferredMoveCount => columnMoves.Count;
-
     /// <summary>Number of type batches in which something is left to be done; what is done to one is independent of the others.</summary>
     internal int DeferredBatchCount { get; private set; }
 

@@ -167,11 +167,13 @@ public sealed unsafe partial class Solver
             if (substep == 0)
             {
                 AddOptional(ref work, optional, SolverPoint.BeforeFirstWarmStart);
+                AddOptional(ref work, optional, SolverPoint.AmidBeforeFirstWarmStart);
                 AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart);
             }
             ShuffleOrder(ref work);
             AddSweep(ref work, StageKind.WarmStart, work.Substep);
             AddOptional(ref work, optional, SolverPoint.AfterWarmStart);
+            AddOptional(ref work, optional, SolverPoint.LastAfterWarmStart);
             for (int i = work.Iterations; i > 0; --i)
                 AddSweep(ref work, StageKind.Solve, work.Substep);
             AddOptional(ref work, optional, SolverPoint.AfterSolve);
@@ -221,7 +223,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < OptionalStages.Count; ++i)
         {
             var stage = OptionalStages[i];
-            if (!stage.IsNeeded)
+            if (!stage.BeginStep())
             {
                 blocks.Slice(i * SolverPoints.Count, SolverPoints.Count).Clear();
                 continue;
@@ -299,10 +301,10 @@ public sealed unsafe partial class Solver
                 case StageKind.WarmStart:
                 case StageKind.Solve:
                 case StageKind.Relax:
-                    if (stage.BlocksInRow == 0)
-                        RunConstraints(stage, Blocks[stage.FirstBlock + blockIndex]);
-                    for (int i = 0; i < stage.BlocksInRow; ++i)
-                        RunConstraints(stage, Blocks[stage.FirstBlock + i]);
+                    var firstBlock = stage.FirstBlock + blockIndex;
+                    var end = firstBlock + Math.Max(1, stage.BlocksInRow);
+                    for (int i = firstBlock; i < end; ++i)
+                        RunConstraints(stage, Blocks[i]);
                     break;
                 case StageKind.JoinParts:
                     var first = blockIndex * SplitBodiesPerBlock;

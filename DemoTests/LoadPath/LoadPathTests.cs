@@ -164,7 +164,7 @@ public class LoadPathTests
     {
         public double Last;
 
-        public int GetBlockCount(SolverPoint point) => point == SolverPoint.AfterWarmStart ? 1 : 0;
+        public int GetBlockCount(SolverPoint point) => point == SolverPoint.LastAfterWarmStart ? 1 : 0;
 
         public void Execute(SolverPoint point, in Substep substep, int block)
         {

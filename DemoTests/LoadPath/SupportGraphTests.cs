@@ -10,6 +10,7 @@ namespace DemoTests.LoadPath;
 public class SupportGraphTests
 {
     const int Ground = -1;
+    const int Gap = 3;
 
     readonly struct Heights(float[] heights) : IHeights
     {
@@ -17,14 +18,25 @@ public class SupportGraphTests
     }
 
     // Each support has three contacts unless said otherwise.
-    static (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
+    static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
         bool[]? slides = null)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
         var links = supports.Select((support, i) =>
             new SupportLink { Upper = support.Upper, Lower = support.Lower, Count = (byte)contacts, Slides = slides is not null && slides[i] }).ToArray();
-        graph.Build(links, bodyCount, new Heights(heights ?? new float[bodyCount]), pool);
+        var found = new SupportLink[links.Length + Gap];
+        // In two pieces, as two blocks would find them.
+        var half = links.Length / 2;
+        links.AsSpan(0, half).CopyTo(found);
+        links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
+        fixed (SupportLink* memory = found)
+        {
+            graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, new Heights(heights ?? new float[bodyCount]), pool);
+            var middle = graph.Nodes.Count / 2;
+            graph.Fill(memory, middle, graph.Nodes.Count);
+            graph.Fill(memory, 0, middle);
+        }
         var islands = new int[graph.Islands.Count - 1][];
         for (int i = 0; i < islands.Length; ++i)
         {
@@ -33,6 +45,7 @@ public class SupportGraphTests
             {
                 ref var node = ref graph.Nodes[graph.Islands[i] + j];
                 islands[i][j] = node.Body;
+                Assert.Equal(i, graph.IslandOf(graph.Islands[i] + j));
                 Assert.Equal(graph.Islands[i] + j, graph.NodeOf[node.Body]);
                 for (int k = node.FirstSupport; k < node.FirstSupport + node.SupportCount; ++k)
                     Assert.Equal(node.Body, graph.Links[k].Upper);

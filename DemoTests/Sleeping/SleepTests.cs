@@ -46,6 +46,46 @@ public class SleepTests
         Assert.False(world.IsAwake(still) || world.IsAwake(floating));
     }
 
+    /// <summary>While one body holds the others awake, islands are looked for seldom, but only so long.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(5)]
+    [InlineData(10)]
+    [InlineData(15)]
+    [InlineData(20)]
+    [InlineData(25)]
+    [InlineData(30)]
+    public void Who_was_held_awake_sleeps_as_soon_as_others_when_nobody_holds_it(int phase)
+    {
+        using var world = new SleepWorld();
+        var stack = world.AddStack(0, 2);
+        world.Bodies[stack[1]].Activity.SleepThreshold = -1;
+        world.Step(100 + phase);
+        world.AssertAwake(stack);
+        world.Bodies.Remove(stack[1]);
+        world.Step(SleepWorld.StepsUntilAsleep + 2);
+        world.AssertAwake();
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void An_island_with_what_is_no_number_does_not_sleep(bool isInertia)
+    {
+        using var world = new SleepWorld();
+        var stack = world.AddStack(0, 2);
+        var other = world.AddStack(5, 2);
+        world.Step(32);
+        world.AssertAwake([.. stack, .. other]);
+        if (isInertia)
+            world.Bodies[stack[0]].LocalInertia.InverseMass = float.NaN;
+        else
+            world.Bodies[stack[0]].Pose.Position.Y = float.NaN;
+        world.World.Step();
+        Assert.True(world.IsAwake(stack[0]) && world.IsAwake(stack[1]));
+        Assert.False(world.IsAwake(other[0]) || world.IsAwake(other[1]));
+    }
+
     [Fact]
     public void An_island_sleeps_as_a_whole_or_not_at_all()
     {

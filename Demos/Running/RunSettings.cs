@@ -33,6 +33,9 @@ public sealed record RunSettings
     /// <summary>First steps that no time or byte is counted of; when null 30, but never more than half of the steps.</summary>
     public int? Warmup { get; init; }
 
+    /// <summary>Whether bodies may fall asleep; as the scene says when null.</summary>
+    public bool? Sleep { get; init; }
+
     /// <summary>Frequency in Hz of contacts and joints; the engine's own default when null.</summary>
     public float? Frequency { get; init; }
 

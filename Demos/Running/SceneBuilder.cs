@@ -19,6 +19,7 @@ sealed class SceneBuilder
     readonly SceneDescription scene;
     readonly Simulation simulation;
     readonly SpringSettings jointSpring;
+    readonly BodyActivityDescription activity;
     readonly ShapeFactory shapeFactory;
     readonly Dictionary<(int Shape, bool Solid), BuiltShape> shapes = [];
     readonly Dictionary<int, BodyHandle> standIns = [];
@@ -27,21 +28,28 @@ sealed class SceneBuilder
     readonly List<int> bodyGroups = [];
     readonly List<int> staticGroups = [];
 
-    SceneBuilder(SceneDescription scene, Simulation simulation, SpringSettings jointSpring)
+    SceneBuilder(SceneDescription scene, Simulation simulation, SpringSettings jointSpring, bool maySleep)
     {
         this.scene = scene;
         this.simulation = simulation;
         this.jointSpring = jointSpring;
+        activity = new BodyActivityDescription(maySleep ? SleepThreshold : -1);
         shapeFactory = new ShapeFactory(simulation);
         bodies = new BodyHandle[scene.Bodies.Count];
         centers = new Vector3[scene.Bodies.Count];
     }
 
     /// <summary>Adds all of a scene to a simulation that has nothing in it.</summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="simulation">The simulation.</param>
+    /// <param name="jointSpring">Spring of all joints.</param>
+    /// <param name="recorder">Is told which collidables are parts of one thing.</param>
+    /// <param name="sleep">Whether bodies may fall asleep; as the scene says when null.</param>
     /// <exception cref="SceneException">The engine lacks something that the scene needs.</exception>
-    public static BuiltScene Build(SceneDescription scene, Simulation simulation, SpringSettings jointSpring, ContactRecorder recorder)
+    public static BuiltScene Build(
+        SceneDescription scene, Simulation simulation, SpringSettings jointSpring, ContactRecorder recorder, bool? sleep = null)
     {
-        var builder = new SceneBuilder(scene, simulation, jointSpring);
+        var builder = new SceneBuilder(scene, simulation, jointSpring, sleep ?? scene.Sleep);
         builder.RefuseUnsupported();
         var joints = new List<BuiltJoint>(scene.Joints.Count);
         int line = 0;
@@ -97,7 +105,6 @@ sealed class SceneBuilder
             return;
         }
         var velocity = new BodyVelocity(body.LinearVelocity + SceneMath.Cross(body.AngularVelocity, offset), body.AngularVelocity);
-        var activity = new BodyActivityDescription(scene.Sleep ? SleepThreshold : -1);
         bodies[index] = simulation.Bodies.Add(body.Kind == SceneBodyKind.Kinematic
             ? BodyDescription.CreateKinematic(pose, velocity, shapeIndex, activity)
             : BodyDescription.CreateDynamic(pose, velocity, InertiaOf(body, shape!), shapeIndex, activity));
@@ -195,7 +202,6 @@ sealed class SceneBuilder
         {
             Vector3 offset = SceneMath.Rotate(centers[index], body.Orientation);
             var pose = new RigidPose(body.Position + offset, body.Orientation);
-            var activity = new BodyActivityDescription(scene.Sleep ? SleepThreshold : -1);
             standIn = simulation.Bodies.Add(BodyDescription.CreateKinematic(pose, new CollidableDescription(default), activity));
             standIns.Add(index, standIn);
             SetGroup(bodyGroups, EngineHandles.Number(standIn), -1);

@@ -57,7 +57,7 @@ public sealed class SceneRun : IDisposable
             EngineDefaults.Solve(settings));
         try
         {
-            built = SceneBuilder.Build(scene, simulation, jointSpring, recorder);
+            built = SceneBuilder.Build(scene, simulation, jointSpring, recorder, settings.Sleep);
         }
         catch
         {

@@ -2,10 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using BepuPhysics;
-using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using BepuUtilities.Memory;
-using Demos.Engine;
 using Demos.Running;
 using Demos.Scenes;
 
@@ -26,12 +24,7 @@ sealed class SleepRun : IDisposable
     public SleepRun(SceneDescription scene, int threads, bool staysAwake)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
-        var recorder = new ContactRecorder(threads);
-        Simulation = Simulation.Create(
-            pool,
-            new SceneNarrowPhaseCallbacks(recorder, new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, default)),
-            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping), new SolveDescription(1, 4));
-        SceneBuilder.Build(scene, Simulation, default, recorder);
+        Simulation = WatchedScene.Build(scene, pool, threads);
         Simulation.WarmUp(dispatcher);
         BodyCount = Simulation.Bodies.CountBodies();
         for (int i = 0; staysAwake && i < BodyCount; ++i)

@@ -2,9 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using BepuPhysics;
-using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
-using Demos.Engine;
 using Demos.Running;
 using Demos.Scenes;
 
@@ -29,12 +27,7 @@ sealed class StageRun : IDisposable
     public StageRun(SceneDescription scene, int replacedPerStep)
     {
         dispatcher = new ObservingDispatcher(PretendedThreads, OnStageEnded);
-        var recorder = new ContactRecorder(PretendedThreads);
-        simulation = Simulation.Create(
-            pool,
-            new SceneNarrowPhaseCallbacks(recorder, new PairMaterialProperties(scene.Friction, EngineDefaults.MaximumRecoveryVelocity, default)),
-            new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, scene.Damping), new SolveDescription(1, 4));
-        SceneBuilder.Build(scene, simulation, default, recorder);
+        simulation = WatchedScene.Build(scene, pool, PretendedThreads);
         if (replacedPerStep > 0)
             replacement = new Replacement(simulation, replacedPerStep);
         simulation.WarmUp(dispatcher);

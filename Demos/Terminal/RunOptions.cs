@@ -18,13 +18,15 @@ sealed class RunOptions
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
     readonly Option<int?> warmup = Make<int?>("--warmup", "First steps that are not measured [default: 30, at most half of the steps].");
+    readonly Option<bool?> sleep = Make<bool?>("--sleep", "Whether bodies may fall asleep [default: as the scene says].");
     readonly Option<float?> frequency = Make<float?>("--frequency", "Frequency in Hz of contacts and joints [default: the engine's].");
     readonly Option<float?> dampingRatio = Make<float?>("--damping-ratio", "Damping ratio that goes with --frequency [default: 1].");
 
     /// <summary>Lets a command understand the options.</summary>
     public void AddTo(Command command)
     {
-        Option[] options = [steps, stepDuration, substeps, iterations, relaxations, loadPath, threads, seed, hashEvery, warmup, frequency, dampingRatio];
+        Option[] options =
+            [steps, stepDuration, substeps, iterations, relaxations, loadPath, threads, seed, hashEvery, warmup, sleep, frequency, dampingRatio];
         foreach (Option option in options)
             command.Options.Add(option);
     }
@@ -42,6 +44,7 @@ sealed class RunOptions
         Seed = parsed.GetValue(seed),
         HashEvery = parsed.GetValue(hashEvery),
         Warmup = parsed.GetValue(warmup),
+        Sleep = parsed.GetValue(sleep),
         Frequency = parsed.GetValue(frequency),
         DampingRatio = parsed.GetValue(dampingRatio),
     };

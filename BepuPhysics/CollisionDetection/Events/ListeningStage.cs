@@ -20,7 +20,7 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies) : ISolverStage
 
     bool ISolverStage.ChangesVelocities => false;
 
-    bool ISolverStage.IsNeeded => Manifolds.Count > 0;
+    bool ISolverStage.BeginStep() => Manifolds.Count > 0;
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point is SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration or SolverPoint.AfterSubsteps
         ? (Manifolds.Count + ManifoldsPerBlock - 1) / ManifoldsPerBlock

@@ -87,7 +87,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
 
     internal void Abandon() => pairs = default;
 
-    bool ISolverStage.IsNeeded => pairs.Count > 0;
+    bool ISolverStage.BeginStep() => pairs.Count > 0;
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {

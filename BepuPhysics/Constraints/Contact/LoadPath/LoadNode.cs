@@ -17,6 +17,8 @@ struct LoadNode
     public bool HasLoad;
     /// <summary>Of the first body of an island: whether the island was worked on in the last substep.</summary>
     public bool IsActive;
+    /// <summary>Of the first body of an island: whether the island is to be worked on in this substep.</summary>
+    public bool NeedsWork;
     /// <summary>Of the first body of an island: whether its supports have been read in this step.</summary>
     public bool HasSupports;
     /// <summary>What the transfer has changed of its momentum, N s.</summary>

@@ -15,9 +15,10 @@ namespace BepuPhysics.Constraints.Contact;
 // about zero. A soft row would give back in the sweep what it was handed.
 sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
-    // Bundles and islands share this many blocks at most; any number gives the same bits.
+    // Bundles, bodies, nodes and islands share this many blocks at most; any number gives the same bits.
     const int MaximumBlocks = 16;
     const int LeastBundlesPerBlock = 8;
+    const int LeastBodiesPerBlock = 256;
     // Steps of acceleration up to which a contact is quiet.
     const float QuietSteps = 2;
     // Part of its tolerance up to which a body that rests alone is none of the graph's: half, as it may have more left after other substeps than the first.
@@ -32,7 +33,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     Buffer<SupportLink> found;
     int bundleCount;
     int blockCount;
-    readonly int[] foundCounts = new int[MaximumBlocks];
+    // What each block has found in its room.
+    readonly (int Start, int Count)[] pieces = new (int, int)[MaximumBlocks];
     // What carries the nodes, read when a node's island is worked on for the first time in a step.
     Buffer<LoadSupport> supports;
     // Whether contacts may be held.
@@ -40,23 +42,29 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     LoadPathMode Mode => solver.LoadPath;
 
-    bool ISolverStage.IsNeeded
+    bool ISolverStage.BeginStep()
     {
-        get
-        {
-            if (Mode == LoadPathMode.Off)
-                return false;
-            CountBundles();
-            return bundleCount > 0;
-        }
+        if (Mode == LoadPathMode.Off)
+            return false;
+        CountBundles();
+        if (bundleCount == 0)
+            return false;
+        pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out before);
+        pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
+        hasBegun = true;
+        return true;
     }
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
-        SolverPoint.BeforeSubsteps or SolverPoint.LastBeforeFirstWarmStart => 1,
-        SolverPoint.BeforeFirstWarmStart or SolverPoint.AfterWarmStart => blockCount,
+        SolverPoint.BeforeSubsteps => BodyBlockCount,
+        SolverPoint.AmidBeforeFirstWarmStart => 1,
+        SolverPoint.BeforeFirstWarmStart or SolverPoint.LastBeforeFirstWarmStart or
+            SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart => blockCount,
         _ => 0,
     };
+
+    int BodyBlockCount => Math.Clamp(bodies.Awake.Count / LeastBodiesPerBlock, 1, MaximumBlocks);
 
     void CountBundles()
     {
@@ -75,36 +83,40 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         switch (point)
         {
             case SolverPoint.BeforeSubsteps:
-                Begin();
+                CopyVelocities(block);
                 break;
             case SolverPoint.BeforeFirstWarmStart:
                 Find(block, substep);
                 break;
+            case SolverPoint.AmidBeforeFirstWarmStart:
+                Build();
+                break;
             case SolverPoint.LastBeforeFirstWarmStart:
-                Build(substep.Dt);
+                Fill(block, substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
+                FindLoads(block);
+                break;
+            case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
                     Transfer(island);
                 break;
         }
     }
 
-    void Begin()
+    void CopyVelocities(int block)
     {
-        hasBegun = true;
         ref var set = ref bodies.Awake;
-        pool.TakeAtLeast(Math.Max(1, set.Count), out before);
-        for (int i = 0; i < set.Count; ++i)
+        var end = FirstOf(block + 1, BodyBlockCount, set.Count);
+        for (int i = FirstOf(block, BodyBlockCount, set.Count); i < end; ++i)
             before[i] = set.MotionStates[i].Velocity;
-        pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
     }
 
     static int Bundles(in ConstraintBatch batch, int typeBatch) =>
         batch.Kind == BatchKind.Coloured && batch.TypeBatches[typeBatch].TypeId < ConstraintTypeIds.ContactTypeCount
             ? batch.TypeBatches[typeBatch].BundleCount : 0;
 
-    int FirstBundle(int block) => (int)((long)bundleCount * block / blockCount);
+    static int FirstOf(int block, int blockCount, int count) => (int)((long)count * block / blockCount);
 
     void Find(int block, in Substep substep)
     {
@@ -112,8 +124,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         var awake = new SolverBodies(set);
         var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
-        var start = FirstBundle(block);
-        var end = FirstBundle(block + 1);
+        var start = FirstOf(block, blockCount, bundleCount);
+        var end = FirstOf(block + 1, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;
         int first = 0;
@@ -130,26 +142,34 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 first += bundles;
             }
         }
-        foundCounts[block] = count;
+        pieces[block] = (start * Vector<float>.Count, count);
     }
 
-    void Build(float dt)
+    void Build()
     {
+        var used = pieces.AsSpan(0, blockCount);
         int count = 0;
-        for (int i = 0; i < blockCount; ++i)
-        {
-            new Span<SupportLink>(found.Memory + FirstBundle(i) * Vector<float>.Count, foundCounts[i]).CopyTo(new(found.Memory + count, foundCounts[i]));
-            count += foundCounts[i];
-        }
+        foreach (var piece in used)
+            count += piece.Count;
         if (count == 0)
             return;
         ref var set = ref bodies.Awake;
-        graph.Build(new ReadOnlySpan<SupportLink>(found.Memory, count), set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
+        graph.Build(found.Memory, used, set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
         pool.TakeAtLeast(Math.Max(1, graph.Links.Count), out supports);
-        for (int i = 0; i < graph.Nodes.Count; ++i)
-            SetTolerance(ref graph.Nodes[i], dt);
-        for (int i = 0; i < graph.Links.Count; ++i)
-            graph.Links[i].Spring = SupportLink.HeldSpring(graph.Links[i].Band);
+    }
+
+    void Fill(int block, float dt)
+    {
+        var start = FirstOf(block, blockCount, graph.Nodes.Count);
+        var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
+        graph.Fill(found.Memory, start, end);
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            SetTolerance(ref node, dt);
+            for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
+                graph.Links[j].Spring = SupportLink.HeldSpring(graph.Links[j].Band);
+        }
     }
 
     readonly struct HeightAgainstGain(Buffer<MotionState> motions, Buffer<BodyVelocity> before) : IHeights
@@ -177,7 +197,10 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
-        if (!HasLoads(start, end))
+        ref var first = ref graph.Nodes[start];
+        first.IsActive = first.NeedsWork;
+        first.NeedsWork = false;
+        if (!first.IsActive)
             return;
         ReadSupports(start, end);
         for (int i = end - 1; i >= start; --i)
@@ -189,25 +212,41 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         Apply(start, end);
     }
 
-    // Finds which bodies have something to hand down, and whether it is worth while for any of them.
-    bool HasLoads(int start, int end)
+    // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
+    void FindLoads(int block)
+    {
+        var start = FirstOf(block, blockCount, graph.Nodes.Count);
+        var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
+        if (start == end)
+            return;
+        for (int island = graph.IslandOf(start); start < end; ++island)
+        {
+            ref var first = ref graph.Nodes[graph.Islands[island]];
+            var endOfIsland = Math.Min(end, graph.Islands[island + 1]);
+            // Who has the others of the island can but say the same.
+            if (HasLoads(start, endOfIsland, first.IsActive))
+                first.NeedsWork = true;
+            start = endOfIsland;
+        }
+    }
+
+    bool HasLoads(int start, int end, bool isActive)
     {
         ref var set = ref bodies.Awake;
         // What was taken out in the last substep came from more than one, so its impulses overshoot now: until that has died down, less counts.
-        ref var first = ref graph.Nodes[start];
-        var share = Mode == LoadPathMode.Always ? 0 : first.IsActive ? ActiveShare : 1;
-        first.IsActive = false;
+        var share = Mode == LoadPathMode.Always ? 0 : isActive ? ActiveShare : 1;
+        var needsWork = false;
         for (int i = start; i < end; ++i)
         {
             ref var node = ref graph.Nodes[i];
             ref var velocity = ref set.MotionStates[node.Body].Velocity;
             var speed = Exact.Length(velocity.Linear) + Exact.Length(velocity.Angular) * node.Radius;
             node.HasLoad = speed > node.Tolerance * MathHelper.Min(share, ActiveShare);
-            first.IsActive |= speed > node.Tolerance * share;
+            needsWork |= speed > node.Tolerance * share;
             node.Linear = default;
             node.Angular = default;
         }
-        return first.IsActive;
+        return needsWork;
     }
 
     void ReadSupports(int start, int end)

@@ -8,16 +8,30 @@ namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>Which bodies rest on which, from what does not move upwards, island by island.</summary>
 /// <remarks>
-/// Built once per step, on one thread, from constraints in the order in which they are swept: nothing depends on threads or the width of vectors
-/// but the order of constraints, which does not either.
+/// Built once per step from constraints in the order in which they are swept: nothing depends on threads or the width of vectors
+/// but the order of constraints, which does not either. One thread says who comes where, from the little that this takes; the links follow node by node.
 /// </remarks>
 unsafe struct SupportGraph
 {
-    // Links by upper body.
-    Buffer<SupportLink> byUpper;
+    // What has to be known of a link until it has its place.
+    struct Support
+    {
+        // Its place among those that were found.
+        public int Found;
+        public int Upper;
+        public int Lower;
+        public byte CarryingCount;
+        public bool Slides;
+        public bool Carries;
+    }
+
+    // Supports by upper body.
+    Buffer<Support> byUpper;
     // Per body of the active set, all of one length.
     Buffer<int> positions;
     Buffer<int> waiting;
+    // Supports that carry.
+    Buffer<int> carrying;
     Buffer<int> starts;
     Buffer<int> above;
     Buffer<int> islandOf;
@@ -35,15 +49,20 @@ unsafe struct SupportGraph
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
     internal Buffer<int> NodeOf;
 
-    /// <summary>Arranges what was found to carry a body.</summary>
+    /// <summary>Arranges what was found to carry a body. Links, and radii of nodes, are still to be filled in.</summary>
     /// <param name="found">What was found.</param>
+    /// <param name="pieces">Which of that is in use.</param>
     /// <param name="bodyCount">Bodies of the active set.</param>
     /// <param name="heights">Height of each body, in any unit, by which a circle of supports is cut.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal void Build<THeights>(ReadOnlySpan<SupportLink> found, int bodyCount, THeights heights, BufferPool pool) where THeights : struct, IHeights
+    internal void Build<THeights>(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, THeights heights, BufferPool pool)
+        where THeights : struct, IHeights
     {
-        Take(found.Length, bodyCount, pool);
-        SortByUpper(found, bodyCount, pool);
+        var count = 0;
+        foreach (var piece in pieces)
+            count += piece.Count;
+        Take(count, bodyCount, pool);
+        SortByUpper(found, pieces, bodyCount, pool);
         LinkAbove(bodyCount);
         OrderUpwards(bodyCount, heights, pool);
         MakeNodes(bodyCount, pool);
@@ -57,6 +76,7 @@ unsafe struct SupportGraph
         Links = new QuickList<SupportLink>(atLeastOne, pool);
         pool.TakeAtLeast(bodyCount, out positions);
         pool.TakeAtLeast(bodyCount, out waiting);
+        pool.TakeAtLeast(bodyCount, out carrying);
         pool.TakeAtLeast(bodyCount + 1, out starts);
         pool.TakeAtLeast(bodyCount, out above);
         pool.TakeAtLeast(bodyCount, out islandOf);
@@ -66,21 +86,38 @@ unsafe struct SupportGraph
         for (int i = 0; i < bodyCount; ++i)
             positions[i] = above[i] = NodeOf[i] = -1;
         waiting.Clear(0, bodyCount);
+        carrying.Clear(0, bodyCount);
         starts.Clear(0, bodyCount + 1);
         grounded.Clear(0, bodyCount);
     }
 
     // By counting, so that supports of one body stay in the order in which they were found.
-    void SortByUpper(ReadOnlySpan<SupportLink> found, int bodyCount, BufferPool pool)
+    void SortByUpper(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, BufferPool pool)
     {
-        for (int i = 0; i < found.Length; ++i)
-            ++starts[found[i].Upper + 1];
+        foreach (var piece in pieces)
+        {
+            for (int i = piece.Start; i < piece.Start + piece.Count; ++i)
+                ++starts[found[i].Upper + 1];
+        }
         for (int i = 0; i < bodyCount; ++i)
             starts[i + 1] += starts[i];
         pool.TakeAtLeast<int>(Math.Max(1, bodyCount), out var next);
         starts.CopyTo(0, next, 0, bodyCount);
-        for (int i = 0; i < found.Length; ++i)
-            byUpper[next[found[i].Upper]++] = found[i];
+        foreach (var piece in pieces)
+        {
+            for (int i = piece.Start; i < piece.Start + piece.Count; ++i)
+            {
+                ref var link = ref found[i];
+                byUpper[next[link.Upper]++] = new()
+                {
+                    Found = i,
+                    Upper = link.Upper,
+                    Lower = link.Lower,
+                    CarryingCount = (byte)link.CarryingCount,
+                    Slides = link.Slides,
+                };
+            }
+        }
         pool.Return(ref next);
     }
 
@@ -175,7 +212,7 @@ unsafe struct SupportGraph
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
-    readonly bool Carries(in SupportLink support) => support.Lower < 0 ||
+    readonly bool Carries(in Support support) => support.Lower < 0 ||
         (grounded[support.Lower] != 0 && positions[support.Lower] < positions[support.Upper]);
 
     void MakeNodes(int bodyCount, BufferPool pool)
@@ -186,7 +223,11 @@ unsafe struct SupportGraph
         for (int i = 0; i < starts[bodyCount]; ++i)
         {
             ref var support = ref byUpper[i];
-            if (support.Lower < 0 || !Carries(support))
+            support.Carries = Carries(support);
+            if (!support.Carries)
+                continue;
+            ++carrying[support.Upper];
+            if (support.Lower < 0)
                 continue;
             var a = DisjointSets.Root(islandOf, support.Upper);
             var b = DisjointSets.Root(islandOf, support.Lower);
@@ -235,16 +276,38 @@ unsafe struct SupportGraph
         {
             ref var node = ref Nodes[i];
             node.FirstSupport = Links.Count;
+            node.SupportCount = carrying[node.Body];
+            Links.Count += node.SupportCount;
+        }
+    }
+
+    /// <summary>Fills in the links of some nodes, and how far their contacts are from their centres; nodes are independent of each other.</summary>
+    /// <param name="found">What was found.</param>
+    /// <param name="start">The first of the nodes.</param>
+    /// <param name="end">One after the last.</param>
+    internal void Fill(SupportLink* found, int start, int end)
+    {
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref Nodes[i];
+            var link = node.FirstSupport;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
-                ref var link = ref byUpper[j];
-                if (!Carries(link))
+                ref var support = ref byUpper[j];
+                if (!support.Carries)
                     continue;
-                Links.AddUnsafely(link);
-                node.Radius = MathHelper.Max(node.Radius, link.Radius);
+                Links[link] = found[support.Found];
+                node.Radius = MathHelper.Max(node.Radius, Links[link++].Radius);
             }
-            node.SupportCount = Links.Count - node.FirstSupport;
         }
+    }
+
+    /// <summary>Island of a node.</summary>
+    internal readonly int IslandOf(int node)
+    {
+        // Some begins at the node or is the last that begins before it: none is empty.
+        var found = ((ReadOnlySpan<int>)new Span<int>(Islands.Span.Memory, Islands.Count)).BinarySearch(node);
+        return found >= 0 ? found : ~found - 1;
     }
 
     /// <summary>Gives all memory back; nothing is in the graph.</summary>
@@ -255,6 +318,7 @@ unsafe struct SupportGraph
             pool.Return(ref byUpper);
             pool.Return(ref positions);
             pool.Return(ref waiting);
+            pool.Return(ref carrying);
             pool.Return(ref starts);
             pool.Return(ref above);
             pool.Return(ref islandOf);
