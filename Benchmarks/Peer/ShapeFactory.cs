@@ -39,6 +39,8 @@ sealed class ShapeFactory(Simulation simulation)
                 return Convex(new Cylinder(x, 2 * y), default, 2 * Math.PI * x * x * y);
             case SceneShapeKind.Hull:
                 return Hull(shape);
+            case SceneShapeKind.Field:
+                return Mesh(TrianglesOf(shape), false);
             default:
                 return Mesh(shape, solid);
         }
@@ -83,6 +85,24 @@ sealed class ShapeFactory(Simulation simulation)
         if (!ConvexHullHelper.CreateShape(shape.Points, pool, out Vector3 center, out ConvexHull hull))
             throw new SceneException(shape.Line, shape.Word, "the points of the hull enclose no volume");
         return Convex(hull, center, HullVolume.Of(hull));
+    }
+
+    /// <summary>The engine has no height fields: the triangles of one.</summary>
+    static SceneShape TrianglesOf(SceneShape field)
+    {
+        int row = field.RowLength, rowCount = field.Heights.Length / row;
+        var points = new Vector3[field.Heights.Length];
+        for (int i = 0; i < points.Length; ++i)
+            points[i] = new(i % row * field.Size.X, field.Heights[i], i / row * field.Size.Z);
+        var indices = new int[6 * (row - 1) * (rowCount - 1)];
+        for (int cell = 0, next = 0; cell < (row - 1) * (rowCount - 1); ++cell)
+        {
+            int a = cell / (row - 1) * row + cell % (row - 1), b = a + 1, c = a + row, d = c + 1;
+            ReadOnlySpan<int> corners = [a, c, b, b, c, d];
+            corners.CopyTo(indices.AsSpan(next));
+            next += corners.Length;
+        }
+        return new SceneShape { Kind = SceneShapeKind.Mesh, Points = points, Indices = indices, Line = field.Line };
     }
 
     BuiltShape Mesh(SceneShape shape, bool solid)

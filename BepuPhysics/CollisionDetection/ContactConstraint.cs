@@ -43,8 +43,9 @@ unsafe readonly struct ContactConstraint
     /// <summary>Writes the contacts of a step over those of the last one, of which there were as many, and hands on their impulses.</summary>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
+    /// <param name="frictionCenter">Where friction acts of a patch on several statics, relative to the centre of A; zero for a patch on one.</param>
     /// <param name="features">What the contacts are remembered by.</param>
-    internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, ref FeatureIds features)
+    internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
         var wasHeld = WasHeld;
         WriteMaterial(material);
@@ -55,23 +56,27 @@ unsafe readonly struct ContactConstraint
             if (kept.TryFind(arms, manifold))
             {
                 Keep(arms, ref kept, manifold, ref features);
+                if (!hasTwoBodies)
+                    Write(ContactPrestepLayout.OffsetB(contactCount), frictionCenter);
                 return;
             }
         }
         ReadPatch(features, out var old);
-        WriteGeometry(manifold);
-        WriteImpulses(old, manifold, ref features);
+        WriteGeometry(manifold, frictionCenter);
+        WriteImpulses(old, manifold, frictionCenter, ref features);
     }
 
     /// <summary>Writes the contacts of a step to a constraint that is new.</summary>
     /// <param name="old">What an earlier constraint of the same manifold held; it may have had another number of contacts, or none.</param>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
+    /// <param name="frictionCenter">Where friction acts of a patch on several statics, relative to the centre of A; zero for a patch on one.</param>
     /// <param name="features">What the contacts are remembered by.</param>
-    internal void WriteNew(ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, ref FeatureIds features)
+    internal void WriteNew(
+        ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
         WriteMaterial(material);
-        WriteGeometry(manifold);
+        WriteGeometry(manifold, frictionCenter);
         if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.HasTwoBodies))
         {
             old.GetArms(out var arms);
@@ -81,14 +86,15 @@ unsafe readonly struct ContactConstraint
                 var drift = kept.Drift(arms, manifold);
                 for (int i = 0; i < contactCount; ++i)
                     WriteArm(i, kept.Places[i] < 0 ? Contact(manifold, i).Offset - drift : arms[kept.Places[i]]);
-                Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
+                if (hasTwoBodies)
+                    Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
                 float load = 0;
                 for (int i = 0; i < old.Count; ++i)
                     load += old.Normals[i];
                 old.Friction += TurnedForce(old.Normal, manifold.Normal, load);
             }
         }
-        WriteImpulses(old, manifold, ref features);
+        WriteImpulses(old, manifold, frictionCenter, ref features);
     }
 
     bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
@@ -133,7 +139,7 @@ unsafe readonly struct ContactConstraint
 
     static ref ConvexContact Contact(in ConvexContactManifold manifold, int index) => ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), index);
 
-    void WriteGeometry(in ConvexContactManifold manifold)
+    void WriteGeometry(in ConvexContactManifold manifold, in Vector3 frictionCenter)
     {
         ref var contacts = ref Unsafe.AsRef(in manifold.Contact0);
         for (int i = 0; i < contactCount; ++i)
@@ -142,7 +148,7 @@ unsafe readonly struct ContactConstraint
             WriteArm(i, contact.Offset);
             WriteDepth(i, contact.Depth);
         }
-        Write(ContactPrestepLayout.OffsetB(contactCount), manifold.OffsetB);
+        Write(ContactPrestepLayout.OffsetB(contactCount), hasTwoBodies ? manifold.OffsetB : frictionCenter);
         Write(ContactPrestepLayout.Normal(contactCount), manifold.Normal);
     }
 
@@ -200,7 +206,7 @@ unsafe readonly struct ContactConstraint
     // of one size, a corner is now one box's, now the other's, without anything having moved. So contacts whose feature is new take over
     // from the nearest contact whose feature is gone, and what is left then is shared by all: the load of the patch is the same as a step
     // ago, whatever its contacts are called.
-    void WriteImpulses(in ContactPatch old, in ConvexContactManifold manifold, ref FeatureIds features)
+    void WriteImpulses(in ContactPatch old, in ConvexContactManifold manifold, in Vector3 frictionCenter, ref FeatureIds features)
     {
         ref var contact = ref Unsafe.AsRef(in manifold.Contact0);
         FourFloats normals = default;
@@ -243,7 +249,9 @@ unsafe readonly struct ContactConstraint
         for (int i = 0; i < contactCount; ++i)
             impulses[i * Vector<float>.Count] = normals[i] + share;
         WriteFriction(old.Friction, manifold.Normal);
-        impulses[(ContactPrestepLayout.FrictionImpulse(contactCount) + 3) * Vector<float>.Count] = old.Twist;
+        // A contact that is alone has no lever, and what it holds means nothing; but for one that gets a share of friction with a lever.
+        var begins = contactCount == 1 && frictionCenter != default && !old.HasTwist;
+        impulses[(ContactPrestepLayout.FrictionImpulse(contactCount) + 3) * Vector<float>.Count] = begins ? 0 : old.Twist;
     }
 
     // Friction stays in the plane of the contacts; the normal may have turned.

@@ -19,7 +19,7 @@ struct ContactPatch
     public FourFloats Normals;
     /// <summary>Positions of the contacts relative to the centre of A, world axes, as they were when the arms were found.</summary>
     public FourVectors Arms;
-    /// <summary>Position of B relative to A at that time.</summary>
+    /// <summary>Position of B relative to A at that time; with one body where friction acted, or zero, as in the constraint.</summary>
     public Vector3 OffsetB;
     /// <summary>Normal of the last step.</summary>
     public Vector3 Normal;
@@ -27,6 +27,9 @@ struct ContactPatch
     public Vector3 Friction;
     /// <summary>Impulse against turning about the normal, N m s.</summary>
     public float Twist;
+
+    /// <summary>Whether <see cref="Twist"/> means anything.</summary>
+    public readonly bool HasTwist => Count > 1 || (!HasTwoBodies && OffsetB != default);
 
     /// <summary>The arms; of lanes beyond the count nothing is known.</summary>
     public readonly void GetArms(out OldArms arms)

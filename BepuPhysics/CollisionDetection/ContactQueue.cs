@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities.Memory;
 
@@ -21,6 +22,7 @@ unsafe struct ContactQueue
         public ContactConstraint Constraint;
         public ConvexContactManifold Manifold;
         public PairMaterialProperties Material;
+        public Vector3 FrictionCenter;
     }
 
     [InlineArray(Length)]
@@ -43,13 +45,16 @@ unsafe struct ContactQueue
     /// <param name="constraint">The constraint.</param>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
-    public void Add(Solver solver, FeatureIds* features, ConstraintHandle constraint, in ConvexContactManifold manifold, in PairMaterialProperties material)
+    /// <param name="frictionCenter">Where friction acts of a patch on several statics, relative to the centre of A; zero for a patch on one.</param>
+    public void Add(Solver solver, FeatureIds* features, ConstraintHandle constraint, in ConvexContactManifold manifold, in PairMaterialProperties material,
+        in Vector3 frictionCenter = default)
     {
         ref var update = ref updates[added++ % Length];
         update.Features = features;
         update.Handle = constraint;
         update.Manifold = manifold;
         update.Material = material;
+        update.FrictionCenter = frictionCenter;
         Prefetch.Read(solver.Locations.Memory + constraint.Slot);
         Prefetch.Read(features);
         if (added - located > StageLength)
@@ -77,6 +82,6 @@ unsafe struct ContactQueue
     void Write()
     {
         ref var update = ref updates[written++ % Length];
-        update.Constraint.Update(update.Manifold, update.Material, ref *update.Features);
+        update.Constraint.Update(update.Manifold, update.Material, update.FrictionCenter, ref *update.Features);
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
@@ -43,6 +44,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public PairMaterialProperties Material;
         /// <summary>Place of what the contacts take over from others of their body; negative where there is nothing.</summary>
         public int Inherited = StaticPairs.Nothing;
+        /// <summary>Where friction acts of a patch on several statics; zero for a patch on one.</summary>
+        public Vector3 FrictionCenter;
 
         public const int NotRead = -1;
     }
@@ -369,7 +372,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
             manifold = ref Pairs.Manifolds.Memory[constraint.ChildManifold].Manifold;
         new ContactConstraint(Simulation.Solver, constraint.Constraint, pending.Manifold.Count)
-            .WriteNew(ref old, pending.Manifold, pending.Material, ref manifold.Features);
+            .WriteNew(ref old, pending.Manifold, pending.Material, pending.FrictionCenter, ref manifold.Features);
     }
 
     void WatchBouncingPairs()

@@ -138,7 +138,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             foreach (ref var result in results)
                 result.Manifold.Count = 0;
-            waits = tested.Pair.B.Mobility != CollidableMobility.Dynamic && tested.ConstraintTypeId != CachedManifold.NoConstraint;
+            // What is near a body may be touched in the next step.
+            waits = tested.Pair.B.Mobility != CollidableMobility.Dynamic;
         }
         if (waits)
             worker.Statics.Add(tested, results, worker.Batcher.KeptChildren, material, worker.Pool);
@@ -161,18 +162,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var result = ref results[i];
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
+            var frictionCenter = worker.Statics.FindFrictionCenter(tested.Pair, result.Children);
             var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory)
             {
                 KeepsParentHistory = tested.MayCarry && result.Children.IsPatch,
                 Manifold = result.Manifold,
                 Material = material,
                 Inherited = inherited,
+                FrictionCenter = frictionCenter,
             };
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
-                if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material))
+                if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
                 {
                     if (result.Children.IsPatch)
                         record->Patch.Write(result.Manifold);
@@ -201,14 +204,16 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // What keeps its number of contacts is written in place.
-    bool TryKeep(ref Worker worker, in CollidablePair pair, ref CachedManifold manifold, in ChildResult result, in PairMaterialProperties material)
+    bool TryKeep(ref Worker worker, in CollidablePair pair, ref CachedManifold manifold, in ChildResult result, in PairMaterialProperties material,
+        in Vector3 frictionCenter)
     {
         var count = result.Manifold.Count;
         if (manifold.ConstraintTypeId != (count == 0 ? CachedManifold.NoConstraint : ConstraintType(pair, count)) ||
             (result.KeepsHistory && manifold.History < 0))
             return false;
         if (count > 0)
-            worker.Contacts.Add(Simulation.Solver, (FeatureIds*)Unsafe.AsPointer(ref manifold.Features), manifold.Constraint, result.Manifold, material);
+            worker.Contacts.Add(Simulation.Solver, (FeatureIds*)Unsafe.AsPointer(ref manifold.Features), manifold.Constraint, result.Manifold,
+                material, frictionCenter);
         return true;
     }
 

@@ -214,12 +214,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        Complete(ref worker, tested, convex, material, StaticPairs.Nothing);
+        Complete(ref worker, tested, convex, material, StaticPairs.Nothing, default);
     }
 
-    // What is inherited is of pairs that have waited.
+    // What is inherited, and a centre of friction, is of pairs that have waited.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void Complete(ref Worker worker, in TestedPair tested, in ConvexContactManifold convex, in PairMaterialProperties material, int inherited)
+    void Complete(ref Worker worker, in TestedPair tested, in ConvexContactManifold convex, in PairMaterialProperties material, int inherited,
+        in Vector3 frictionCenter)
     {
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
@@ -227,11 +228,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             Pairs.MarkSeen(tested.CacheIndex);
             if (inherited == StaticPairs.Nothing && tested.KeepsConstraint(typeId))
             {
-                worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, convex, material);
+                worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, convex,
+                    material, frictionCenter);
                 return;
             }
         }
-        var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory) { Manifold = convex, Material = material, Inherited = inherited };
+        var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory)
+        {
+            Manifold = convex,
+            Material = material,
+            Inherited = inherited,
+            FrictionCenter = frictionCenter,
+        };
         if (readsEarly && tested.ConstraintTypeId >= 0)
             Read(ref worker, ref pending, Pairs.Pairs.Values[tested.CacheIndex].Single);
         Note(ref worker.Pending, pending, worker.Pool);

@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
@@ -16,6 +15,9 @@ namespace BepuPhysics.CollisionDetection;
 // A body that begins to touch a second thing is the only case in which one pair's contacts are written already: the others agree with these.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
+    // Part of the mover's inner radius: a contact that is nearer to one of the last step is that one.
+    const float SamePlace = 0.05f;
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool Waits(in TestedPair tested) =>
         tested.Pair.B.Mobility != CollidableMobility.Dynamic && (tested.IsAtSeam || tested.ConstraintTypeId == CachedManifold.NoConstraint);
@@ -95,13 +97,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             touchCount += HasContacts(i) ? 1 : 0;
         foreach (ref var old in statics.Old.AsSpan())
             touchCount += old.IsWritten ? 1 : 0;
-        activity.IsAtSeam = JoinsStatics && touchCount > 1;
-        if (activity.IsAtSeam)
+        // What is fast is above the next mesh before it touches that.
+        activity.IsAtSeam = JoinsStatics && touchCount > 0 && touchCount + CountNear(first, end) > 1;
+        if (activity.IsAtSeam && touchCount > 1)
             Agree(ref worker, first, end);
         if (JoinsStatics)
             HandOver(ref statics, first, end, worker.Pool);
+        statics.FrictionCenters.Count = 0;
+        if (touchCount > 1 && JoinsStatics)
+            JoinFriction(ref statics, first, end, worker.Pool);
         for (int i = first; i < end; ++i)
             HandOn(ref worker, i);
+    }
+
+    int CountNear(int first, int end)
+    {
+        var count = 0;
+        for (int i = first; i < end; ++i)
+            count += Waiting(i).IsOfChildren && !HasContacts(i) ? 1 : 0;
+        return count;
     }
 
     bool HasContacts(int place)
@@ -139,6 +153,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 continue;
             var old = new OldPatch { Constraint = handle, CacheIndex = cacheIndex, Children = children, Pair = StaticPairs.Nothing };
             old.ContactCount = ConstraintTypeIds.ContactCount(solver.Locations[slot].TypeId);
+            var rows = new ContactRows(solver, Simulation.Bodies, handle, old.ContactCount);
+            for (int j = 0; j < old.ContactCount; ++j)
+                old.Arms[j] = rows.Arm(j);
             foreach (ref var manifold in Pairs.ManifoldsOf(cacheIndex))
             {
                 if (manifold.HasConstraint && manifold.Constraint == handle)
@@ -182,13 +199,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 for (int j = 0; j < pair.ChildCount; ++j)
                 {
                     ref var child = ref workers[order[i].Worker].Statics.Children[pair.FirstChild + j];
-                    agreement.Add(child, number, pair.Group, Remembered(statics, i, child.Result, mixes: true), worker.Pool);
+                    // The mover is the body, whatever its shape is.
+                    child.Placed.MoverIsB = false;
+                    agreement.Add(child, number, pair.Group, Remembered(statics, child), worker.Pool);
                 }
             }
             else
             {
                 Place(pair, ResultOf(i, pair.FirstResult).Manifold, out var child);
-                pair.Slot = agreement.Add(child, number, pair.Group, Remembered(statics, i, child.Result, mixes: false), worker.Pool);
+                pair.Slot = agreement.Add(child, number, pair.Group, Remembered(statics, child), worker.Pool);
             }
         }
         for (int i = 0; i < statics.Old.Count; ++i)
@@ -221,17 +240,22 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    // A bit for each contact that a constraint of its pair has, too.
-    static int Remembered(in StaticPairs statics, int place, in ChildResult result, bool mixes)
+    // A bit for each contact that is where one of the last step was, whichever static had that. Features do not say it: the end of a line that a seam cuts
+    // off is called what the end of the whole was.
+    static int Remembered(in StaticPairs statics, in SeamChild child)
     {
         var remembered = 0;
-        foreach (ref var old in statics.Old.AsSpan())
+        var distance = SamePlace * child.Placed.InnerRadius();
+        for (int i = 0; i < child.Result.Manifold.Count; ++i)
         {
-            for (int i = 0; i < result.Manifold.Count && old.Pair == place; ++i)
+            var place = Unsafe.Add(ref Unsafe.AsRef(in child.Result.Manifold.Contact0), i).Offset;
+            foreach (ref var old in statics.Old.AsSpan())
             {
-                var feature = Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), i).FeatureId;
-                if (((ReadOnlySpan<int>)old.Features)[..old.ContactCount].Contains(mixes ? result.Children.Mix(feature) : feature))
-                    remembered |= 1 << i;
+                for (int j = 0; j < old.ContactCount; ++j)
+                {
+                    if (Exact.DistanceSquared(old.Arms[j], place) <= distance * distance)
+                        remembered |= 1 << i;
+                }
             }
         }
         return remembered;
@@ -297,7 +321,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             ref var manifold = ref ResultOf(place, pair.FirstResult).Manifold;
             if (manifold.Count > 0)
-                Complete(ref worker, pair.Tested, manifold, pair.Material, worker.Statics.FindInheritance(pair.Tested.Pair, ChildIds.None));
+            {
+                ref var statics = ref worker.Statics;
+                Complete(ref worker, pair.Tested, manifold, pair.Material, statics.FindInheritance(pair.Tested.Pair, ChildIds.None),
+                    statics.FindFrictionCenter(pair.Tested.Pair, ChildIds.None));
+            }
             else if (pair.Tested.KeepsHistory)
                 CompleteWithoutContacts(ref worker, pair.Tested);
         }

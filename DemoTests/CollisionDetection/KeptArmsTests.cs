@@ -224,7 +224,7 @@ public sealed class KeptArmsTests : IDisposable
     {
         var before = Read();
         new ContactConstraint(world.Solver, Manifold().Constraint, 4)
-            .Update(Moved(before, default), new PairMaterialProperties(.25f, 7, new SpringSettings(15, .5f)), ref Manifold().Features);
+            .Update(Moved(before, default), new PairMaterialProperties(.25f, 7, new SpringSettings(15, .5f)), default, ref Manifold().Features);
         Assert.Equal(before.Arms[0], Read().Arms[0]);
         Assert.Equal([.25f, new SpringSettings(15, .5f).AngularFrequency, 1, 7], [Material(0), Material(1), Material(2), Material(3)]);
     }
@@ -322,7 +322,7 @@ public sealed class KeptArmsTests : IDisposable
     void Update(in ContactPatch before, in ConvexContactManifold manifold, int pair = 1)
     {
         Assert.Equal(4, before.Count);
-        Constraint(pair).Update(manifold, material, ref Manifold(pair).Features);
+        Constraint(pair).Update(manifold, material, default, ref Manifold(pair).Features);
     }
 
     // As the flush of the narrow phase does.
@@ -334,7 +334,7 @@ public sealed class KeptArmsTests : IDisposable
         var old = cached.Constraint;
         cached.Constraint = world.Solver.AddUnwritten([lower, upper], cached.ConstraintTypeId);
         Assert.Equal(old.Slot, cached.Constraint.Slot);
-        Constraint().WriteNew(ref before, manifold, material, ref cached.Features);
+        Constraint().WriteNew(ref before, manifold, material, default, ref cached.Features);
     }
 
     // The contacts of a patch after the patch has moved about both bodies.

@@ -24,6 +24,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("shape-pile", 200)]
     [InlineData("hull-pile", 200)]
     [InlineData("wave", 350)]
+    [InlineData("tiles", 150)]
+    [InlineData("gears-of-hulls", 60)]
+    [InlineData("tori", 60)]
     public void Threads_do_not_change_a_bit(string name, int steps)
     {
         var scene = Scene(name);
@@ -63,6 +66,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("fast-2", 120, 300)]
     [InlineData("fast-3", 120, 300)]
     [InlineData("wave", 350, 350)]
+    [InlineData("tiles", 150, 300)]
+    [InlineData("gears-of-hulls", 60, 300)]
+    [InlineData("tori", 60, 300)]
     public void Lanes_do_not_change_a_bit(string name, int steps, int fullSteps)
     {
         steps = IsFull ? fullSteps : steps;

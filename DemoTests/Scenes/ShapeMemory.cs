@@ -1,6 +1,8 @@
 using System.Collections.Generic;
+using System.Linq;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
 
 namespace DemoTests.Scenes;
 
@@ -22,11 +24,26 @@ static class ShapeMemory
             simulation.Bodies.RemoveAt(simulation.Bodies.ActiveSet.Count - 1);
         while (simulation.Statics.Count > 0)
             simulation.Statics.RemoveAt(simulation.Statics.Count - 1);
+        // Compounds before their children, which several of them may share.
+        foreach (var shape in hulls.Where(shape => shape.Exists).ToArray())
+        {
+            if (shape.Type is Compound.Id)
+                Add(simulation.Shapes.GetShape<Compound>(shape.Index).Children);
+            else if (shape.Type is BigCompound.Id)
+                Add(simulation.Shapes.GetShape<BigCompound>(shape.Index).Children);
+            if (shape.Type is Compound.Id or BigCompound.Id)
+                simulation.Shapes.RemoveAndDispose(shape, simulation.BufferPool);
+        }
         foreach (var shape in hulls)
         {
-            // Shapes that own memory. Children of compounds are of simple types here.
-            if (shape.Exists && shape.Type is ConvexHull.Id or Compound.Id or BigCompound.Id or Mesh.Id or HeightField.Id)
+            if (shape.Exists && shape.Type is ConvexHull.Id or Mesh.Id or HeightField.Id)
                 simulation.Shapes.RemoveAndDispose(shape, simulation.BufferPool);
+        }
+
+        void Add(Buffer<CompoundChild> children)
+        {
+            foreach (ref var child in children.AsSpan())
+                hulls.Add(child.ShapeIndex);
         }
     }
 }

@@ -30,6 +30,7 @@ sealed class ShapeFactory(Simulation simulation)
             SceneShapeKind.Capsule => Convex(new Capsule(x, 2 * y), Math.PI * x * x * (4 / 3.0 * x + 2.0 * y)),
             SceneShapeKind.Cylinder => Convex(new Cylinder(x, 2 * y), 2 * Math.PI * x * x * y),
             SceneShapeKind.Hull => Hull(shape),
+            SceneShapeKind.Field => Field(shape),
             _ => Mesh(shape, solid),
         };
     }
@@ -96,6 +97,13 @@ sealed class ShapeFactory(Simulation simulation)
             mesh.Dispose(simulation.BufferPool);
             throw new SceneException(shape.Line, shape.Word, exception.Message);
         }
+    }
+
+    BuiltShape Field(SceneShape shape)
+    {
+        int rowCount = shape.Heights.Length / shape.RowLength;
+        var field = new HeightField(shape.RowLength, rowCount, shape.Size.X, shape.Size.Z, shape.Heights, simulation.BufferPool);
+        return new BuiltShape(simulation.Shapes.Add(field), default, 0, _ => default);
     }
 
     BuiltShape Convex<TShape>(TShape shape, double volume, Vector3 center = default) where TShape : unmanaged, IConvexShape =>

@@ -11,6 +11,7 @@ static class FuzzOperations
         .. BodyOperations.All,
         .. StaticOperations.All,
         .. ShapeOperations.All,
+        .. LevelOperations.All,
         .. ConstraintOperations.All,
         .. SolverOperations.All,
         .. QueryOperations.All,

@@ -129,14 +129,17 @@ sealed class SceneBuilder
         if (body.Children.Length == 0)
             return null;
         bool solid = body.Kind == SceneBodyKind.Dynamic;
+        if (solid && scene.Shapes[body.Children[0].Shape].Kind == SceneShapeKind.Field)
+            throw new SceneException(body.Line, "field", "a field has no mass: its body must be static or kinematic");
         if (!body.IsCompound)
             return Shape(body.Children[0].Shape, solid);
         var children = new (BuiltShape Shape, SceneChild Child)[body.Children.Length];
         for (int i = 0; i < children.Length; ++i)
         {
             SceneChild child = body.Children[i];
-            if (scene.Shapes[child.Shape].Kind == SceneShapeKind.Mesh)
-                throw new SceneException(body.Line, "mesh", "a mesh cannot be a part of a compound body");
+            SceneShape part = scene.Shapes[child.Shape];
+            if (part.Kind is SceneShapeKind.Mesh or SceneShapeKind.Field)
+                throw new SceneException(body.Line, part.Word, $"a {part.Word} cannot be a part of a compound body");
             children[i] = (Shape(child.Shape, true), child);
         }
         return shapeFactory.BuildCompound(children, solid);

@@ -11,7 +11,7 @@ namespace Demos.Scenes;
 public static class SceneFile
 {
     const int Version = 1;
-    static readonly string[] shapeWords = ["box", "sphere", "capsule", "cylinder", "hull", "mesh"];
+    static readonly string[] shapeWords = ["box", "sphere", "capsule", "cylinder", "hull", "mesh", "field"];
 
     /// <summary>Reads a scene from a file.</summary>
     /// <exception cref="SceneException">The content is not a scene.</exception>
@@ -57,7 +57,7 @@ public static class SceneFile
 
     static SceneShape ReadShape(ref SceneTokens tokens, int index, int count)
     {
-        var kind = (SceneShapeKind)tokens.Word($"shape {index} of {count} (box, sphere, capsule, cylinder, hull or mesh)", shapeWords);
+        var kind = (SceneShapeKind)tokens.Word($"shape {index} of {count} (box, sphere, capsule, cylinder, hull, mesh or field)", shapeWords);
         int line = tokens.Line;
         switch (kind)
         {
@@ -75,6 +75,8 @@ public static class SceneFile
             case SceneShapeKind.Hull:
                 int pointCount = tokens.Integer("the number of points", 4, int.MaxValue);
                 return new SceneShape { Kind = kind, Points = ReadPoints(ref tokens, pointCount), Line = line };
+            case SceneShapeKind.Field:
+                return ReadField(ref tokens, line);
             default:
                 int vertexCount = tokens.Integer("the number of vertices", 3, int.MaxValue);
                 int triangleCount = tokens.Integer("the number of triangles", 1, int.MaxValue / 3);
@@ -82,6 +84,20 @@ public static class SceneFile
                 int[] indices = ReadIndices(ref tokens, 3 * triangleCount, vertexCount);
                 return new SceneShape { Kind = kind, Points = vertices, Indices = indices, Line = line };
         }
+    }
+
+    static SceneShape ReadField(ref SceneTokens tokens, int line)
+    {
+        int countX = tokens.Integer("the number of samples along x", 2, 1 << 15), countZ = tokens.Integer("the number of samples along z", 2, 1 << 15);
+        var distances = new Vector3(tokens.Positive("the distance of samples along x"), 0, tokens.Positive("the distance of samples along z"));
+        int count = countX * countZ;
+        var heights = new float[Math.Min(count, tokens.MostItemsLeft(1))];
+        for (int i = 0; i < count; ++i)
+        {
+            float height = tokens.Number("a height");
+            heights[i] = height;
+        }
+        return new SceneShape { Kind = SceneShapeKind.Field, Size = distances, RowLength = countX, Heights = heights, Line = line };
     }
 
     static Vector3[] ReadPoints(ref SceneTokens tokens, int count)

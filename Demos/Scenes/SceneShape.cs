@@ -11,6 +11,7 @@ public enum SceneShapeKind
     Cylinder,
     Hull,
     Mesh,
+    Field,
 }
 
 /// <summary>A shape as the scene file describes it; no engine has seen it yet.</summary>
@@ -18,7 +19,7 @@ public sealed class SceneShape
 {
     public required SceneShapeKind Kind { get; init; }
 
-    /// <summary>Half extents of a box; otherwise radius in X and half length along local y in Y.</summary>
+    /// <summary>Half extents of a box; distances of samples in X and Z of a field; otherwise radius in X and half length along local y in Y.</summary>
     public Vector3 Size { get; init; }
 
     /// <summary>Points of a hull, vertices of a mesh.</summary>
@@ -26,6 +27,12 @@ public sealed class SceneShape
 
     /// <summary>Three vertex numbers for each triangle of a mesh, counter-clockwise seen from its front.</summary>
     public int[] Indices { get; init; } = [];
+
+    /// <summary>Heights of a field, row by row along x.</summary>
+    public float[] Heights { get; init; } = [];
+
+    /// <summary>Number of samples in a row of a field.</summary>
+    public int RowLength { get; init; }
 
     /// <summary>Line of the scene file, from 1, or 0 when the shape did not come from a file.</summary>
     public int Line { get; init; }
@@ -41,6 +48,7 @@ public sealed class SceneShape
         SceneShapeKind.Capsule => "capsule",
         SceneShapeKind.Cylinder => "cylinder",
         SceneShapeKind.Hull => "hull",
-        _ => "mesh",
+        SceneShapeKind.Mesh => "mesh",
+        _ => "field",
     };
 }

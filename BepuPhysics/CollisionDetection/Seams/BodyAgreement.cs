@@ -42,8 +42,6 @@ struct BodyAgreement(BufferPool pool)
         hasSeveralNormals |= results.Count > 0 && !ChildAgreement.HasOneNormal(results[0].Manifold.Normal, child.Result.Manifold.Normal);
         children.Add(new() { Slot = results.Count, Class = child.Class, Pair = pair, Group = group, Remembered = remembered }, pool);
         placed.Add(child.Placed, pool);
-        // The mover is the body, whatever its shape is.
-        placed[results.Count].MoverIsB = false;
         results.Add(child.Result, pool);
         return results.Count - 1;
     }

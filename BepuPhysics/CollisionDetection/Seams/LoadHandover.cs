@@ -230,7 +230,7 @@ struct LoadHandover(BufferPool pool)
             if (!source.HasGiven && (source.Heir < 0 || !heirs[source.Heir].IsChanged))
                 continue;
             load.Friction += source.Patch.Friction * (own / all);
-            load.Twist += source.Patch.Twist * (own / all);
+            load.Twist += source.Patch.HasTwist ? source.Patch.Twist * (own / all) : 0;
         }
         return true;
     }

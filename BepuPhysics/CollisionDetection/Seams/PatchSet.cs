@@ -40,8 +40,8 @@ struct PatchSet
     /// <summary>Greatest number of patches.</summary>
     public const int Capacity = 4;
 
-    // Cosine of 4 degrees: normals that are nearer to each other are one patch.
-    const float SameNormal = 0.99756405f;
+    /// <summary>Cosine of 4 degrees: normals that are nearer to each other are one patch.</summary>
+    public const float SameNormal = 0.99756405f;
 
     // Cosine of the greatest angle by which a patch may have turned in a step.
     const float LeastTurnCosine = 0.9f;

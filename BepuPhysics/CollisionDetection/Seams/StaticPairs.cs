@@ -1,5 +1,7 @@
 using System;
+using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -47,6 +49,17 @@ struct Inheritance
     public ContactPatch Load;
 }
 
+/// <summary>Where the friction of a manifold acts that is a part of a patch on several statics.</summary>
+struct SharedFriction
+{
+    /// <summary>The pair.</summary>
+    public CollidablePair Pair;
+    /// <summary>Which of its manifolds it is.</summary>
+    public ChildIds Children;
+    /// <summary>Middle of all contacts that touch, relative to the centre of the body, m.</summary>
+    public Vector3 Center;
+}
+
 /// <summary>A constraint that a body had in the last step with something that does not give way.</summary>
 struct OldPatch
 {
@@ -56,6 +69,8 @@ struct OldPatch
     public int ContactCount;
     /// <summary>Features of its contacts.</summary>
     public FeatureIds Features;
+    /// <summary>Its contacts, relative to the centre of the body, m.</summary>
+    public FourVectors Arms;
     /// <summary>Index of its pair in the cache.</summary>
     public int CacheIndex;
     /// <summary>Which of the pair's manifolds it is.</summary>
@@ -79,6 +94,8 @@ struct StaticPairs
     public QuickList<SeamChild> Children;
     /// <summary>What new contacts take over.</summary>
     public QuickList<Inheritance> Inheritances;
+    /// <summary>Where friction acts, of the body whose pairs agree.</summary>
+    public QuickList<SharedFriction> FrictionCenters;
     /// <summary>Constraints of the body whose pairs agree.</summary>
     public QuickList<OldPatch> Old;
     /// <summary>Velocities of what the body touches.</summary>
@@ -114,6 +131,7 @@ struct StaticPairs
     public void PrepareAgreement(BufferPool pool)
     {
         Inheritances = new(InitialCapacity, pool);
+        FrictionCenters = new(InitialCapacity, pool);
         Old = new(InitialCapacity, pool);
         Groups = new(InitialCapacity, pool);
         Transfer = new(pool);
@@ -187,11 +205,24 @@ struct StaticPairs
         return Nothing;
     }
 
+    /// <summary>Where the friction of a manifold acts; zero where it shares none.</summary>
+    public readonly Vector3 FindFrictionCenter(in CollidablePair pair, ChildIds children)
+    {
+        for (int i = 0; i < FrictionCenters.Count; ++i)
+        {
+            ref var shared = ref FrictionCenters[i];
+            if (shared.Pair.A.Packed == pair.A.Packed && shared.Pair.B.Packed == pair.B.Packed && shared.Children == children)
+                return shared.Center;
+        }
+        return default;
+    }
+
     public void Release(BufferPool pool)
     {
         if (Inheritances.Span.Allocated)
         {
             Inheritances.Dispose(pool);
+            FrictionCenters.Dispose(pool);
             Old.Dispose(pool);
             Groups.Dispose(pool);
             Transfer.Dispose(pool);

@@ -43,7 +43,10 @@ struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<Con
 {
     /// <summary>The contacts.</summary>
     public TContacts Contacts;
-    /// <summary>Position of B relative to A; unused with one body.</summary>
+    /// <summary>
+    /// Position of B relative to A. With one body: where friction acts, relative to the centre of A, if the patch is a part of one that several statics
+    /// bear; zero where it is not.
+    /// </summary>
     public Vector3Wide OffsetB;
     /// <summary>Unit normal from B to A.</summary>
     public Vector3Wide Normal;

@@ -139,6 +139,15 @@ unsafe readonly ref struct ContactRows
     /// <summary>Angular frequency of the contacts' spring; see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
     internal ref float Spring => ref processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Spring(contactCount));
 
+    /// <summary>Impulse against turning about the normal.</summary>
+    internal ref float Twist => ref Impulse(ContactPrestepLayout.FrictionImpulse(contactCount) + 3);
+
+    /// <summary>Whether <see cref="Twist"/> means anything: a contact that is alone has no lever, but where it shares the friction of several.</summary>
+    internal bool HasTwist => contactCount > 1 || (B < 0 && OffsetB != default);
+
+    /// <summary>Whether the load path held the patch in the last step.</summary>
+    internal bool IsHeld => float.IsNegative(Spring);
+
     /// <summary>Depth of a contact at detection; negative where the surfaces were apart.</summary>
     internal ref float Depth(int contact) =>
         ref processor.PrestepFloat(ref batch, index, contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);

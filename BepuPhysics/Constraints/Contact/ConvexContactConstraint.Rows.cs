@@ -34,7 +34,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     }
 
     static int IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.RowCount =>
-        TContacts.Count > 1 ? TContacts.Count + 3 : 3;
+        HasTwist ? TContacts.Count + 3 : 3;
+
+    static bool HasTwist => TContacts.Count > 1 || TBodies.Count == 1;
 
     static RowLimit IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.LimitOf(int row) =>
         row < FirstFriction ? RowLimit.Positive : row < FirstFriction + 2 ? RowLimit.Friction : RowLimit.Twist;
@@ -56,7 +58,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             var arm = patch.Contacts[i].OffsetA;
             WriteJacobian(ref row, n, arm, patch.OffsetB);
             row.Impulse = accumulated.Normals[i];
-            row.Lever = TContacts.Count > 1 ? (arm - center).Length() : Vector<float>.Zero;
+            row.Lever = HasTwist ? (arm - center).Length() : Vector<float>.Zero;
             row.PositionError = Displacement(bodies, row) - patch.Contacts[i].Depth;
             row.MaximumImpulse = new(float.PositiveInfinity);
             row.HardMask = Vector.LessThanOrEqual(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
@@ -70,10 +72,11 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         WriteJacobian(ref rows[FirstFriction], x, center, patch.OffsetB);
         WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);
         WriteJacobian(ref rows[FirstFriction + 1], y, center, patch.OffsetB);
-        if (TContacts.Count == 1)
+        if (!HasTwist)
             return;
         ref var twist = ref rows[FirstFriction + 2];
-        WriteFriction(ref twist, accumulated.Twist, coefficient, moment);
+        var isThere = TContacts.Count > 1 ? new Vector<int>(-1) : JoinsFriction(ref patch);
+        WriteFriction(ref twist, Wide.Mask(isThere, accumulated.Twist), coefficient, moment);
         twist.A.Angular = n;
         if (TBodies.Count > 1)
             twist.B.Angular = -n;
@@ -86,7 +89,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             impulses.Normals[i] = Wide.Select(lanes, rows[i], impulses.Normals[i]);
         Vector3Wide.BuildOrthonormalBasis(prestep.Normal, out var x, out var y);
         impulses.Friction = Vector3Wide.Select(lanes, x * rows[FirstFriction] + y * rows[FirstFriction + 1], impulses.Friction);
-        if (TContacts.Count > 1)
+        if (HasTwist)
             impulses.Twist = Wide.Select(lanes, rows[FirstFriction + 2], impulses.Twist);
     }
 

@@ -9,6 +9,8 @@ namespace BepuPhysics.Constraints.Contact;
 // Normal rows     C_i = separation_i >= 0        J_i = [ n, rA_i x n, -n, n x rB_i ]         lambda_i >= 0
 // Friction rows   at the patch centre c, along two tangents                                  |f| <= mu sum(lambda_i)   (Coulomb, for the patch)
 // Twist row       J = [ 0, n, 0, -n ]                                                       |t| <= mu sum(lambda_i |c - c_i|)
+// A patch that lies on several statics side by side has a constraint for each. All of them have friction at the centre of the whole, so that theirs add up to
+// that of one patch on one static; there a single contact has a lever, and twist, too.
 // Friction is bounded by the sum of the normal impulses, so it does not depend on how many contacts represent the patch, and it is
 // solved after them, so that it knows the load of this very sweep.
 //
@@ -48,6 +50,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(ref prestep), impulses.Friction);
         if (TContacts.Count > 1)
             angularA += prestep.Normal * impulses.Twist;
+        else if (TBodies.Count == 1)
+            WarmStartLoneTwist(ref prestep, impulses.Twist, ref angularA);
         ref var a = ref BodySlots.At(ref bodies, 0);
         a.Linear += linear * a.InverseMass;
         a.Angular += a.InverseInertia * angularA;
@@ -87,7 +91,36 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
                 moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();
             SolveTwist(ref bodies, prestep.Normal, prestep.Material.FrictionCoefficient * moment, ref impulses.Twist);
         }
+        else if (TBodies.Count == 1)
+            SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
     }
+
+    // Lanes without a centre of their own have no twist, and are left as they are to the last bit.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void WarmStartLoneTwist(ref ConvexContactPrestepWide<TContacts> prestep, Vector<float> twist, ref Vector3Wide angular)
+    {
+        var joins = JoinsFriction(ref prestep);
+        if (joins != Vector<int>.Zero)
+            angular = Vector3Wide.Select(joins, angular + prestep.Normal * twist, angular);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SolveLoneTwist(
+        ref TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in Vector3Wide center, Vector<float> load, ref Vector<float> twist)
+    {
+        var joins = JoinsFriction(ref prestep);
+        if (joins == Vector<int>.Zero)
+            return;
+        var before = BodySlots.At(ref bodies, 0).Angular;
+        var lever = (prestep.Contacts[0].OffsetA - center).Length();
+        SolveTwist(ref bodies, prestep.Normal, Wide.Mask(joins, prestep.Material.FrictionCoefficient * load * lever), ref twist);
+        ref var after = ref BodySlots.At(ref bodies, 0).Angular;
+        after = Vector3Wide.Select(joins, after, before);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> JoinsFriction(ref ConvexContactPrestepWide<TContacts> prestep) =>
+        Vector.GreaterThan(prestep.OffsetB.LengthSquared(), Vector<float>.Zero);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveNormal(
@@ -243,9 +276,14 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             BodySlots.At(ref bodies, 1).Angular -= responseB * change;
     }
 
-    // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did.
+    // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did; of a patch on several statics,
+    // at that of the whole.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep)
+    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
+        ? OwnCenter(ref prestep) : Vector3Wide.Select(JoinsFriction(ref prestep), prestep.OffsetB, OwnCenter(ref prestep));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide OwnCenter(ref ConvexContactPrestepWide<TContacts> prestep)
     {
         if (TContacts.Count == 1)
             return prestep.Contacts[0].OffsetA;

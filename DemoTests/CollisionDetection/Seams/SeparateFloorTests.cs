@@ -32,17 +32,18 @@ public class SeparateFloorTests(ITestOutputHelper output)
     // Where a floor lies, and in which order its parts are added. 1 to 3 are those that the rule was made with.
     static readonly int[] seeds = [1001, 1002];
 
-    // What slides on a face has contacts with several statics at once, and each static's friction is at the middle of its own contacts, not at that of
-    // all: what is turned is turned on. Only that it is not stopped can be said of its speed.
-    static bool SlidesOnFace(SeamMover mover) =>
+    // On kinematic bodies each one's friction is at the middle of its own contacts, not at that of all, as it is on statics: what slides on a face is
+    // turned. Only that it is not stopped can be said of its speed.
+    static bool IsTurned(SeparateFloor floor, SeamMover mover) =>
+        floor == SeparateFloor.Kinematics &&
         mover is SeamMover.Box or SeamMover.TurnedBox or SeamMover.StandingCylinder or SeamMover.Hull or SeamMover.Compound;
 
-    // What is not yet as it should be: up to 8.2 mm/s where the allowed is 5, and 10.5 for what stands and is fast.
-    static float GreatestUpwardOf(SeamMover mover, float friction, float speed) => mover switch
+    // What is not yet as it should be. Of faces with many corners each pair chooses four contacts of its own, and the best four of all are not always among
+    // them: the body is tilted a little.
+    static float GreatestUpwardOf(SeamMover mover, float speed) => mover switch
     {
-        SeamMover.Hull or SeamMover.Compound when speed >= 10 => 8.2e-3f,
-        SeamMover.RollingCapsule or SeamMover.RollingCylinder when friction > 0 && speed == 20 => 8.2e-3f,
-        SeamMover.StandingCylinder when speed >= 10 => 1.1e-2f,
+        SeamMover.Hull when speed >= 10 => 8e-3f,
+        SeamMover.StandingCylinder when speed == 20 => 5.5e-3f,
         _ => GreatestUpward,
     };
 
@@ -88,9 +89,9 @@ public class SeparateFloorTests(ITestOutputHelper output)
         output.WriteLine(text);
         // What may be left of up and down is a load that friction takes its part of.
         var allowed = 1e-3f * speed + friction * GreatestUpward;
-        var isStraight = friction > 0 && SlidesOnFace(mover)
+        var isStraight = friction > 0 && IsTurned(floor, mover)
             ? tooSlow <= friction * GreatestUpward + .02f * friction * speed
             : velocityError <= allowed && sideways <= 5e-3f * speed;
-        return isStraight && heightError <= 2e-4f && upward <= GreatestUpwardOf(mover, friction, speed) ? "" : text;
+        return isStraight && heightError <= 2e-4f && upward <= GreatestUpwardOf(mover, speed) ? "" : text;
     }
 }

@@ -30,6 +30,41 @@ public class SceneSupportTests
         Assert.True(result.Contacts > 0, "It fell through both.");
     }
 
+    /// <summary>A box lies on a field whose surface is a slope.</summary>
+    [Fact]
+    public void A_field_is_read_row_by_row()
+    {
+        // Heights of 0.25 x at samples 2 m apart in x and 3 m in z; the box is turned by atan(0.25).
+        string text = "scene 1 name n steps 60 friction 1 damping 0 sleep 0\nshapes 2\nfield 3 2 2 3 0 0.5 1 0 0.5 1\nbox 0.2 0.2 0.2\nbodies 2\n"
+            + "0 1 0 0 0 0 0 0 0 1 0 -1 0 -1 0 0 0 1 0 0 0 0 0 0 0\n"
+            + "2 1 1 0 0 0 0 0 0 1 1 1 0.71 0.5 0 0 0.1218693 0.9925462 0 0 0 0 0 0 0\njoints 0\n";
+        using var run = new SceneRun(SceneFile.Parse(Encoding.UTF8.GetBytes(text)), new RunSettings { Warmup = 0 });
+        RunResult result = run.Run();
+
+        Assert.Equal((1, 1, 0, 0), (result.Bodies, result.Statics, result.Lost, result.NotFinite));
+        Assert.Equal(4, result.Contacts);
+        Assert.InRange(result.KineticEnergy, 0, 1e-4);
+    }
+
+    [Theory]
+    [InlineData("field 1 2 1 1 0 0", "1")]
+    [InlineData("field 2 2 1 0 0 0 0 0", "0")]
+    [InlineData("field 2 2 1 1 0 0 0 x", "x")]
+    public void A_field_that_is_wrong_is_refused_with_its_line(string shape, string token)
+    {
+        var error = Assert.Throws<SceneException>(() => Build(shape, "0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal((4, token), (error.Line, error.Token));
+    }
+
+    [Fact]
+    public void A_field_has_no_mass()
+    {
+        var error = Assert.Throws<SceneException>(() => Build("field 2 2 1 1 0 0 0 0", "2 1 1 0 0 0 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal((6, "field"), (error.Line, error.Token));
+    }
+
     [Theory]
     [InlineData("hull 4 0 0 0 1 0 0 0 1 0 1 1 0")]
     [InlineData("hull 5 0 0 0 1 1 1 2 2 2 3 3 3 4 4 4")]

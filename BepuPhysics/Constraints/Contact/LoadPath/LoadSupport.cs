@@ -50,7 +50,7 @@ unsafe struct LoadSupport
         Normal = Three(link.Prestep, ContactPrestepLayout.Normal(Count)) * Sign;
         var offsetB = Three(link.Prestep, ContactPrestepLayout.OffsetB(Count));
         ToLower = offsetB * Sign;
-        // Friction acts where the sweeps let it act: at the mean of the contacts that touch, or of all if none does.
+        // Friction acts where the sweeps let it act: at the mean of the contacts that touch, or of all if none does; or where several statics have it act.
         Vector3 touching = default, all = default;
         int touches = 0;
         for (int i = 0; i < Count; ++i)
@@ -64,7 +64,10 @@ unsafe struct LoadSupport
             touching += Arms[i];
             ++touches;
         }
-        Center = touches > 0 ? touching * (1f / touches) : all * (1f / Count);
+        if (!link.HasTwoBodies && offsetB != default)
+            Center = offsetB;
+        else
+            Center = touches > 0 ? touching * (1f / touches) : all * (1f / Count);
     }
 
     /// <summary>Reads what the solver has accumulated.</summary>

@@ -135,6 +135,7 @@ readonly unsafe struct SupportFinder(
                 Radius = radius[lane],
                 Count = (byte)count,
                 Open = (byte)open[lane],
+                HasTwoBodies = hasB,
                 IsUpperA = isUpperA[lane] != 0,
                 Slides = slides[lane] != 0,
             };

@@ -24,6 +24,8 @@ unsafe struct SupportLink
     public byte Count;
     /// <summary>One bit per contact, set where the surfaces are apart: it carries nothing and is left as it is.</summary>
     public byte Open;
+    /// <summary>Whether the constraint has two bodies.</summary>
+    public bool HasTwoBodies;
     /// <summary>Whether the upper body is A of the constraint.</summary>
     public bool IsUpperA;
     /// <summary>Whether friction is at its limit and the surfaces move along each other.</summary>

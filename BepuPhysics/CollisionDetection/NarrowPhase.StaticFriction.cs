@@ -1,0 +1,81 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Friction of a patch that lies on several statics. Each of them has a constraint, with friction of its own; that of all acts in the middle of the contacts
+// of all, where the friction of one patch on one static would act. Forces at one point that are each bounded by a coefficient times a load add up to one that
+// is bounded by the coefficient times the sum; so do twists, whose levers are distances from that point.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    // Only on statics: a constraint of two bodies has no place for another centre.
+    void JoinFriction(ref StaticPairs statics, int first, int end, BufferPool pool)
+    {
+        var wasHeld = false;
+        foreach (ref var old in statics.Old.AsSpan())
+            wasHeld |= Rows(old).IsHeld;
+        for (int i = first; i < end; ++i)
+        {
+            ref var pair = ref Waiting(i);
+            for (int j = pair.Start; j < pair.End && pair.Tested.Pair.B.Mobility == CollidableMobility.Static; ++j)
+            {
+                ref var result = ref ResultOf(i, j);
+                if (result.Manifold.Count > 0 && statics.FindFrictionCenter(pair.Tested.Pair, result.Children) == default)
+                    JoinFriction(ref statics, i, j, end, wasHeld, pool);
+            }
+        }
+        // What a contact holds that was alone is of before it was.
+        foreach (ref var old in statics.Old.AsSpan())
+        {
+            if (statics.FrictionCenters.Count > 0 && !Rows(old).HasTwist)
+                Rows(old).Twist = 0;
+        }
+    }
+
+    ContactRows Rows(in OldPatch old) => new(Simulation.Solver, Simulation.Bodies, old.Constraint, old.ContactCount);
+
+    // All manifolds that have the normal of one, and come after it.
+    void JoinFriction(ref StaticPairs statics, int place, int index, int end, bool wasHeld, BufferPool pool)
+    {
+        var normal = ResultOf(place, index).Manifold.Normal;
+        Vector3 all = default, touching = default;
+        var (count, touchCount) = (0, 0);
+        var before = statics.FrictionCenters.Count;
+        for (int i = place; i < end; ++i)
+        {
+            ref var pair = ref Waiting(i);
+            for (int j = i == place ? index : pair.Start; j < pair.End && pair.Tested.Pair.B.Mobility == CollidableMobility.Static; ++j)
+            {
+                ref var result = ref ResultOf(i, j);
+                ref var manifold = ref result.Manifold;
+                if (manifold.Count == 0 || Exact.Dot(manifold.Normal, normal) < PatchSet.SameNormal ||
+                    statics.FindFrictionCenter(pair.Tested.Pair, result.Children) != default)
+                    continue;
+                for (int k = 0; k < manifold.Count; ++k)
+                {
+                    var contact = ConvexContactManifold.GetConvexContactReference(ref manifold, k);
+                    all += contact.Offset;
+                    ++count;
+                    var band = wasHeld ? ContactMaterialWide.BandPerExtent * System.MathF.Abs(Exact.Dot(contact.Offset, normal)) : 0;
+                    if (contact.Depth < -band)
+                        continue;
+                    touching += contact.Offset;
+                    ++touchCount;
+                }
+                statics.FrictionCenters.Add(new() { Pair = pair.Tested.Pair, Children = result.Children }, pool);
+            }
+        }
+        // A patch on one static has its own.
+        if (statics.FrictionCenters.Count == before + 1)
+        {
+            statics.FrictionCenters.Count = before;
+            return;
+        }
+        var center = touchCount > 0 ? touching * (1f / touchCount) : all * (1f / count);
+        for (int i = before; i < statics.FrictionCenters.Count; ++i)
+            statics.FrictionCenters[i].Center = center;
+    }
+}
