@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuUtilities.Memory;
 
 namespace Demos.Fuzz.Operations;
 
