@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints.Contact;
@@ -59,7 +60,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                     var contact = ConvexContactManifold.GetConvexContactReference(ref manifold, k);
                     all += contact.Offset;
                     ++count;
-                    var band = wasHeld ? ContactMaterialWide.BandPerExtent * System.MathF.Abs(Exact.Dot(contact.Offset, normal)) : 0;
+                    var band = wasHeld ? ContactMaterialWide.BandPerExtent * MathF.Abs(Exact.Dot(contact.Offset, normal)) : 0;
                     if (contact.Depth < -band)
                         continue;
                     touching += contact.Offset;

@@ -101,11 +101,14 @@ public class LevelTests
     }
 
     /// <summary>Below the angle of friction a thing stays where it is, above it slides as a point does; whatever the ground is made of.</summary>
-    [Theory, CombinatorialGrounds]
+    [Theory]
+    [InlineData(LevelGround.Mesh, true), InlineData(LevelGround.Field, true), InlineData(LevelGround.Boxes, true), InlineData(LevelGround.Compound, true)]
+    [InlineData(LevelGround.Mesh, false), InlineData(LevelGround.Field, false), InlineData(LevelGround.Boxes, false), InlineData(LevelGround.Compound, false)]
     public void Slopes_hold_and_let_go_as_one_plane_does(LevelGround ground, bool isBox)
     {
-        foreach (var (part, seed) in new[] { (.98f, 2001), (.98f, 2002), (1.02f, 2003), (1.02f, 2004) })
+        for (int seed = 2001; seed <= 2004; ++seed)
         {
+            var part = seed < 2003 ? .98f : 1.02f;
             using var world = new ClusterWorld(isCluster: true);
             var angle = MathF.Atan(part * world.Behaviour.Friction);
             var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitZ, -angle);
@@ -220,11 +223,5 @@ public class LevelTests
                 Assert.InRange(world.Simulation.Bodies[body].Pose.Position.X * side, .2f, 20);
             }
         }
-    }
-
-    sealed class CombinatorialGroundsAttribute : Xunit.Sdk.DataAttribute
-    {
-        public override IEnumerable<object[]> GetData(System.Reflection.MethodInfo testMethod) =>
-            from ground in Enum.GetValues<LevelGround>() where ground != LevelGround.One from isBox in new[] { true, false } select new object[] { ground, isBox };
     }
 }
