@@ -1,5 +1,6 @@
 using BenchmarkDotNet.Running;
 using Benchmarks.Compare;
+using Benchmarks.Joints;
 using Benchmarks.Pairs;
 using Benchmarks.Pairs.Shared;
 using Benchmarks.Smoke;
@@ -7,6 +8,7 @@ using Benchmarks.Smoke;
 return args switch
 {
     ["compare", ..] => CompareCommand.Run(args[1..]),
+    ["joints", ..] => JointCommand.Run(args[1..]),
     ["pairs", ..] => PairCommand.Run(args[1..]),
     [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
     ["smoke"] => SmokeCommand.Run(),

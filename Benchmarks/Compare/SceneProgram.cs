@@ -28,8 +28,7 @@ sealed class SceneProgram(string assemblyPath)
                 start.ArgumentList.Add(argument);
             start.ArgumentList.Add("--json");
             start.ArgumentList.Add(path);
-            if (lanes is int count)
-                start.Environment["DOTNET_MaxVectorTBitWidth"] = FormattableString.Invariant($"{32 * count}");
+            Widen(start, lanes);
             int status = Execute(start, out string messages);
             if (status == UnsoundStatus)
                 Console.Error.WriteLine($"warning: {assemblyPath} lost bodies in {string.Join(' ', arguments)}");
@@ -44,7 +43,10 @@ sealed class SceneProgram(string assemblyPath)
     }
 
     /// <summary>Runs anything else, which has to end well, and is compiled once and for all.</summary>
-    public void Do(params string[] arguments)
+    public void Do(params string[] arguments) => Do(null, arguments);
+
+    /// <summary>The same with the widest vectors that the runtime may use, in floats; null for its own choice.</summary>
+    public void Do(int? lanes, string[] arguments)
     {
         var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
         start.ArgumentList.Add(assemblyPath);
@@ -53,9 +55,16 @@ sealed class SceneProgram(string assemblyPath)
         // As the programs of Demos and Peer are set up; this one is not, since BenchmarkDotNet has its own way.
         start.Environment["DOTNET_TieredCompilation"] = "0";
         start.Environment["DOTNET_TieredPGO"] = "0";
+        Widen(start, lanes);
         int status = Execute(start, out string messages);
         if (status != 0)
             throw new CompareException($"{assemblyPath} ended with status {status}: {messages.Trim()}");
+    }
+
+    static void Widen(ProcessStartInfo start, int? lanes)
+    {
+        if (lanes is int count)
+            start.Environment["DOTNET_MaxVectorTBitWidth"] = FormattableString.Invariant($"{32 * count}");
     }
 
     /// <summary>Builds the peer program against the engine of a folder.</summary>

@@ -61,6 +61,9 @@ sealed class AccuracyWorld : IDisposable
 
     public DoubleQuaternion Orientation(BodyHandle body) => Bodies[body].Pose.Orientation;
 
+    /// <summary>Where a point of a body is.</summary>
+    public Double3 Point(BodyHandle body, Vector3 offset) => Position(body) + Orientation(body).Rotate(offset);
+
     public Double3 LinearVelocity(BodyHandle body) => Bodies[body].Velocity.Linear;
 
     public Double3 AngularVelocity(BodyHandle body) => Bodies[body].Velocity.Angular;

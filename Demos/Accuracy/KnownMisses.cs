@@ -66,8 +66,6 @@ static class KnownMisses
             ("coin 0.06 m thick, 5 rad/s, on the way", "s16 i1 r1 stiff"),
             ("coin 0.06 m thick, 5 rad/s, on the way", "s4 i1"),
             ("coin 0.06 m thick, 7 rad/s, on the way", "s16 i1 r1 stiff"));
-        Add("X4", "a float has a step of .008 m there",
-            ("at 1e5 m", "s16 i1 r1 stiff"));
         Add("X4", "a float has a step of .06 m there",
             ("at 1e6 m", "s16 i1 r1 stiff"),
             ("at 1e6 m", "s4 i1"));

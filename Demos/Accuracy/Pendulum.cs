@@ -48,7 +48,8 @@ sealed class Pendulum
     public void Observe()
     {
         var offset = world.Position(body) - pivot;
-        if (lastX * offset.X < 0 && offset.Y < 0)
+        // Far from the origin it may be seen exactly below the pivot; that is a crossing once.
+        if (lastX > 0 != offset.X > 0 && offset.Y < 0)
         {
             latestCrossing = lastTime + (world.Time - lastTime) * lastX / (lastX - offset.X);
             firstCrossing = crossings++ == 0 ? latestCrossing : firstCrossing;

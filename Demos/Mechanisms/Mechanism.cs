@@ -10,10 +10,16 @@ using Demos.References;
 namespace Demos.Mechanisms;
 
 /// <summary>A machine of joints in a world of its own, driven step by step, and what must be true of it.</summary>
-abstract class Mechanism(AccuracySettings settings) : IDisposable
+abstract class Mechanism : IDisposable
 {
-    readonly List<(BodyHandle A, BodyHandle B, Vector3 OffsetA, Vector3 OffsetB)> pins = [];
+    readonly JointGaps pins;
     double startEnergy;
+
+    protected Mechanism(AccuracySettings settings)
+    {
+        World = new AccuracyWorld(settings);
+        pins = new JointGaps(World);
+    }
 
     /// <summary>Steps of a run.</summary>
     public abstract int StepCount { get; }
@@ -24,12 +30,12 @@ abstract class Mechanism(AccuracySettings settings) : IDisposable
     /// <summary>What must be true after a run.</summary>
     public abstract IEnumerable<Finding> Findings { get; }
 
-    protected AccuracyWorld World { get; } = new(settings);
+    protected AccuracyWorld World { get; }
 
     protected Solver Solver => World.Simulation.Solver;
 
     /// <summary>Greatest gap of a hinge so far, m.</summary>
-    protected double WorstGap { get; private set; }
+    protected double WorstGap => pins.Worst;
 
     /// <summary>Greatest energy so far above that of the beginning, J.</summary>
     protected double EnergyGained { get; private set; }
@@ -46,10 +52,7 @@ abstract class Mechanism(AccuracySettings settings) : IDisposable
             Drive(i);
             World.Step(World.Settings.Dt);
             if (i >= StartingSteps)
-            {
-                foreach ((BodyHandle a, BodyHandle b, Vector3 offsetA, Vector3 offsetB) in pins)
-                    WorstGap = Tally.Most(WorstGap, (Point(a, offsetA) - Point(b, offsetB)).Length);
-            }
+                pins.Observe();
             EnergyGained = Tally.Most(EnergyGained, Energy(out double kinetic) - startEnergy);
             GreatestMotion = Tally.Most(GreatestMotion, kinetic);
             Observe(i);
@@ -67,13 +70,13 @@ abstract class Mechanism(AccuracySettings settings) : IDisposable
     }
 
     /// <summary>Where a point of a body is.</summary>
-    protected Double3 Point(BodyHandle body, Vector3 offset) => World.Position(body) + World.Orientation(body).Rotate(offset);
+    protected Double3 Point(BodyHandle body, Vector3 offset) => World.Point(body, offset);
 
     /// <summary>Adds a hinge about Z of both bodies, and watches its gap.</summary>
     protected void AddHinge(BodyHandle a, BodyHandle b, Vector3 offsetA, Vector3 offsetB)
     {
         Solver.Add(a, b, new Hinge { LocalOffsetA = offsetA, LocalHingeAxisA = Vector3.UnitZ, LocalOffsetB = offsetB, LocalHingeAxisB = Vector3.UnitZ });
-        pins.Add((a, b, offsetA, offsetB));
+        pins.Add(a, b, offsetA, offsetB);
     }
 
     /// <summary>Adds a bar in the plane of X and Y from one point to another, along its local X.</summary>

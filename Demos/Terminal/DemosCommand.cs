@@ -7,6 +7,7 @@ using BepuPhysics;
 using BepuUtilities.Memory;
 using Demos.Accuracy;
 using Demos.Engine;
+using Demos.JointTables;
 using Demos.Running;
 using Demos.Scenes;
 using Demos.Trade;
@@ -39,6 +40,8 @@ public static class DemosCommand
         root.Subcommands.Add(RunCommand());
         root.Subcommands.Add(TradeCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(TradeCommand.CreateWorker());
+        root.Subcommands.Add(JointTablesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
+        root.Subcommands.Add(JointTimesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(AccuracyCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
             root.Subcommands.Add(command);
