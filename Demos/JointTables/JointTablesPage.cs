@@ -27,9 +27,9 @@ static class JointTablesPage
         its frequency, .785 / h for one sweep per substep. When F changes C has to follow, and the damper that brings it there takes
         (2 + w h) F' K F' / w^3, which goes with the third power of the substep. In a pendulum it is the direction of F that changes. The elbow of a double
         pendulum whips: the force in it is .84 of a bar's weight in the median and 13 to 19 times the weight in one hundredth of the time. Over a minute
-        of the true motion the formula takes 32, 4.0, .50 % of the energy with 8, 16, 32 substeps; joints take 11, 2.5, .32 %. With four substeps it is more than there
-        is, so the motion is damped until what is left whips no more. What helps is stiffness: two sweeps or a relaxation are twice as stiff, four sweeps
-        four times. Twice the substeps are twice as stiff too, and follow the motion better. What a joint could do besides is in
+        of the true motion the formula takes 32, 4.0, .50 % of the energy with 8, 16, 32 substeps; joints take 11, 2.5, .32 %. With four substeps it is more
+        than there is, so the motion is damped until what is left whips no more. What helps is stiffness: two sweeps or a relaxation are twice as stiff,
+        four sweeps four times. Twice the substeps are twice as stiff too, and follow the motion better. What a joint could do besides is in
         [long arms](decisions/long-arms.md): whoever turns with the bars sees .41 % of those .50 % still.
 
         **Chains** hang from the start with a kick at the load; what is shown is the mean stretch of a link over the second half of ten seconds. Stretch is the
