@@ -58,7 +58,8 @@ public class CarriedPatchTests
             return true;
         }
 
-        public bool ConfigureContactManifold(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
+        public bool ConfigureContactManifold(
+            int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
 
         public void Dispose() { }
     }
@@ -174,13 +175,13 @@ public class CarriedPatchTests
 
     static BodyReference Add<TDecision>(World<TDecision> world, string shape, float radius, Vector3 position, Vector3 linear = default,
         Vector3 angular = default) where TDecision : struct, IDecision => shape switch
-    {
-        "sphere" => world.Add(new Sphere(radius), position, Quaternion.Identity, linear, angular),
-        "capsule" => world.Add(new Capsule(radius, 1), position, lying, linear, angular),
-        "cylinder" => world.Add(new Cylinder(radius, 1), position, lying, linear, angular),
-        "standing" => world.Add(new Cylinder(radius, 2 * radius), position, Quaternion.Identity, linear, angular),
-        _ => world.Add(new Box(2 * radius, 2 * radius, 2 * radius), position, Quaternion.Identity, linear, angular),
-    };
+        {
+            "sphere" => world.Add(new Sphere(radius), position, Quaternion.Identity, linear, angular),
+            "capsule" => world.Add(new Capsule(radius, 1), position, lying, linear, angular),
+            "cylinder" => world.Add(new Cylinder(radius, 1), position, lying, linear, angular),
+            "standing" => world.Add(new Cylinder(radius, 2 * radius), position, Quaternion.Identity, linear, angular),
+            _ => world.Add(new Box(2 * radius, 2 * radius, 2 * radius), position, Quaternion.Identity, linear, angular),
+        };
 
     [Theory, InlineData("sphere"), InlineData("capsule"), InlineData("cylinder"), InlineData("standing"), InlineData("box")]
     public void What_lies_still_stays(string shape)

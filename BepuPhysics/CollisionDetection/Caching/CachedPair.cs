@@ -70,7 +70,9 @@ struct ChildManifold
 // 32 bytes, so that none lies across two cache lines.
 struct CachedPair
 {
-    /// <summary>The manifold of a pair of convex shapes. Of other pairs the type id says that they are such, and the history is that of the pair as a whole.</summary>
+    /// <summary>
+    /// The manifold of a pair of convex shapes. Of other pairs the type id says that they are such, and the history is that of the pair as a whole.
+    /// </summary>
     public CachedManifold Single;
     /// <summary>Index of the first of several manifolds; <see cref="PairRecords{T}.None"/> where there is none.</summary>
     public int FirstManifold;
