@@ -32,7 +32,7 @@ public class JointTreeTests(ITestOutputHelper output)
     {
         [nameof(Hinge)] = .42,
         [nameof(BallSocket)] = .45,
-        [nameof(SwivelHinge)] = .27,
+        [nameof(SwivelHinge)] = .34,
         [nameof(BallSocketServo)] = .32,
         [nameof(DistanceLimit)] = .25,
         [nameof(DistanceServo)] = .45,

@@ -24,6 +24,8 @@ static class ShapeMemory
             simulation.Bodies.RemoveAt(simulation.Bodies.ActiveSet.Count - 1);
         while (simulation.Statics.Count > 0)
             simulation.Statics.RemoveAt(simulation.Statics.Count - 1);
+        // Those that sleep.
+        simulation.Bodies.Clear();
         // Compounds before their children, which several of them may share.
         foreach (var shape in hulls.Where(shape => shape.Exists).ToArray())
         {

@@ -165,7 +165,7 @@ public unsafe partial struct HeightField
             stack.AddUnsafely(new NodeChild());
             while (stack.Count > 0)
             {
-                var node = stack[--stack.Count];
+                var node = stack.Pop();
                 // What was met since may have made it too far away.
                 if (node.Min.X > maximumT)
                     continue;

@@ -52,7 +52,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
         }
         while (stack.Count > 0)
         {
-            var pair = stack[--stack.Count];
+            var pair = stack.Pop();
             if (pair.B.Index < 0 || (pair.A.Index >= 0 && pair.A.LeafCount >= pair.B.LeafCount))
             {
                 countA = a.Open(pair.A.Index, shapes, belowA.Memory);

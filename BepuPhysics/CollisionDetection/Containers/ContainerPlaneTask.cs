@@ -48,7 +48,7 @@ sealed unsafe class ContainerPlaneTask<TContainer> : ExpandingTask<TContainer, H
         nodes.Add(0, pool);
         while (nodes.Count > 0)
         {
-            var count = container.Open(nodes[--nodes.Count], shapes, below.Memory);
+            var count = container.Open(nodes.Pop(), shapes, below.Memory);
             for (int i = 0; i < count; ++i)
             {
                 var center = (below[i].Min + below[i].Max) * .5f;
