@@ -9,7 +9,7 @@ namespace Demos.Running;
 /// <summary>A scene in a simulation at the usual settings, not yet stepped, for commands that look into its steps.</summary>
 static class WatchedScene
 {
-    /// <summary>Makes the simulation; whoever does compiles it by <see cref="Simulation.WarmUp"/>.</summary>
+    /// <summary>Makes the simulation; whoever does warms it up.</summary>
     /// <param name="scene">What is in it.</param>
     /// <param name="pool">Its memory.</param>
     /// <param name="threads">Threads that its steps may use.</param>
