@@ -47,10 +47,7 @@ static class CompareCommand
                 if (parsed.GetValue(runs) < 1)
                     throw new CompareException("--runs has to be at least 1");
                 var ourProgram = new SceneProgram(parsed.GetValue(ours) ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"));
-                string peerPath = parsed.GetRequiredValue(peer);
-                SceneProgram peerProgram = peerPath.EndsWith(".dll", StringComparison.OrdinalIgnoreCase)
-                    ? new SceneProgram(peerPath)
-                    : SceneProgram.BuildPeer(peerPath);
+                SceneProgram peerProgram = SceneProgram.OpenPeer(parsed.GetRequiredValue(peer));
                 List<CompareOutcome> outcomes = Measure(cases, ourProgram, peerProgram, parsed.GetValue(runs),
                     parsed.GetValue(frames), parsed.GetValue(warmup), parsed.GetValue(sleep));
                 CompareReport.Write(Console.Out, outcomes);
@@ -99,28 +96,26 @@ static class CompareCommand
     static List<CompareCase> Plan(string scenes, string threads, string settings, string lanes)
     {
         var cases = new List<CompareCase>();
-        foreach (string scene in Split(scenes))
+        foreach (string scene in CommaList.Split(scenes))
         {
-            foreach (string setting in Split(settings))
+            foreach (string setting in CommaList.Split(settings))
             {
                 string[] parts = setting.Split('x');
                 if (parts.Length != 2)
                     throw new CompareException($"'{setting}' in --settings is not ITERATIONSxSUBSTEPS");
                 (int iterations, int substeps) = (Number(parts[0], "--settings"), Number(parts[1], "--settings"));
-                foreach (string thread in Split(threads))
+                foreach (string thread in CommaList.Split(threads))
                 {
                     int threadCount = Number(thread, "--threads");
                     if (lanes.Length == 0)
                         cases.Add(new CompareCase(scene, iterations, substeps, threadCount, null));
-                    foreach (string lane in Split(lanes))
+                    foreach (string lane in CommaList.Split(lanes))
                         cases.Add(new CompareCase(scene, iterations, substeps, threadCount, Number(lane, "--lanes")));
                 }
             }
         }
         return cases;
     }
-
-    static string[] Split(string list) => list.Split(',', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
 
     static int Number(string text, string option) =>
         int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out int value) && value > 0

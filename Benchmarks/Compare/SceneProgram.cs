@@ -67,13 +67,13 @@ sealed class SceneProgram(string assemblyPath)
             start.Environment["DOTNET_MaxVectorTBitWidth"] = FormattableString.Invariant($"{32 * count}");
     }
 
-    /// <summary>Builds the peer program against the engine of a folder.</summary>
-    /// <param name="peerFolder">Holds the peer's two assemblies.</param>
-    public static SceneProgram BuildPeer(string peerFolder)
+    /// <summary>The peer's program.</summary>
+    /// <param name="programOrFolder">A built program (.dll), or the folder of the peer's two assemblies, for which it is built.</param>
+    public static SceneProgram OpenPeer(string programOrFolder)
     {
         try
         {
-            return new SceneProgram(PeerProgram.Build(peerFolder));
+            return new SceneProgram(PeerProgram.Find(programOrFolder));
         }
         catch (SceneException refusal)
         {

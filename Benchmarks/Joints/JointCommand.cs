@@ -43,13 +43,10 @@ static class JointCommand
                 int count = parsed.GetValue(runs);
                 if (count < 1)
                     throw new CompareException("--runs has to be at least 1");
-                int[] widths = [.. Split(parsed.GetRequiredValue(lanes)).Select(Width)];
+                int[] widths = [.. CommaList.Split(parsed.GetRequiredValue(lanes)).Select(Width)];
                 var ours = new SceneProgram(typeof(DemosCommand).Assembly.Location);
-                string peerPath = parsed.GetRequiredValue(peer);
-                SceneProgram theirs = peerPath.EndsWith(".dll", StringComparison.OrdinalIgnoreCase)
-                    ? new SceneProgram(peerPath)
-                    : SceneProgram.BuildPeer(peerPath);
-                List<JointOutcome> outcomes = Measure(ours, theirs, Split(parsed.GetValue(types)), widths, count);
+                SceneProgram theirs = SceneProgram.OpenPeer(parsed.GetRequiredValue(peer));
+                List<JointOutcome> outcomes = Measure(ours, theirs, CommaList.Split(parsed.GetValue(types)), widths, count);
                 JointReport.Write(Console.Out, outcomes);
                 if (parsed.GetValue(csv) is string path)
                     JointReport.WriteCsv(path, outcomes);
@@ -106,6 +103,4 @@ static class JointCommand
     static int Width(string text) => int.TryParse(text, CultureInfo.InvariantCulture, out int width) && width is 4 or 8 or 16
         ? int.Parse(text, CultureInfo.InvariantCulture)
         : throw new CompareException($"--lanes cannot be '{text}'");
-
-    static string[] Split(string? list) => list?.Split(',', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries) ?? [];
 }

@@ -39,11 +39,11 @@ static class PairCommand
                 int count = parsed.GetValue(runs);
                 if (count < 1)
                     throw new CompareException("--runs has to be at least 1");
-                PairFile file = PairPlan.Create(Split(parsed.GetValue(pairs)), Split(parsed.GetValue(regimes)), Console.Error);
+                PairFile file = PairPlan.Create(CommaList.Split(parsed.GetValue(pairs)), CommaList.Split(parsed.GetValue(regimes)), Console.Error);
                 if (file.Cases.Count == 0)
                     throw new CompareException("there is nothing to measure");
                 file.Write(path);
-                List<PairOutcome> outcomes = Measure(path, OpenPeer(parsed.GetRequiredValue(peer)), count);
+                List<PairOutcome> outcomes = Measure(path, SceneProgram.OpenPeer(parsed.GetRequiredValue(peer)), count);
                 PairReport.Write(Console.Out, outcomes);
                 if (parsed.GetValue(csv) is string csvPath)
                     PairReport.WriteCsv(csvPath, outcomes);
@@ -61,9 +61,6 @@ static class PairCommand
         });
         return root.Parse(arguments).Invoke();
     }
-
-    static SceneProgram OpenPeer(string path) =>
-        path.EndsWith(".dll", StringComparison.OrdinalIgnoreCase) ? new SceneProgram(path) : SceneProgram.BuildPeer(path);
 
     static List<PairOutcome> Measure(string casePath, SceneProgram peer, int runs)
     {
@@ -111,9 +108,6 @@ static class PairCommand
             File.Delete(path);
         }
     }
-
-    static string[] Split(string? list) =>
-        list?.Split(',', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries) ?? [];
 
     static Option<string?> List(string name, string description) => new(name) { Description = $"{description} Separated by commas." };
 }

@@ -40,10 +40,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void Record(in TestedPair tested, float dt, Vector3 offsetB, ReadOnlySpan<ChildResult> results)
     {
         ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
+        history.Forget();
+        if (!tested.MayCarry)
+            return;
         Simulation.GetPoseAndShape(tested.Pair.A, out var poseA, out var shapeA);
         Simulation.GetPoseAndShape(tested.Pair.B, out var poseB, out var shapeB);
         if (history.Reach == 0)
             history.Measure(ReachOf(shapeA), ReachOf(shapeB));
+        if (!history.MayCarry)
+            return;
         var velocityA = VelocityOf(tested.Pair.A);
         var velocityB = VelocityOf(tested.Pair.B);
         // The smaller shape's velocity as the larger one sees it.
@@ -52,10 +57,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var angular = velocityB.Angular - velocityA.Angular;
         // By how much its points may move in a step.
         var step = (Exact.Length(linear) + Exact.Length(angular) * history.Reach) * dt;
-        if (tested.MayCarry && history.MayCarry && step < RetestBound.Tolerance * history.Reach)
+        if (step < RetestBound.Tolerance * history.Reach)
             history.Record(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
-        else
-            history.Forget();
     }
 
     float ReachOf(TypedIndex shape) => Simulation.Shapes.GetBatch(shape.Type).MaximumRadius(shape.Index);

@@ -46,8 +46,8 @@ static class JointTablesCommand
                 return DemosCommand.Finished;
             }
             var measured = new List<JointTableRow>();
-            if (parsed.GetValue(peer) is string folder)
-                RunPeer(folder.EndsWith(".dll", StringComparison.OrdinalIgnoreCase) ? folder : PeerProgram.Build(folder), tables, measured.Add);
+            if (parsed.GetValue(peer) is string programOrFolder)
+                RunPeer(PeerProgram.Find(programOrFolder), tables, measured.Add);
             Run(tables, measured.Add);
             JointTablesPage.Write(output, tables, measured);
             if (parsed.GetValue(page) is string file)

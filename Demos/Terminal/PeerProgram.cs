@@ -8,10 +8,16 @@ namespace Demos.Terminal;
 /// <summary>The program of <c>Benchmarks/Peer</c>: these sources, compiled against the bepuphysics2 of a folder.</summary>
 public static class PeerProgram
 {
+    /// <summary>Path of the assembly: a built program as it is, or one that is built for the engine of a folder.</summary>
+    /// <param name="programOrFolder">A .dll, or what holds the peer's BepuPhysics.dll and BepuUtilities.dll.</param>
+    /// <exception cref="SceneException">There is no such engine in the folder, or the program does not compile against it.</exception>
+    public static string Find(string programOrFolder) =>
+        programOrFolder.EndsWith(".dll", StringComparison.OrdinalIgnoreCase) ? programOrFolder : Build(programOrFolder);
+
     /// <summary>Builds it and returns the path of the assembly.</summary>
     /// <param name="folder">Holds the peer's BepuPhysics.dll and BepuUtilities.dll.</param>
     /// <exception cref="SceneException">There is no such engine in the folder, or the program does not compile against it.</exception>
-    public static string Build(string folder)
+    static string Build(string folder)
     {
         if (!File.Exists(Path.Combine(folder, "BepuPhysics.dll")))
             throw new SceneException($"there is no BepuPhysics.dll in the folder '{folder}' of --peer");

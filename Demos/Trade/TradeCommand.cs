@@ -90,7 +90,7 @@ static class TradeCommand
             }
             else
             {
-                string program = peer.EndsWith(".dll", StringComparison.OrdinalIgnoreCase) ? peer : PeerProgram.Build(peer);
+                string program = PeerProgram.Find(peer);
                 // Both in processes of their own, so that neither has what the other lacks.
                 engines.Add(new RemoteTradeEngine(typeof(TradeCommand).Assembly.Location));
                 engines.Add(new RemoteTradeEngine(program));

@@ -9,8 +9,8 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>What is remembered of the last test of a pair of which one shape at least is made of children: its patches, and where the shapes were.</summary>
 /// <remarks>
-/// While the bodies have hardly moved the patches are carried along by the rule of <see cref="PairHistory"/>, and no child is looked for. What may roll is
-/// excepted, as there: see <see cref="ChildPairs.MayCarry"/>.
+/// While the bodies have hardly moved the patches are carried along by the rule of <see cref="PairHistory"/>, and no child is looked for. Contacts of
+/// a round shape stay below it, however it has rolled; where round children may roll nothing is carried: see <see cref="ChildPairs.MayCarry"/>.
 /// </remarks>
 // Seven cache lines, of which a pair of one patch needs three.
 [StructLayout(LayoutKind.Sequential, Size = 7 * CacheLine)]

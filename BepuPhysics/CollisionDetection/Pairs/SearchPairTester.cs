@@ -20,8 +20,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     where TShapeWideB : unmanaged where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
     /// <inheritdoc/>
-    // What rolls has one contact or two. Carried along they would go up behind it and push it on; a cylinder's end that lies flat has more.
-    public static int LeastCarriedContactCount => TFeatureA.IsRound || TFeatureB.IsRound ? 3 : 1;
+    public static int LeastCarriedContactCount => CarriedContacts.LeastCount(TFeatureA.IsRound || TFeatureB.IsRound);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
