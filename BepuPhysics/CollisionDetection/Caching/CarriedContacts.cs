@@ -15,11 +15,6 @@ struct CarriedContacts
     FourFloats depths;
     FeatureIds features;
 
-    /// <summary>Number of contacts from which on they may be carried along with the surfaces while the bodies hardly move.</summary>
-    /// <param name="isRound">Whether one of the two shapes is round.</param>
-    // What rolls has one contact or two. Carried along they would go up behind it and push it on; a cylinder's end that lies flat has more.
-    public static int LeastCount(bool isRound) => isRound ? 3 : 1;
-
     /// <summary>Finds the contacts where the shapes are now.</summary>
     /// <param name="bound">Where the shapes were.</param>
     /// <param name="contactMask">A bit for each place that has a contact.</param>

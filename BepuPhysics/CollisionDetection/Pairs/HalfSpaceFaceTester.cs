@@ -13,7 +13,7 @@ readonly struct HalfSpaceFaceTester<TShapeWide, TSupport, TFeature> : ISearching
     where TShapeWide : unmanaged where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>
 {
     /// <inheritdoc/>
-    public static int LeastCarriedContactCount => CarriedContacts.LeastCount(TFeature.IsRound);
+    public static int LeastCarriedContactCount => RollingContacts.LeastCarriedCount(TFeature.IsRound);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -20,7 +20,7 @@ readonly struct SearchPairTester<TShapeWideA, TSupportA, TFeatureA, TShapeWideB,
     where TShapeWideB : unmanaged where TSupportB : unmanaged, ISupport<TShapeWideB> where TFeatureB : unmanaged, IContactFeature<TShapeWideB>
 {
     /// <inheritdoc/>
-    public static int LeastCarriedContactCount => CarriedContacts.LeastCount(TFeatureA.IsRound || TFeatureB.IsRound);
+    public static int LeastCarriedContactCount => RollingContacts.LeastCarriedCount(TFeatureA.IsRound || TFeatureB.IsRound);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
