@@ -13,23 +13,23 @@ namespace BepuPhysics.CollisionDetection;
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
     // Only on statics: a constraint of two bodies has no place for another centre.
-    void JoinFriction(ref StaticPairs statics, int first, int end, BufferPool pool)
+    void JoinFriction(ref StaticPairs statics, in AgreeingBody body, BufferPool pool)
     {
         var wasHeld = false;
-        foreach (ref var old in statics.Old.AsSpan())
+        foreach (ref var old in statics.OldOf(body))
             wasHeld |= Rows(old).IsHeld;
-        for (int i = first; i < end; ++i)
+        for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
             for (int j = pair.Start; j < pair.End && pair.Tested.Pair.B.Mobility == CollidableMobility.Static; ++j)
             {
                 ref var result = ref ResultOf(i, j);
                 if (result.Manifold.Count > 0 && statics.FindFrictionCenter(pair.Tested.Pair, result.Children) == default)
-                    JoinFriction(ref statics, i, j, end, wasHeld, pool);
+                    JoinFriction(ref statics, i, j, body.End, wasHeld, pool);
             }
         }
         // What a contact holds that was alone is of before it was.
-        foreach (ref var old in statics.Old.AsSpan())
+        foreach (ref var old in statics.OldOf(body))
         {
             if (statics.FrictionCenters.Count > 0 && !Rows(old).HasTwist)
                 Rows(old).Twist = 0;

@@ -1,3 +1,4 @@
+using System;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
@@ -6,20 +7,20 @@ namespace BepuPhysics.CollisionDetection;
 // What a body's contacts with several statics carried, where these have come, gone or gone over from one static to another.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
-    void HandOver(ref StaticPairs statics, int first, int end, BufferPool pool)
+    void HandOver(ref StaticPairs statics, in AgreeingBody body, BufferPool pool)
     {
-        if (!AreOthers(statics, first, end))
+        if (!AreOthers(statics, body))
             return;
         ref var transfer = ref statics.Transfer;
         transfer.Begin();
-        foreach (ref var old in statics.Old.AsSpan())
+        foreach (ref var old in statics.OldOf(body))
         {
             if (old.IsWritten)
                 continue;
             new ContactConstraint(Simulation.Solver, old.Constraint, old.ContactCount).ReadPatch(old.Features, out var patch);
             old.Source = transfer.AddSource(patch, pool);
         }
-        for (int i = first; i < end; ++i)
+        for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
             for (int j = pair.Start; j < pair.End; ++j)
@@ -28,14 +29,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 if (result.Manifold.Count > 0)
                 {
                     var hasTwoBodies = pair.Tested.Pair.B.Mobility != CollidableMobility.Static;
-                    transfer.AddHeir(result.Manifold, SourceOf(statics, i, result.Children), hasTwoBodies, pool);
+                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), hasTwoBodies, pool);
                 }
             }
         }
         if (!transfer.Run())
             return;
         var heir = 0;
-        for (int i = first; i < end; ++i)
+        for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
             for (int j = pair.Start; j < pair.End; ++j)
@@ -47,9 +48,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    static int SourceOf(in StaticPairs statics, int place, ChildIds children)
+    static int SourceOf(Span<OldPatch> patches, int place, ChildIds children)
     {
-        foreach (ref var old in statics.Old.AsSpan())
+        foreach (ref var old in patches)
         {
             if (old.Pair == place && old.Children == children)
                 return old.Source;
@@ -58,10 +59,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // Whether a contact is gone that others may take over from. Of a body with one pair, the pair sees to it itself.
-    bool AreOthers(in StaticPairs statics, int first, int end)
+    bool AreOthers(in StaticPairs statics, in AgreeingBody body)
     {
         var resultCount = 0;
-        for (int i = first; i < end; ++i)
+        for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
             for (int j = pair.Start; j < pair.End; ++j)
@@ -69,7 +70,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         if (resultCount == 0)
             return false;
-        foreach (ref var old in statics.Old.AsSpan())
+        foreach (ref var old in statics.OldOf(body))
         {
             if (!old.IsWritten && HasLost(old, resultCount > 1))
                 return true;

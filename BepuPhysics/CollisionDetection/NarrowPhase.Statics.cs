@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
@@ -70,14 +71,23 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (first == end)
             return;
         ref var worker = ref workers[block];
-        worker.Statics.PrepareAgreement(worker.Pool);
+        ref var statics = ref worker.Statics;
+        statics.PrepareAgreement(worker.Pool);
         while (first < end)
         {
-            var next = first + 1;
-            while (next < end && BodyOf(next) == BodyOf(first))
-                ++next;
-            AgreeOfBody(ref worker, first, next);
-            first = next;
+            statics.Bodies.Count = statics.Old.Count = 0;
+            statics.Agreement.Begin();
+            while (first < end && statics.Bodies.Count < SeamMemory.SetCapacity)
+            {
+                var next = first + 1;
+                while (next < end && BodyOf(next) == BodyOf(first))
+                    ++next;
+                Begin(ref statics, first, next, worker.Pool);
+                first = next;
+            }
+            statics.Agreement.Run(worker.Pool);
+            foreach (ref var body in statics.Bodies.AsSpan())
+                Finish(ref worker, body);
         }
         worker.Contacts.Flush(Simulation.Solver);
     }
@@ -86,27 +96,36 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     ref ChildResult ResultOf(int place, int result) => ref workers[order[place].Worker].Statics.Results[result];
 
-    void AgreeOfBody(ref Worker worker, int first, int end)
+    // What the pairs of a body have to agree on.
+    void Begin(ref StaticPairs statics, int first, int end, BufferPool pool)
     {
         ref var location = ref Simulation.Bodies.Locations[Waiting(first).Tested.Pair.A.Slot];
         ref var activity = ref Simulation.Bodies.SetOf(location).Activity[location.Index];
-        ref var statics = ref worker.Statics;
-        ListOldPatches(ref statics, first, end, worker.Pool);
-        var touchCount = 0;
+        var body = new AgreeingBody { First = first, End = end, FirstOld = statics.Old.Count, Number = StaticPairs.Nothing };
+        ListOldPatches(ref statics, first, end, pool);
+        body.OldCount = statics.Old.Count - body.FirstOld;
         for (int i = first; i < end; ++i)
-            touchCount += HasContacts(i) ? 1 : 0;
-        foreach (ref var old in statics.Old.AsSpan())
-            touchCount += old.IsWritten ? 1 : 0;
+            body.TouchCount += HasContacts(i) ? 1 : 0;
+        foreach (ref var old in statics.OldOf(body))
+            body.TouchCount += old.IsWritten ? 1 : 0;
         // What is fast is above the next mesh before it touches that.
-        activity.IsAtSeam = JoinsStatics && touchCount > 0 && touchCount + CountNear(first, end) > 1;
-        if (activity.IsAtSeam && touchCount > 1)
-            Agree(ref worker, first, end);
+        activity.IsAtSeam = JoinsStatics && body.TouchCount > 0 && body.TouchCount + CountNear(first, end) > 1;
+        if (activity.IsAtSeam && body.TouchCount > 1)
+            AddToAgreement(ref statics, ref body, pool);
+        statics.Bodies.Add(body, pool);
+    }
+
+    void Finish(ref Worker worker, in AgreeingBody body)
+    {
+        ref var statics = ref worker.Statics;
+        if (body.Number != StaticPairs.Nothing && statics.Agreement.Finish(body.Number, worker.Pool))
+            TakeAgreement(ref worker, body);
         if (JoinsStatics)
-            HandOver(ref statics, first, end, worker.Pool);
+            HandOver(ref statics, body, worker.Pool);
         statics.FrictionCenters.Count = 0;
-        if (touchCount > 1 && JoinsStatics)
-            JoinFriction(ref statics, first, end, worker.Pool);
-        for (int i = first; i < end; ++i)
+        if (body.TouchCount > 1 && JoinsStatics)
+            JoinFriction(ref statics, body, worker.Pool);
+        for (int i = body.First; i < body.End; ++i)
             HandOn(ref worker, i);
     }
 
@@ -132,7 +151,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Which of the body's contact constraints are with something that does not give way, and what becomes of them.
     void ListOldPatches(ref StaticPairs statics, int first, int end, BufferPool pool)
     {
-        statics.Old.Count = 0;
         var a = Waiting(first).Tested.Pair.A;
         ref var location = ref Simulation.Bodies.Locations[a.Slot];
         if (location.SetIndex != 0)
@@ -171,11 +189,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    void Agree(ref Worker worker, int first, int end)
+    void AddToAgreement(ref StaticPairs statics, ref AgreeingBody body, BufferPool pool)
     {
-        ref var statics = ref worker.Statics;
+        var (first, end) = (body.First, body.End);
         ref var agreement = ref statics.Agreement;
-        agreement.Begin();
+        body.Number = agreement.BeginBody(pool);
         statics.Groups.Count = 0;
         for (int i = first; i < end; ++i)
         {
@@ -183,7 +201,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             pair.Slot = StaticPairs.Nothing;
             if (!HasContacts(i))
                 continue;
-            pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, worker.Pool);
+            pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, pool);
             var number = i - first + 1;
             if (pair.IsOfGame)
             {
@@ -191,7 +209,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 {
                     ref var manifold = ref ResultOf(i, j).Manifold;
                     if (manifold.Count > 0)
-                        agreement.AddFixed(manifold.Normal, DeepestOf(manifold), number, pair.Group, worker.Pool);
+                        agreement.AddFixed(manifold.Normal, DeepestOf(manifold), number, pair.Group, pool);
                 }
             }
             else if (pair.IsOfChildren)
@@ -201,55 +219,60 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                     ref var child = ref workers[order[i].Worker].Statics.Children[pair.FirstChild + j];
                     // The mover is the body, whatever its shape is.
                     child.Placed.MoverIsB = false;
-                    agreement.Add(child, number, pair.Group, Remembered(statics, child), worker.Pool);
+                    agreement.Add(child, number, pair.Group, Remembered(statics.OldOf(body), child), pool);
                 }
             }
             else
             {
                 Place(pair, ResultOf(i, pair.FirstResult).Manifold, out var child);
-                pair.Slot = agreement.Add(child, number, pair.Group, Remembered(statics, child), worker.Pool);
+                pair.Slot = agreement.Add(child, number, pair.Group, Remembered(statics.OldOf(body), child), pool);
             }
         }
-        for (int i = 0; i < statics.Old.Count; ++i)
+        var patches = statics.OldOf(body);
+        for (int i = 0; i < patches.Length; ++i)
         {
-            ref var old = ref statics.Old[i];
+            ref var old = ref patches[i];
             if (!old.IsWritten)
                 continue;
             var rows = new ContactRows(Simulation.Solver, Simulation.Bodies, old.Constraint, old.ContactCount);
             var depth = rows.Depth(0);
             for (int j = 1; j < old.ContactCount; ++j)
                 depth = MathHelper.Max(depth, rows.Depth(j));
-            var group = GroupOf(ref statics, Pairs.Pairs.Keys[old.CacheIndex].B, worker.Pool);
-            agreement.AddFixed(rows.Normal, depth, end - first + 1 + i, group, worker.Pool);
+            var group = GroupOf(ref statics, Pairs.Pairs.Keys[old.CacheIndex].B, pool);
+            agreement.AddFixed(rows.Normal, depth, end - first + 1 + i, group, pool);
         }
-        if (!agreement.Run(worker.Pool))
-            return;
-        for (int i = first; i < end; ++i)
+    }
+
+    void TakeAgreement(ref Worker worker, in AgreeingBody body)
+    {
+        ref var agreement = ref worker.Statics.Agreement;
+        for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
-            if (pair.IsOfGame || !agreement.HasChanged(i - first + 1))
+            var number = i - body.First + 1;
+            if (pair.IsOfGame || !agreement.HasChanged(body.Number, number))
                 continue;
             if (pair.IsOfChildren)
             {
                 RecallPatches(pair.Tested, out var known);
                 var room = workers[order[i].Worker].Statics.Results.AsSpan().Slice(pair.FirstResult - PatchSet.Capacity, PatchSet.Capacity);
-                pair.PatchCount = agreement.BuildPatches(i - first + 1, known, room, worker.Pool);
+                pair.PatchCount = agreement.BuildPatches(body.Number, number, known, room, worker.Pool);
             }
             else
-                ResultOf(i, pair.FirstResult).Manifold = agreement[pair.Slot].Manifold;
+                ResultOf(i, pair.FirstResult).Manifold = agreement.Result(body.Number, pair.Slot).Manifold;
         }
     }
 
     // A bit for each contact that is where one of the last step was, whichever static had that. Features do not say it: the end of a line that a seam cuts
     // off is called what the end of the whole was.
-    static int Remembered(in StaticPairs statics, in SeamChild child)
+    static int Remembered(Span<OldPatch> patches, in SeamChild child)
     {
         var remembered = 0;
         var distance = SamePlace * child.Placed.InnerRadius();
         for (int i = 0; i < child.Result.Manifold.Count; ++i)
         {
             var place = Unsafe.Add(ref Unsafe.AsRef(in child.Result.Manifold.Contact0), i).Offset;
-            foreach (ref var old in statics.Old.AsSpan())
+            foreach (ref var old in patches)
             {
                 for (int j = 0; j < old.ContactCount; ++j)
                 {

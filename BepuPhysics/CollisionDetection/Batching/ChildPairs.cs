@@ -147,23 +147,46 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>Whether children of a parent become patches.</summary>
     public readonly bool Joins(int parent) => parents[parent].Placed.Allocated;
 
-    /// <summary>Makes patches of what was found for the children of a parent, which is complete.</summary>
-    /// <param name="parent">The parent.</param>
+    /// <summary>Lets a parent wait for others to be joined with, as nothing more is waited for.</summary>
+    /// <returns>Whether there is room for no more.</returns>
+    public bool WaitToJoin(int parent, BufferPool pool)
+    {
+        ref var open = ref parents[parent];
+        ref var touching = ref Seams.Touching;
+        var set = new SeamSet
+        {
+            Owner = parent,
+            Results = open.Slots.Memory + PatchSet.Capacity,
+            Placed = open.Placed.Memory,
+            First = touching.Count,
+            Index = -1,
+        };
+        for (int i = 0; i < open.SlotCount; ++i)
+        {
+            if (set.Results[i].Manifold.Count > 0)
+                touching.Add(new() { Slot = i }, pool);
+        }
+        set.Count = touching.Count - set.First;
+        set.Stage = set.Count > 0 ? SeamStage.DirectionsOfB : SeamStage.Done;
+        Seams.Sets.Add(set, pool);
+        return Seams.Sets.Count == SeamMemory.SetCapacity;
+    }
+
+    /// <summary>Makes patches of what was found for the children of a parent, which have agreed.</summary>
+    /// <param name="set">The parent's set.</param>
     /// <param name="known">Patches of the last step.</param>
     /// <param name="pool">Source of memory.</param>
     /// <returns>Number of patches.</returns>
-    public int Join(int parent, in KnownPatches known, BufferPool pool)
+    public int BuildPatches(in SeamSet set, in KnownPatches known, BufferPool pool)
     {
-        ref var open = ref parents[parent];
-        var results = Results(parent, 0);
-        var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
+        ref var open = ref parents[set.Owner];
         Kept.Count = 0;
         MayCarry = false;
-        if (!Seams.Rank(results, pool))
+        if (set.Count == 0)
             return 0;
-        TriangleNeighbours.Apply(ref Seams, results, placed, open.SpeculativeMargin, pool);
-        Seams.Sort(results);
-        ChildAgreement.Run(ref Seams, results, placed, pool);
+        var results = Results(set.Owner, 0);
+        var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
+        Seams.Rank(Seams.TouchingOf(set), pool);
         if (known.KeepsChildren)
             Keep(results, placed, pool);
         MayCarry = open.HasRound || AreAllCarried(results, placed);

@@ -103,6 +103,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
                 if (Children->Batches[i].Count > 0)
                     TestChildren(registry[i], ref Children->Batches[i]);
             }
+            JoinWaiting();
         }
         finally
         {
@@ -132,19 +133,34 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         if (!Children->Release(parent))
             return;
-        var pairId = Children->PairId(parent);
-        var patchCount = 0;
-        if (Children->Joins(parent))
-        {
-            TCallbacks.RecallPatches(ref Callbacks, pairId, out var known);
-            patchCount = Children->Join(parent, known, Pool);
-        }
-        else
+        if (!Children->Joins(parent))
         {
             Children->Kept.Count = 0;
             Children->MayCarry = false;
+            Complete(parent, 0);
         }
-        TCallbacks.OnChildrenCompleted(ref Callbacks, pairId, Children->OffsetB(parent), Children->Results(parent, patchCount));
+        else if (Children->WaitToJoin(parent, Pool))
+            JoinWaiting();
+    }
+
+    void JoinWaiting()
+    {
+        ref var seams = ref Children->Seams;
+        SeamRounds.Run(ref seams, Pool);
+        var sets = seams.Sets.AsSpan();
+        // Where a callback throws, what is left is lost.
+        seams.Sets.Count = 0;
+        foreach (ref var set in sets)
+        {
+            TCallbacks.RecallPatches(ref Callbacks, Children->PairId(set.Owner), out var known);
+            Complete(set.Owner, Children->BuildPatches(set, known, Pool));
+        }
+        seams.Begin();
+    }
+
+    void Complete(int parent, int patchCount)
+    {
+        TCallbacks.OnChildrenCompleted(ref Callbacks, Children->PairId(parent), Children->OffsetB(parent), Children->Results(parent, patchCount));
         Children->Close(parent, Pool);
     }
 

@@ -10,40 +10,49 @@ namespace BepuPhysics.CollisionDetection;
 /// Two statics side by side are to a body what two children of one static are (<see cref="ChildAgreement"/>). The children of each pair have agreed among
 /// themselves when they come here; those of different pairs agree where they touch the same child of the body.
 /// </remarks>
-struct BodyAgreement(BufferPool pool)
+unsafe struct BodyAgreement(BufferPool pool)
 {
     SeamMemory memory = new(pool);
-    QuickList<RankedChild> children = new(InitialCapacity, pool);
     QuickList<ChildResult> results = new(InitialCapacity, pool);
     QuickList<PlacedChildren> placed = new(InitialCapacity, pool);
-    bool hasSeveralNormals;
 
-    const int InitialCapacity = 16;
+    const int InitialCapacity = 4 * SeamMemory.SetCapacity;
 
     // What cannot yield comes first: nobody can do anything about it.
     const int FixedClass = -1;
 
-    /// <summary>Forgets the last body.</summary>
+    /// <summary>Forgets all bodies.</summary>
     public void Begin()
     {
-        children.Count = results.Count = placed.Count = 0;
-        hasSeveralNormals = false;
+        memory.Begin();
+        results.Count = placed.Count = 0;
     }
 
-    /// <summary>Adds two shapes that touch.</summary>
+    /// <summary>Begins a body; what is added then is of this one.</summary>
+    /// <returns>Its number.</returns>
+    public int BeginBody(BufferPool pool)
+    {
+        // The owner is the place of its first result until all bodies are there.
+        memory.Sets.Add(new() { First = memory.Touching.Count, Owner = results.Count, Stage = SeamStage.Done, Index = -1 }, pool);
+        return memory.Sets.Count - 1;
+    }
+
+    /// <summary>Adds two shapes that touch to the last body.</summary>
     /// <param name="child">The shapes, and what was found for them.</param>
     /// <param name="pair">Number of their pair, from one.</param>
     /// <param name="group">Number of those that move as what is not the body.</param>
     /// <param name="remembered">A bit for each contact that was there in the last step.</param>
     /// <param name="pool">Source of memory.</param>
-    /// <returns>The place of the result.</returns>
+    /// <returns>The place of the result, of those of its body.</returns>
     public int Add(in SeamChild child, int pair, int group, int remembered, BufferPool pool)
     {
-        hasSeveralNormals |= results.Count > 0 && !ChildAgreement.HasOneNormal(results[0].Manifold.Normal, child.Result.Manifold.Normal);
-        children.Add(new() { Slot = results.Count, Class = child.Class, Pair = pair, Group = group, Remembered = remembered }, pool);
+        ref var set = ref memory.Sets[memory.Sets.Count - 1];
+        if (set.Count > 0 && !ChildAgreement.HasOneNormal(results[set.Owner].Manifold.Normal, child.Result.Manifold.Normal))
+            set.Stage = SeamStage.Order;
+        memory.Touching.Add(new() { Slot = set.Count, Class = child.Class, Pair = pair, Group = group, Remembered = remembered }, pool);
         placed.Add(child.Placed, pool);
         results.Add(child.Result, pool);
-        return results.Count - 1;
+        return set.Count++;
     }
 
     /// <summary>Adds contacts that stay as they are, for others to agree with.</summary>
@@ -64,25 +73,46 @@ struct BodyAgreement(BufferPool pool)
         Add(child, pair, group, 0, pool);
     }
 
-    /// <summary>Makes what was added agree.</summary>
-    /// <returns>Whether anything has changed.</returns>
-    public bool Run(BufferPool pool)
+    /// <summary>Makes what was added agree, body by body.</summary>
+    public void Run(BufferPool pool)
     {
-        Take(0, pool);
-        if (hasSeveralNormals)
-            ChildAgreement.Run(ref memory, results, placed, pool);
+        foreach (ref var set in memory.Sets.AsSpan())
+        {
+            set.Results = results.Span.Memory + set.Owner;
+            set.Placed = placed.Span.Memory + set.Owner;
+        }
+        SeamRounds.Run(ref memory, pool);
+    }
+
+    /// <summary>Leaves a body those contacts that it needs.</summary>
+    /// <returns>Whether anything of it has changed.</returns>
+    public bool Finish(int body, BufferPool pool)
+    {
+        ref var set = ref memory.Sets[body];
+        var children = memory.TouchingOf(set);
+        // Where all have one normal they were not brought in order yet.
+        if (set.Index < 0)
+            children = children[..SeamMemory.Sort(children, set.Results)];
+        memory.Rank(children, pool);
         LeaveFixed();
         if (MovesAlike())
-            PatchSet.Thin(ref memory, results, placed, pool);
-        children.Count = 0;
+            PatchSet.Thin(ref memory, ResultsOf(set), PlacedOf(set), pool);
         var changes = false;
-        foreach (ref var child in memory.Ranked.AsSpan())
+        set.Count = memory.Ranked.Count;
+        for (int i = 0; i < set.Count; ++i)
         {
-            changes |= child.HasYielded;
-            children.Add(child, pool);
+            changes |= memory.Ranked[i].HasYielded;
+            children[i] = memory.Ranked[i];
         }
         return changes;
     }
+
+    readonly int SlotCount(in SeamSet set) => (int)(results.Span.Memory + results.Count - set.Results);
+
+    // To the end of all: those of a body are the first of these.
+    readonly Span<ChildResult> ResultsOf(in SeamSet set) => new(set.Results, SlotCount(set));
+
+    readonly Span<PlacedChildren> PlacedOf(in SeamSet set) => new(set.Placed, SlotCount(set));
 
     void LeaveFixed()
     {
@@ -105,22 +135,10 @@ struct BodyAgreement(BufferPool pool)
         return true;
     }
 
-    // The children of a pair, or of all, in their order.
-    void Take(int pair, BufferPool pool)
+    /// <summary>Whether a child of a pair of a body has changed.</summary>
+    public readonly bool HasChanged(int body, int pair)
     {
-        memory.Ranked.Count = 0;
-        foreach (ref var child in children.AsSpan())
-        {
-            if (pair == 0 || child.Pair == pair)
-                memory.Ranked.Add(child, pool);
-        }
-        memory.Sort(results);
-    }
-
-    /// <summary>Whether a child of a pair has changed.</summary>
-    public readonly bool HasChanged(int pair)
-    {
-        foreach (ref var child in children.AsSpan())
+        foreach (ref var child in memory.TouchingOf(memory.Sets[body]))
         {
             if (child.Pair == pair && child.HasYielded)
                 return true;
@@ -128,25 +146,33 @@ struct BodyAgreement(BufferPool pool)
         return false;
     }
 
-    /// <summary>What is left of two shapes.</summary>
-    public readonly ref ChildResult this[int place] => ref results[place];
+    /// <summary>What is left of two shapes of a body.</summary>
+    public readonly ref ChildResult Result(int body, int place) => ref memory.Sets[body].Results[place];
 
     /// <summary>Makes patches of what is left of the children of a pair.</summary>
+    /// <param name="body">Number of the body.</param>
     /// <param name="pair">Number of the pair.</param>
     /// <param name="known">Patches of the last step.</param>
     /// <param name="target">Receives the patches at its end.</param>
     /// <param name="pool">Source of memory.</param>
     /// <returns>Number of patches.</returns>
-    public int BuildPatches(int pair, in KnownPatches known, Span<ChildResult> target, BufferPool pool)
+    public int BuildPatches(int body, int pair, in KnownPatches known, Span<ChildResult> target, BufferPool pool)
     {
-        Take(pair, pool);
-        return PatchSet.Build(ref memory, results, placed, known, target, pool);
+        ref var set = ref memory.Sets[body];
+        memory.Ranked.Count = 0;
+        foreach (ref var child in memory.TouchingOf(set))
+        {
+            if (child.Pair == pair)
+                memory.Ranked.Add(child, pool);
+        }
+        memory.Ranked.Count = SeamMemory.Sort(memory.Ranked.AsSpan(), set.Results);
+        return PatchSet.Build(ref memory, ResultsOf(set), PlacedOf(set), known, target, pool);
     }
 
+    /// <summary>Returns all memory.</summary>
     public void Dispose(BufferPool pool)
     {
         memory.Dispose(pool);
-        children.Dispose(pool);
         results.Dispose(pool);
         placed.Dispose(pool);
     }

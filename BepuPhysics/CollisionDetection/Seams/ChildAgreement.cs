@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics;
 using System.Numerics;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -22,8 +23,8 @@ struct RankedChild
     public const float Unknown = float.MinValue;
     /// <summary>Place of the result, in the order of children.</summary>
     public int Slot;
-    /// <summary>Whether it has taken the normal of another.</summary>
-    public bool HasYielded;
+    /// <summary>Whether it has taken the normal of another; whether others may take its own.</summary>
+    public bool HasYielded, IsLeader;
     /// <summary>Patch that its contacts are in; -1 where there is none.</summary>
     public int Patch;
     /// <summary>
@@ -78,52 +79,97 @@ static class ChildAgreement
     // Directions that others may yield to. What comes after these is accepted as it is.
     const int MaximumLeaderCount = 32;
 
-    /// <summary>Makes children agree.</summary>
-    /// <param name="memory">The children that touch, in their order, and room for tests.</param>
-    /// <param name="results">What was found for each child, and then what is left of it.</param>
-    /// <param name="placed">Shapes and poses of each.</param>
+    /// <summary>Works on a set, until tests are to be looked at or all children agree.</summary>
+    /// <param name="tests">What the last round has found, and room for the tests of the next.</param>
+    /// <param name="view">The children that touch, in their order.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void Run(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)
+    public static void Advance(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
-        memory.Leaders.Count = 0;
-        var ranked = memory.Ranked.AsSpan();
-        for (int i = 0; i < ranked.Length && memory.Leaders.Count < MaximumLeaderCount; ++i)
+        ref var set = ref view.Set;
+        switch (set.Stage)
         {
-            if (ranked[i].HasYielded || HasLeader(memory.Leaders, ranked, results, i) || YieldsToNext(ref memory, results, placed, i, pool))
-                continue;
-            memory.Leaders.Add(i, pool);
-            Offer(ref memory, results, placed, i, pool);
+            case SeamStage.Next:
+                FindNext(ref tests, view, pool);
+                break;
+            case SeamStage.Measured:
+                TakeOverlaps(tests, view);
+                AddRivals(ref tests, view, pool);
+                set.Stage = SeamStage.Rivals;
+                break;
+            case SeamStage.Rivals:
+                if (YieldsToRival(tests, view))
+                    set.Stage = SeamStage.Next;
+                else
+                    Accept(ref tests, view, pool);
+                break;
+            case SeamStage.LeaderMeasured:
+                TakeOverlaps(tests, view);
+                AddFollowers(ref tests, view, pool);
+                set.Stage = SeamStage.Followers;
+                break;
+            case SeamStage.Followers:
+                for (int i = set.Tests.First; i < set.Tests.End; ++i)
+                    Follow(view, tests[i]);
+                set.Stage = SeamStage.Next;
+                break;
+            default:
+                throw new UnreachableException();
         }
     }
 
-    // Whether those that might yield to it may yield to leaders with its normal as well: of these one shares its A, and one its B, if others have that, too.
-    static bool HasLeader(in QuickList<int> leaders, Span<RankedChild> ranked, Span<ChildResult> results, int index)
+    static void FindNext(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
-        ref var child = ref ranked[index];
-        ref var result = ref results[child.Slot];
-        var (hasA, hasB) = (false, false);
-        for (int i = 0; i < leaders.Count && !(hasA && hasB); ++i)
+        ref var set = ref view.Set;
+        var ranked = view.Ranked;
+        do
         {
-            ref var leader = ref ranked[leaders[i]];
-            ref var accepted = ref results[leader.Slot];
-            if (leader.Group != child.Group || !HasOneNormal(accepted.Manifold.Normal, result.Manifold.Normal))
+            ++set.Index;
+            if (set.Index >= ranked.Length || set.LeaderCount == MaximumLeaderCount)
+            {
+                set.Stage = SeamStage.Done;
+                return;
+            }
+        }
+        while (ranked[set.Index].HasYielded || HasLeader(view, set.Index));
+        if (view.Placed(ranked[set.Index]).AreKnown && HasNext(view, set.Index))
+        {
+            AddOverlaps(ref tests, view, pool);
+            set.Stage = SeamStage.Measured;
+        }
+        else
+            Accept(ref tests, view, pool);
+    }
+
+    // Whether those that might yield to it may yield to leaders with its normal as well: of these one shares its A, and one its B, if others have that, too.
+    static bool HasLeader(SeamView view, int index)
+    {
+        ref var child = ref view.Ranked[index];
+        ref var result = ref view.Result(child);
+        var (hasA, hasB) = (false, false);
+        for (int i = 0; i < index && !(hasA && hasB); ++i)
+        {
+            ref var leader = ref view.Ranked[i];
+            if (!leader.IsLeader || leader.Group != child.Group)
+                continue;
+            ref var accepted = ref view.Result(leader);
+            if (!HasOneNormal(accepted.Manifold.Normal, result.Manifold.Normal))
                 continue;
             hasA |= accepted.Children.A == result.Children.A || accepted.Children.A == AnyChild;
             hasB |= leader.Pair == child.Pair && accepted.Children.B == result.Children.B;
         }
-        if (!hasA && (!hasB || result.Children.A == AnyChild || !IsAlone(ranked, results, index, byA: true)))
+        if (!hasA && (!hasB || result.Children.A == AnyChild || !IsAlone(view, index, byA: true)))
             return false;
         // Children of one pair have agreed when those of several do.
-        return hasB || child.Pair != 0 || IsAlone(ranked, results, index, byA: false);
+        return hasB || child.Pair != 0 || IsAlone(view, index, byA: false);
     }
 
     // Whether no child with another normal has its A, or its B.
-    static bool IsAlone(Span<RankedChild> ranked, Span<ChildResult> results, int index, bool byA)
+    static bool IsAlone(SeamView view, int index, bool byA)
     {
-        ref var result = ref results[ranked[index].Slot];
-        foreach (ref var child in ranked)
+        ref var result = ref view.Result(view.Ranked[index]);
+        foreach (ref var child in view.Ranked)
         {
-            ref var other = ref results[child.Slot];
+            ref var other = ref view.Result(child);
             if ((byA ? other.Children.A == result.Children.A : other.Children.B == result.Children.B) &&
                 !HasOneNormal(other.Manifold.Normal, result.Manifold.Normal))
             {
@@ -139,113 +185,159 @@ static class ChildAgreement
     static bool SharesChild(in RankedChild a, in RankedChild b, in ChildIds idsA, in ChildIds idsB) =>
         idsA.A == idsB.A || idsA.A == AnyChild || idsB.A == AnyChild || (a.Pair == b.Pair && idsA.B == idsB.B);
 
-    // Depths that are the same to within the tolerance are in no order: what would yield to one of those that come next, which would not yield to it, does
-    // so. A step of a search may find a wall that is not there as deep as the floor, and a little deeper by rounding.
-    static bool YieldsToNext(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, int index, BufferPool pool)
+    // Whether one child, in the order of children, may yield to another at all.
+    static bool MayYield(in RankedChild child, in RankedChild other, SeamView view)
     {
-        var ranked = memory.Ranked.AsSpan();
-        ref var child = ref ranked[index];
-        if (!placed[child.Slot].AreKnown)
+        if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group || (child.Pair != 0 && child.Pair == other.Pair))
             return false;
-        if (!HasNext(ranked, results, placed, index))
-            return false;
-        var tolerance = placed[child.Slot].InnerRadius() * Tolerance;
-        MeasureOverlaps(ref memory, results, placed, index, tolerance, pool);
-        memory.Tests.Begin();
-        for (int i = index + 1; i < ranked.Length && ranked[i].Class == child.Class && memory.Tests.Count < 2 * MaximumLeaderCount; ++i)
-        {
-            if (!MayYield(ranked[i], ranked[index], results, placed))
-                continue;
-            if (ranked[i].Depth < child.Depth - tolerance)
-                break;
-            memory.Tests.Add(placed[child.Slot], results[ranked[i].Slot].Manifold.Normal, ranked[i].Overlap + tolerance,
-                placed[child.Slot].SpeculativeMargin, i, pool);
-            memory.Tests.Add(placed[ranked[i].Slot], results[child.Slot].Manifold.Normal, child.Overlap + tolerance,
-                placed[ranked[i].Slot].SpeculativeMargin, i, pool);
-        }
-        memory.Tests.Execute();
-        for (int i = 0; i < memory.Tests.Count; i += 2)
-        {
-            if (!memory.Tests[i].IsWithinDepth || memory.Tests[i + 1].IsWithinDepth)
-                continue;
-            child.HasYielded = true;
-            results[child.Slot].Replace(memory.Tests[i]);
-            return true;
-        }
-        return false;
+        ref var result = ref view.Result(child);
+        ref var accepted = ref view.Result(other);
+        return SharesChild(child, other, result.Children, accepted.Children) &&
+            Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) is >= LeastCosine and <= SameNormal;
     }
 
-    static bool HasNext(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, int index)
+    // Depth by which a child may be deeper than what it yields to.
+    static float ToleranceOf(in RankedChild child, SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
+
+    static bool HasNext(SeamView view, int index)
     {
+        var ranked = view.Ranked;
         for (int i = index + 1; i < ranked.Length && ranked[i].Class == ranked[index].Class; ++i)
         {
-            if (MayYield(ranked[i], ranked[index], results, placed))
+            if (MayYield(ranked[i], ranked[index], view))
                 return true;
         }
         return false;
     }
 
     // Measures a child, and those that come next and are as deep.
-    static void MeasureOverlaps(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, int index, float tolerance, BufferPool pool)
+    static void AddOverlaps(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
-        var ranked = memory.Ranked.AsSpan();
-        memory.Tests.Begin();
-        for (int i = index; i < ranked.Length && ranked[i].Class == ranked[index].Class && ranked[i].Depth >= ranked[index].Depth - tolerance; ++i)
+        var ranked = view.Ranked;
+        var index = view.Set.Index;
+        var least = ranked[index].Depth - ToleranceOf(ranked[index], view);
+        for (int i = index; i < ranked.Length && ranked[i].Class == ranked[index].Class && ranked[i].Depth >= least; ++i)
         {
-            if (ranked[i].Overlap == RankedChild.Unknown && placed[ranked[i].Slot].AreKnown && !ranked[i].HasYielded)
-                memory.Tests.Add(placed[ranked[i].Slot], results[ranked[i].Slot].Manifold.Normal, float.MinValue, 0, i, pool);
-        }
-        memory.Tests.Execute();
-        for (int i = 0; i < memory.Tests.Count; ++i)
-        {
-            ref var child = ref ranked[memory.Tests[i].Owner];
-            child.Overlap = Math.Max(child.Depth, memory.Tests[i].Depth);
+            if (i == index || MayYield(ranked[i], ranked[index], view))
+                AddOverlap(ref tests, view, i, pool);
         }
     }
 
-    // Whether one child, in the order of children, may yield to another at all.
-    static bool MayYield(in RankedChild child, in RankedChild other, Span<ChildResult> results, Span<PlacedChildren> placed)
+    static void AddOverlap(ref DirectedTests tests, SeamView view, int index, BufferPool pool)
     {
-        if (child.HasYielded || !placed[child.Slot].AreKnown || child.Group != other.Group || (child.Pair != 0 && child.Pair == other.Pair) ||
-            !SharesChild(child, other, results[child.Slot].Children, results[other.Slot].Children))
-        {
-            return false;
-        }
-        var cosine = Exact.Dot(results[child.Slot].Manifold.Normal, results[other.Slot].Manifold.Normal);
-        return cosine is >= LeastCosine and <= SameNormal;
+        ref var child = ref view.Ranked[index];
+        if (child.Overlap == RankedChild.Unknown)
+            tests.Add(view.Placed(child), view.Result(child).Manifold.Normal, float.MinValue, 0, index, pool);
     }
 
-    // Lets all that come later yield to a leader.
-    static void Offer(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, int leader, BufferPool pool)
+    static void TakeOverlaps(in DirectedTests tests, SeamView view)
     {
-        var ranked = memory.Ranked.AsSpan();
-        ref var accepted = ref results[ranked[leader].Slot];
-        var next = leader + 1;
-        while (next < ranked.Length && !MayYield(ranked[next], ranked[leader], results, placed))
-            ++next;
-        if (next == ranked.Length)
-            return;
-        if (placed[ranked[leader].Slot].AreKnown)
-            MeasureOverlaps(ref memory, results, placed, leader, 0, pool);
+        for (int i = view.Set.Tests.First; i < view.Set.Tests.End; ++i)
+        {
+            ref var child = ref view.Ranked[tests[i].Owner];
+            child.Overlap = Math.Max(child.Depth, tests[i].Depth);
+        }
+    }
+
+    // Depths that are the same to within the tolerance are in no order: what would yield to one of those that come next, which would not yield to it, does
+    // so. A step of a search may find a wall that is not there as deep as the floor, and a little deeper by rounding. Two tests for each rival.
+    static void AddRivals(ref DirectedTests tests, SeamView view, BufferPool pool)
+    {
+        var ranked = view.Ranked;
+        var index = view.Set.Index;
+        ref var child = ref ranked[index];
+        var least = child.Depth - ToleranceOf(child, view);
+        var first = tests.Count;
+        for (int i = index + 1; i < ranked.Length && ranked[i].Class == child.Class && tests.Count - first < 2 * MaximumLeaderCount; ++i)
+        {
+            if (!MayYield(ranked[i], child, view))
+                continue;
+            if (ranked[i].Depth < least)
+                break;
+            AddFollower(ref tests, view, index, i, pool);
+            AddFollower(ref tests, view, i, index, pool);
+        }
+    }
+
+    static bool YieldsToRival(in DirectedTests tests, SeamView view)
+    {
+        var last = view.Set.Tests;
+        for (int i = last.First; i < last.End; i += 2)
+        {
+            if (tests[i].IsWithinDepth && !tests[i + 1].IsWithinDepth)
+            {
+                Follow(view, tests[i]);
+                return true;
+            }
+        }
+        return false;
+    }
+
+    // Lets all that come later yield to a child. Whether its rivals do is known.
+    static void Accept(ref DirectedTests tests, SeamView view, BufferPool pool)
+    {
+        ref var set = ref view.Set;
+        ref var leader = ref view.Ranked[set.Index];
+        leader.IsLeader = true;
+        ++set.LeaderCount;
+        if (set.Stage == SeamStage.Rivals)
+        {
+            AddFollowers(ref tests, view, pool);
+            set.Stage = SeamStage.Followers;
+        }
+        else if (HasFollower(view, set.Index))
+        {
+            if (view.Placed(leader).AreKnown)
+                AddOverlap(ref tests, view, set.Index, pool);
+            else
+                leader.Overlap = leader.Depth;
+            set.Stage = SeamStage.LeaderMeasured;
+        }
         else
-            ranked[leader].Overlap = ranked[leader].Depth;
-        memory.Tests.Begin();
-        for (int i = next; i < ranked.Length; ++i)
+            set.Stage = SeamStage.Next;
+    }
+
+    static bool HasFollower(SeamView view, int index)
+    {
+        for (int i = index + 1; i < view.Ranked.Length; ++i)
         {
-            if (!MayYield(ranked[i], ranked[leader], results, placed))
-                continue;
-            var slot = ranked[i].Slot;
-            var depth = ranked[leader].Overlap + placed[slot].InnerRadius() * Tolerance;
-            memory.Tests.Add(placed[slot], accepted.Manifold.Normal, depth, placed[slot].SpeculativeMargin, i, pool);
+            if (MayYield(view.Ranked[i], view.Ranked[index], view))
+                return true;
         }
-        memory.Tests.Execute();
-        for (int i = 0; i < memory.Tests.Count; ++i)
+        return false;
+    }
+
+    static void AddFollowers(ref DirectedTests tests, SeamView view, BufferPool pool)
+    {
+        var index = view.Set.Index;
+        // Of two tests of a rival the second says whether it follows.
+        var known = view.Set.Stage == SeamStage.Rivals ? view.Set.Tests.First + 1 : view.Set.Tests.End;
+        for (int i = index + 1; i < view.Ranked.Length; ++i)
         {
-            ref var test = ref memory.Tests[i];
-            if (!test.IsWithinDepth)
-                continue;
-            ranked[test.Owner].HasYielded = true;
-            results[ranked[test.Owner].Slot].Replace(test);
+            if (known < view.Set.Tests.End && tests[known].Owner == i)
+            {
+                Follow(view, tests[known]);
+                known += 2;
+            }
+            else if (MayYield(view.Ranked[i], view.Ranked[index], view))
+                AddFollower(ref tests, view, i, index, pool);
         }
+    }
+
+    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, BufferPool pool)
+    {
+        ref var child = ref view.Ranked[follower];
+        ref var placed = ref view.Placed(child);
+        var normal = view.Result(view.Ranked[leader]).Manifold.Normal;
+        tests.Add(placed, normal, view.Ranked[leader].Overlap + ToleranceOf(child, view), placed.SpeculativeMargin, follower, pool);
+    }
+
+    static void Follow(SeamView view, in DirectedPair test)
+    {
+        if (!test.IsWithinDepth)
+            return;
+        ref var child = ref view.Ranked[test.Owner];
+        child.HasYielded = true;
+        view.Result(child).Replace(test);
     }
 }

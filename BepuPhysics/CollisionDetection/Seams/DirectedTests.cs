@@ -5,23 +5,22 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Pairs of children that are looked at along directions, in bundles of one pair of shape types each.</summary>
+/// <remarks>In rounds: while what the last one has found is read, pairs of the next are added.</remarks>
 unsafe struct DirectedTests(BufferPool pool)
 {
     PairBatches batches;
     // A bit for each task whose batch has pairs: there are fewer tasks than bits.
     ulong waiting;
-    QuickList<DirectedPair> pairs = new(InitialCapacity, pool);
+    QuickList<DirectedPair> added = new(InitialCapacity, pool);
+    QuickList<DirectedPair> found = new(InitialCapacity, pool);
 
     const int InitialCapacity = 32;
 
-    /// <summary>What was added since <see cref="Begin"/>.</summary>
-    public readonly int Count => pairs.Count;
+    /// <summary>Number of pairs that were added since the last round.</summary>
+    public readonly int Count => added.Count;
 
-    /// <summary>A pair, in the order in which they were added.</summary>
-    public readonly ref DirectedPair this[int index] => ref pairs[index];
-
-    /// <summary>Forgets all pairs.</summary>
-    public void Begin() => pairs.Count = 0;
+    /// <summary>A pair of the last round, in the order in which they were added.</summary>
+    public readonly ref DirectedPair this[int index] => ref found[index];
 
     /// <summary>Adds a pair.</summary>
     /// <param name="children">The two shapes.</param>
@@ -40,9 +39,9 @@ unsafe struct DirectedTests(BufferPool pool)
             // What a lane without a pair holds must not be a hull that is gone. Those of this step are not.
             batches[taskIndex].Bundles.Clear(0, task.BatchByteCount);
         }
-        var input = new PairInput(speculativeMargin, pairs.Count, flipped, PairInput.NoHistory);
+        var input = new PairInput(speculativeMargin, added.Count, flipped, PairInput.NoHistory);
         // The rest is written when the pair is looked at.
-        ref var pair = ref pairs.Allocate(pool);
+        ref var pair = ref added.Allocate(pool);
         pair.Normal = normal;
         pair.GreatestDepth = greatestDepth;
         pair.Owner = owner;
@@ -56,22 +55,25 @@ unsafe struct DirectedTests(BufferPool pool)
                 task.WriteDirectly(ref batch, a, b, children.OffsetB, children.OrientationA, children.OrientationB, input);
         }
         if (batch.Count == PairBatch.Capacity)
-            ((IDirectedTask)task).Execute(ref batch, pairs.Span.Memory);
+            ((IDirectedTask)task).Execute(ref batch, added.Span.Memory);
     }
 
-    /// <summary>Looks at all pairs.</summary>
+    /// <summary>Ends a round: looks at all pairs that were added.</summary>
     public void Execute()
     {
         for (; waiting != 0; waiting &= waiting - 1)
         {
             var taskIndex = BitOperations.TrailingZeroCount(waiting);
-            ((IDirectedTask)DirectedTasks.Registry[taskIndex]).Execute(ref batches[taskIndex], pairs.Span.Memory);
+            ((IDirectedTask)DirectedTasks.Registry[taskIndex]).Execute(ref batches[taskIndex], added.Span.Memory);
         }
+        (added, found) = (found, added);
+        added.Count = 0;
     }
 
     public void Dispose(BufferPool pool)
     {
         batches.Dispose(pool);
-        pairs.Dispose(pool);
+        added.Dispose(pool);
+        found.Dispose(pool);
     }
 }

@@ -1,58 +1,56 @@
 using System;
-using System.Numerics;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>The direction of least depth of those that there are for a child.</summary>
-struct ChosenDirection
-{
-    /// <summary>Place of the child in the order of children.</summary>
-    public int Owner;
-    /// <summary>Unit direction in world axes, from B to A.</summary>
-    public Vector3 Normal;
-}
-
-/// <summary>What the children of one parent after the other are joined with; grows to what the largest needs.</summary>
+/// <summary>What sets of children are joined with, of several parents or bodies at once; grows to what they need.</summary>
 struct SeamMemory(BufferPool pool)
 {
     /// <summary>Looks along directions.</summary>
     public DirectedTests Tests = new(pool);
-    /// <summary>The children that touch.</summary>
+    /// <summary>The sets that agree at once, so that bundles of tests are full.</summary>
+    public QuickList<SeamSet> Sets = new(SetCapacity, pool);
+    /// <summary>The children that touch, of all sets.</summary>
+    public QuickList<RankedChild> Touching = new(SetCapacity * 4, pool);
+    /// <summary>Those that patches are made of, in their order.</summary>
     public QuickList<RankedChild> Ranked = new(InitialCapacity, pool);
-    /// <summary>Those of them that others may yield to.</summary>
-    public QuickList<int> Leaders = new(InitialCapacity, pool);
-    /// <summary>Directions that triangles are looked at along.</summary>
-    public QuickList<ChosenDirection> Chosen = new(InitialCapacity, pool);
     /// <summary>Contacts that patches are chosen from, a lane for each patch.</summary>
     public QuickList<FaceCandidate> Candidates = new(InitialCapacity, pool);
 
     /// <summary>Names of the contacts that the last reduction has chosen: a slot, times the contacts of a manifold, and a contact.</summary>
     public QuickList<int> Kept = new(InitialCapacity, pool);
 
+    /// <summary>Number of sets that are worked on at once: some bundles of tests in each round, and shapes that fit a cache.</summary>
+    public const int SetCapacity = 16;
+
     const int InitialCapacity = 16;
 
-    /// <summary>Lists the children that touch.</summary>
-    /// <returns>Whether there is one.</returns>
-    public bool Rank(Span<ChildResult> results, BufferPool pool)
+    /// <summary>Forgets all sets.</summary>
+    public void Begin() => Sets.Count = Touching.Count = 0;
+
+    /// <summary>The children of a set that touch.</summary>
+    public readonly Span<RankedChild> TouchingOf(in SeamSet set) => Touching.AsSpan().Slice(set.First, set.Count);
+
+    /// <summary>Makes the children of a set those that patches are made of.</summary>
+    public void Rank(Span<RankedChild> children, BufferPool pool)
     {
         Ranked.Count = 0;
-        for (int i = 0; i < results.Length; ++i)
-        {
-            if (results[i].Manifold.Count > 0)
-                Ranked.Add(new RankedChild { Slot = i }, pool);
-        }
-        return Ranked.Count > 0;
+        Ranked.EnsureCapacity(children.Length, pool);
+        foreach (ref var child in children)
+            Ranked.AddUnsafely(child);
     }
 
-    /// <summary>Brings the children in order, and leaves out those that do not touch any more.</summary>
-    public void Sort(Span<ChildResult> results)
+    /// <summary>Brings children in order, and leaves out those that do not touch any more.</summary>
+    /// <param name="children">The children; those that touch come first then.</param>
+    /// <param name="results">What was found for each child.</param>
+    /// <returns>Number of those that touch.</returns>
+    public static unsafe int Sort(Span<RankedChild> children, ChildResult* results)
     {
         var count = 0;
-        for (int i = 0; i < Ranked.Count; ++i)
+        for (int i = 0; i < children.Length; ++i)
         {
-            var child = Ranked[i];
+            var child = children[i];
             ref var manifold = ref results[child.Slot].Manifold;
             if (manifold.Count == 0)
                 continue;
@@ -60,13 +58,13 @@ struct SeamMemory(BufferPool pool)
             for (int j = 1; j < manifold.Count; ++j)
                 child.Depth = Math.Max(child.Depth, manifold.GetDepth(j));
             child.Overlap = RankedChild.Unknown;
-            Ranked[count++] = child;
+            children[count++] = child;
         }
-        Ranked.Count = count;
         if (count < 2)
-            return;
+            return count;
         var order = new RankedChild.Order();
-        QuickSort.Sort(Ranked.Span, count, ref order);
+        QuickSort.Sort(children[..count], ref order);
+        return count;
     }
 
     /// <summary>Patch of a contact, by its name.</summary>
@@ -83,9 +81,9 @@ struct SeamMemory(BufferPool pool)
     public void Dispose(BufferPool pool)
     {
         Tests.Dispose(pool);
+        Sets.Dispose(pool);
+        Touching.Dispose(pool);
         Ranked.Dispose(pool);
-        Leaders.Dispose(pool);
-        Chosen.Dispose(pool);
         Candidates.Dispose(pool);
         Kept.Dispose(pool);
     }

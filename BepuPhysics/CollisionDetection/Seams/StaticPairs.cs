@@ -83,6 +83,19 @@ struct OldPatch
     public bool IsWritten;
 }
 
+/// <summary>A body whose pairs agree.</summary>
+struct AgreeingBody
+{
+    /// <summary>Places of its pairs: the first, and the one after the last.</summary>
+    public int First, End;
+    /// <summary>Place of the first of its constraints in <see cref="StaticPairs.Old"/>, and how many it had.</summary>
+    public int FirstOld, OldCount;
+    /// <summary>Number of pairs that have contacts.</summary>
+    public int TouchCount;
+    /// <summary>Its number where they agree; <see cref="StaticPairs.Nothing"/> where there is nothing to agree on.</summary>
+    public int Number;
+}
+
 /// <summary>The pairs of one worker that wait, and its memory for making them agree. There is none before the first pair.</summary>
 struct StaticPairs
 {
@@ -96,7 +109,9 @@ struct StaticPairs
     public QuickList<Inheritance> Inheritances;
     /// <summary>Where friction acts, of the body whose pairs agree.</summary>
     public QuickList<SharedFriction> FrictionCenters;
-    /// <summary>Constraints of the body whose pairs agree.</summary>
+    /// <summary>The bodies whose pairs agree at once.</summary>
+    public QuickList<AgreeingBody> Bodies;
+    /// <summary>Constraints of these bodies.</summary>
     public QuickList<OldPatch> Old;
     /// <summary>Velocities of what the body touches.</summary>
     public QuickList<BodyVelocity> Groups;
@@ -132,11 +147,15 @@ struct StaticPairs
     {
         Inheritances = new(InitialCapacity, pool);
         FrictionCenters = new(InitialCapacity, pool);
+        Bodies = new(InitialCapacity, pool);
         Old = new(InitialCapacity, pool);
         Groups = new(InitialCapacity, pool);
         Transfer = new(pool);
         Agreement = new(pool);
     }
+
+    /// <summary>The constraints that a body had.</summary>
+    public readonly Span<OldPatch> OldOf(in AgreeingBody body) => Old.AsSpan().Slice(body.FirstOld, body.OldCount);
 
     /// <summary>Adds a pair of convex shapes.</summary>
     public void Add(in TestedPair tested, in ConvexContactManifold manifold, in PairMaterialProperties material, bool isOfGame, BufferPool pool)
@@ -223,6 +242,7 @@ struct StaticPairs
         {
             Inheritances.Dispose(pool);
             FrictionCenters.Dispose(pool);
+            Bodies.Dispose(pool);
             Old.Dispose(pool);
             Groups.Dispose(pool);
             Transfer.Dispose(pool);

@@ -59,51 +59,54 @@ static class TriangleNeighbours
         }
     }
 
-    /// <summary>Changes what was found for children beyond their neighbours.</summary>
-    /// <param name="memory">The children that touch, and room for tests.</param>
-    /// <param name="results">What was found for each child, and then what is left of it.</param>
-    /// <param name="placed">Shapes and poses of each.</param>
-    /// <param name="margin">Greatest distance at which a contact exists, m.</param>
+    /// <summary>Looks children that were touched beyond their neighbours up along the directions that there are.</summary>
+    /// <param name="tests">Receives the directions.</param>
+    /// <param name="view">The children.</param>
+    /// <param name="isA">Whether the triangles are those of A.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void Apply(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, float margin, BufferPool pool)
+    public static void AddDirections(ref DirectedTests tests, SeamView view, bool isA, BufferPool pool)
     {
-        Apply(ref memory, results, placed, margin, isA: false, pool);
-        Apply(ref memory, results, placed, margin, isA: true, pool);
+        for (int i = 0; i < view.Ranked.Length; ++i)
+        {
+            ref var placed = ref view.Placed(view.Ranked[i]);
+            ref var manifold = ref view.Result(view.Ranked[i]).Manifold;
+            if (manifold.Count > 0 && IsSurface(placed, isA))
+                AddDirections(ref tests, placed, manifold.Normal, isA, i, pool);
+        }
     }
 
-    static void Apply(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, float margin, bool isA, BufferPool pool)
+    /// <summary>Looks for contacts along the direction of least depth of each child.</summary>
+    /// <param name="tests">The directions, in the order of children, and then these.</param>
+    /// <param name="view">The children.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void AddChoice(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
-        ref var tests = ref memory.Tests;
-        tests.Begin();
-        for (int i = 0; i < memory.Ranked.Count; ++i)
-        {
-            var slot = memory.Ranked[i].Slot;
-            if (results[slot].Manifold.Count > 0 && IsSurface(placed[slot], isA))
-                AddDirections(ref tests, placed[slot], results[slot].Manifold.Normal, isA, margin, i, pool);
-        }
-        if (tests.Count == 0)
-            return;
-        tests.Execute();
-        memory.Chosen.Count = 0;
-        for (int i = 0; i < tests.Count; ++i)
+        var last = view.Set.Tests;
+        for (int i = last.First; i < last.End; ++i)
         {
             var best = i;
-            for (; i + 1 < tests.Count && tests[i + 1].Owner == tests[best].Owner; ++i)
+            for (; i + 1 < last.End && tests[i + 1].Owner == tests[best].Owner; ++i)
                 best = tests[i + 1].Depth < tests[best].Depth ? i + 1 : best;
-            memory.Chosen.Add(new() { Owner = tests[best].Owner, Normal = tests[best].Normal }, pool);
+            var owner = tests[best].Owner;
+            ref var placed = ref view.Placed(view.Ranked[owner]);
+            tests.Add(placed, tests[best].Normal, float.MaxValue, placed.SpeculativeMargin, owner, pool);
         }
-        tests.Begin();
-        foreach (ref var chosen in memory.Chosen.AsSpan())
-            tests.Add(placed[memory.Ranked[chosen.Owner].Slot], chosen.Normal, float.MaxValue, margin, chosen.Owner, pool);
-        tests.Execute();
-        for (int i = 0; i < tests.Count; ++i)
+    }
+
+    /// <summary>Takes what was found along the chosen directions.</summary>
+    /// <param name="tests">What was found.</param>
+    /// <param name="view">The children.</param>
+    /// <param name="isA">Whether the triangles are those of A.</param>
+    public static void Take(in DirectedTests tests, SeamView view, bool isA)
+    {
+        for (int i = view.Set.Tests.First; i < view.Set.Tests.End; ++i)
         {
             ref var test = ref tests[i];
-            ref var child = ref memory.Ranked[test.Owner];
+            ref var child = ref view.Ranked[test.Owner];
             child.Class = 1;
-            ref var result = ref results[child.Slot];
+            ref var result = ref view.Result(child);
             result.Replace(test);
-            if (Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(placed[child.Slot], isA))) < LeastCosine)
+            if (Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine)
                 result.Manifold.Count = 0;
         }
     }
@@ -134,7 +137,7 @@ static class TriangleNeighbours
         return along > 0 && Exact.Dot(across, across) < Beyond * Beyond / 4 * Exact.Dot(normal, normal);
     }
 
-    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, float margin, int owner, BufferPool pool)
+    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, int owner, BufferPool pool)
     {
         var direction = isA ? -normal : normal;
         if (IsFaceNormal(placed, direction, isA))
@@ -143,7 +146,7 @@ static class TriangleNeighbours
         // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
         if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine || surface.Violated(direction) == default)
             return;
-        Add(ref tests, placed, surface.Normal, isA, margin, owner, pool);
+        Add(ref tests, placed, surface.Normal, isA, owner, pool);
         var cone = isA ? placed.ConeA : placed.ConeB;
         if (cone.Sines == default)
             return;
@@ -151,19 +154,19 @@ static class TriangleNeighbours
         for (int i = 0; i < MaximumClampCount && surface.Violated(clamped) is var bound && bound != default; ++i)
             clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
         if (surface.Violated(clamped) == default)
-            Add(ref tests, placed, clamped, isA, margin, owner, pool);
-        AddNeighbour(ref tests, placed, surface, surface.Out0, surface.Bound0, cone.Cosines.X, cone.Sines.X, margin, owner, pool);
-        AddNeighbour(ref tests, placed, surface, surface.Out1, surface.Bound1, cone.Cosines.Y, cone.Sines.Y, margin, owner, pool);
-        AddNeighbour(ref tests, placed, surface, surface.Out2, surface.Bound2, cone.Cosines.Z, cone.Sines.Z, margin, owner, pool);
+            Add(ref tests, placed, clamped, isA, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out0, surface.Bound0, cone.Cosines.X, cone.Sines.X, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out1, surface.Bound1, cone.Cosines.Y, cone.Sines.Y, owner, pool);
+        AddNeighbour(ref tests, placed, surface, surface.Out2, surface.Bound2, cone.Cosines.Z, cone.Sines.Z, owner, pool);
     }
 
     static void AddNeighbour(ref DirectedTests tests, in PlacedChildren placed, in Surface surface, in Vector3 outwards, in Vector3 bound,
-        float cosine, float sine, float margin, int owner, BufferPool pool)
+        float cosine, float sine, int owner, BufferPool pool)
     {
         if (bound != default && sine > 0)
-            Add(ref tests, placed, surface.Normal * cosine + outwards * sine, surface.IsA, margin, owner, pool);
+            Add(ref tests, placed, surface.Normal * cosine + outwards * sine, surface.IsA, owner, pool);
     }
 
-    static void Add(ref DirectedTests tests, in PlacedChildren placed, in Vector3 direction, bool isA, float margin, int owner, BufferPool pool) =>
-        tests.Add(placed, isA ? -direction : direction, float.MinValue, margin, owner, pool);
+    static void Add(ref DirectedTests tests, in PlacedChildren placed, in Vector3 direction, bool isA, int owner, BufferPool pool) =>
+        tests.Add(placed, isA ? -direction : direction, float.MinValue, placed.SpeculativeMargin, owner, pool);
 }

@@ -59,7 +59,6 @@ public sealed class DirectedPairTests : IDisposable
         const int caseCount = 60;
         var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)((int)kindA * 6 + (int)kindB));
         var tests = new DirectedTests(pool);
-        tests.Begin();
         var shapes = new (ConvexShape A, ConvexShape B, ConvexPose Pose, float Margin)[caseCount];
         for (int i = 0; i < caseCount; ++i)
         {
@@ -125,7 +124,6 @@ public sealed class DirectedPairTests : IDisposable
         var placed = new PlacedChildren { OffsetB = offsetB, OrientationA = orientationA, OrientationB = Quaternion.Identity };
         placed.TypeA = Write(ref placed.ShapeA, a);
         placed.TypeB = Write(ref placed.ShapeB, b);
-        tests.Begin();
         tests.Add(placed, normal, float.MaxValue, margin, 0, pool);
         tests.Execute();
         var manifold = tests[0].Manifold;
@@ -195,7 +193,6 @@ public sealed class DirectedPairTests : IDisposable
         var placed = new PlacedChildren { OffsetB = new(0, -1.4f, 0), OrientationA = Quaternion.Identity, OrientationB = Quaternion.Identity };
         placed.TypeA = Write(ref placed.ShapeA, new Sphere(.5f));
         placed.TypeB = Write(ref placed.ShapeB, new Box(2, 2, 2));
-        tests.Begin();
         tests.Add(placed, Vector3.UnitY, .0999f, 0, 0, pool);
         tests.Add(placed, Vector3.UnitY, .1001f, 0, 1, pool);
         tests.Execute();
