@@ -48,6 +48,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             for (int j = 0; j < statics.Pairs.Count; ++j)
                 Note(ref order, new() { Key = Key(statics.Pairs[j].Tested.Pair), Worker = i, Index = j }, Pool);
         }
+        AgreedPairs.BeginStep(order.Count, Pool);
         if (order.Count == 0)
             return;
         SortByKey();
@@ -105,21 +106,34 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ListOldPatches(ref statics, first, end, pool);
         body.OldCount = statics.Old.Count - body.FirstOld;
         for (int i = first; i < end; ++i)
-            body.TouchCount += HasContacts(i) ? 1 : 0;
+        {
+            Waiting(i).IsTouching = HasContacts(i);
+            body.TouchCount += Waiting(i).IsTouching ? 1 : 0;
+        }
         foreach (ref var old in statics.OldOf(body))
             body.TouchCount += old.IsWritten ? 1 : 0;
         // What is fast is above the next mesh before it touches that.
         activity.IsAtSeam = JoinsStatics && body.TouchCount > 0 && body.TouchCount + CountNear(first, end) > 1;
+        RememberNothing(body);
         if (activity.IsAtSeam && body.TouchCount > 1)
-            AddToAgreement(ref statics, ref body, pool);
+        {
+            body.MayRemember = MayRemember(statics, body);
+            if (!body.MayRemember || !TryAgreeAsBefore(body))
+                AddToAgreement(ref statics, ref body, pool);
+        }
         statics.Bodies.Add(body, pool);
     }
 
     void Finish(ref Worker worker, in AgreeingBody body)
     {
         ref var statics = ref worker.Statics;
-        if (body.Number != StaticPairs.Nothing && statics.Agreement.Finish(body.Number, worker.Pool))
-            TakeAgreement(ref worker, body);
+        if (body.Number != StaticPairs.Nothing)
+        {
+            if (statics.Agreement.Finish(body.Number, worker.Pool))
+                TakeAgreement(ref worker, body);
+            if (body.MayRemember)
+                NoteLeft(body);
+        }
         if (JoinsStatics)
             HandOver(ref statics, body, worker.Pool);
         statics.FrictionCenters.Count = 0;
@@ -133,7 +147,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         var count = 0;
         for (int i = first; i < end; ++i)
-            count += Waiting(i).IsOfChildren && !HasContacts(i) ? 1 : 0;
+            count += Waiting(i).IsOfChildren && !Waiting(i).IsTouching ? 1 : 0;
         return count;
     }
 
@@ -194,12 +208,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var (first, end) = (body.First, body.End);
         ref var agreement = ref statics.Agreement;
         body.Number = agreement.BeginBody(pool);
+        if (body.MayRemember)
+            NoteFound(body);
         statics.Groups.Count = 0;
         for (int i = first; i < end; ++i)
         {
             ref var pair = ref Waiting(i);
             pair.Slot = StaticPairs.Nothing;
-            if (!HasContacts(i))
+            if (!pair.IsTouching)
                 continue;
             pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, pool);
             var number = i - first + 1;

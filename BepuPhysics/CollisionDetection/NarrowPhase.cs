@@ -21,6 +21,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal PairCache Pairs;
     private protected readonly Restitution Restitution;
     private protected Buffer<CollidablePair> pairOfConstraint;
+    internal AgreedPairs AgreedPairs;
 
     /// <summary>Tests of shape pairs.</summary>
     public CollisionTaskRegistry CollisionTaskRegistry { get; }
@@ -69,6 +70,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// <summary>Whether the contacts of a body with several statics agree; each pair is for itself otherwise. To be changed before the first step.</summary>
     internal bool JoinsStatics { get; set; } = true;
 
+    /// <summary>Whether bodies that hardly move remember what their pairs have agreed on. To be changed before the first step.</summary>
+    internal bool RemembersAgreements { get; set; } = true;
+
     internal abstract void Initialize();
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
     internal abstract void Flush(IThreadDispatcher? dispatcher);
@@ -80,6 +84,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal void Clear()
     {
         Pairs.Clear();
+        AgreedPairs.Clear();
         PairCount = 0;
         Restitution.BeginStep();
     }
@@ -88,6 +93,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal void Abandon()
     {
         Pairs = default;
+        AgreedPairs = default;
         pairOfConstraint = default;
         PairCount = 0;
         Restitution.Abandon();
@@ -96,6 +102,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal void Dispose()
     {
         Pairs.Dispose(Pool);
+        AgreedPairs.Dispose(Pool);
         Restitution.Dispose();
         if (pairOfConstraint.Allocated)
             Pool.Return(ref pairOfConstraint);

@@ -26,6 +26,8 @@ struct StaticPair
     public bool IsOfChildren;
     /// <summary>Whether a game has changed its contacts: then it knows best.</summary>
     public bool IsOfGame;
+    /// <summary>Whether it had contacts before the pairs of its body agreed.</summary>
+    public bool IsTouching;
     /// <summary>Number of those that move as its B; where bodies agree.</summary>
     public int Group;
     /// <summary>Place among the children of the body, of a pair of convex shapes.</summary>
@@ -94,6 +96,8 @@ struct AgreeingBody
     public int TouchCount;
     /// <summary>Its number where they agree; <see cref="StaticPairs.Nothing"/> where there is nothing to agree on.</summary>
     public int Number;
+    /// <summary>Whether what they agree on holds for as long as nothing changes.</summary>
+    public bool MayRemember;
 }
 
 /// <summary>The pairs of one worker that wait, and its memory for making them agree. There is none before the first pair.</summary>
