@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -161,13 +162,16 @@ unsafe struct ChildPairs(BufferPool pool)
             First = touching.Count,
             Index = -1,
         };
+        var hasTriangle = false;
         for (int i = 0; i < open.SlotCount; ++i)
         {
-            if (set.Results[i].Manifold.Count > 0)
-                touching.Add(new() { Slot = i }, pool);
+            if (set.Results[i].Manifold.Count == 0)
+                continue;
+            touching.Add(new() { Slot = i }, pool);
+            hasTriangle |= set.Placed[i].TypeA == Triangle.Id || set.Placed[i].TypeB == Triangle.Id;
         }
         set.Count = touching.Count - set.First;
-        set.Stage = set.Count > 0 ? SeamStage.DirectionsOfB : SeamStage.Done;
+        set.Stage = set.Count == 0 ? SeamStage.Done : hasTriangle ? SeamStage.DirectionsOfB : SeamStage.Order;
         Seams.Sets.Add(set, pool);
         return Seams.Sets.Count == SeamMemory.SetCapacity;
     }

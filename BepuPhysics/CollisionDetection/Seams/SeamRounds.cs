@@ -47,7 +47,8 @@ static class SeamRounds
                 break;
             case SeamStage.Order:
                 set.Count = SeamMemory.Sort(view.Ranked, set.Results);
-                ++set.Stage;
+                // What is alone agrees with itself.
+                set.Stage = set.Count > 1 ? SeamStage.Next : SeamStage.Done;
                 break;
             default:
                 ChildAgreement.Advance(ref memory.Tests, view, pool);
