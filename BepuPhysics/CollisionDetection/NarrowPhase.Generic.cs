@@ -150,8 +150,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
             tested.Constraint = cached.Single.Constraint;
             tested.ConstraintTypeId = cached.Single.ConstraintTypeId;
-            tested.HasHistory = cached.Single.History >= 0;
-            if (task.KeepsHistories)
+            // That of a pair whose shapes had children is another kind of history.
+            tested.HasHistory = cached.Single.History >= 0 && !cached.IsOfChildren;
+            if (task.KeepsHistories && tested.HasHistory)
                 history = cached.Single.History;
         }
         if (history >= 0)

@@ -232,4 +232,27 @@ public class CarriedPatchTests
         simulation.Dispose();
         field.Dispose(pool);
     }
+
+    /// <summary>A pair whose history was that of its patches becomes one of two convex shapes, and the other way.</summary>
+    [Fact]
+    public void What_lies_on_a_ground_goes_on_as_both_become_other_shapes()
+    {
+        using var world = new World<SaysYes>();
+        // A test of a sphere and a triangle keeps no history, one of a cylinder and a box does.
+        var body = world.Add(new Sphere(.2f), new Vector3(.3f, .2f, .2f), Quaternion.Identity);
+        var ground = world.Simulation.Statics[world.Simulation.Statics.IndexToHandle[0]];
+        var (mesh, ball) = (ground.Shape, body.Collidable.Shape);
+        var box = world.Simulation.Shapes.Add(new Box(40, 1, 40));
+        var cylinder = world.Simulation.Shapes.Add(new Cylinder(.5f, .4f));
+        for (int i = 0; i < 4; ++i)
+        {
+            world.Run(60);
+            Assert.InRange(body.Pose.Position.Y, .199f, .2001f);
+            Assert.InRange(body.Velocity.Linear.Length(), 0, 1e-3f);
+            var becomesMesh = i % 2 == 1;
+            world.Simulation.Bodies.SetShape(body.Handle, becomesMesh ? ball : cylinder);
+            world.Simulation.Statics.ApplyDescription(
+                ground.Handle, new StaticDescription(new Vector3(0, becomesMesh ? 0 : -.5f, 0), becomesMesh ? mesh : box));
+        }
+    }
 }
