@@ -49,7 +49,7 @@ public sealed class WorkerBufferPools : IDisposable
         return total;
     }
 
-    /// <summary>Gives memory back to the system that nobody has borrowed from a pool since the last call (<see cref="BufferPool.Trim"/>). Not while workers run.</summary>
+    /// <summary>Gives memory back to the system that nobody has borrowed since the last call: <see cref="BufferPool.Trim"/>. Not while workers run.</summary>
     public void Trim()
     {
         foreach (var pool in pools)

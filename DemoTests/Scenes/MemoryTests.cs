@@ -55,7 +55,7 @@ public class MemoryTests
         world.Simulation.Validate();
     }
 
-    /// <summary>A first step finds all contacts at once, and tables double on their way: what that took goes back when nobody has wanted it for a while.</summary>
+    /// <summary>A first step finds all contacts at once, and tables double on their way: what that took goes back after a while.</summary>
     [Theory]
     [InlineData(1), InlineData(2)]
     public void What_the_first_step_needed_goes_back(int threads)

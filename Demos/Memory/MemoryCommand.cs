@@ -25,7 +25,10 @@ static class MemoryCommand
             HelpName = "FOLDER",
         };
         var row = new Option<bool>(RowOption) { Description = "Writes a row for a program.", Hidden = true };
-        var command = new Command(Word, "Measures the memory that a body takes: resident, at most, held by pools, and lent by them.") { bodies, steps, threads, peer, row };
+        var command = new Command(Word, "Measures the memory that a body takes: resident, at most, held by pools, and lent by them.")
+        {
+            bodies, steps, threads, peer, row,
+        };
         command.SetAction(parsed => guard(parsed, () =>
         {
             int bodyCount = parsed.GetValue(bodies), stepCount = parsed.GetValue(steps), threadCount = parsed.GetValue(threads);
