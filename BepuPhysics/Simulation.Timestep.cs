@@ -7,6 +7,11 @@ namespace BepuPhysics;
 // The step. DefaultTimestepper calls these stages in order; Docs/Timestep.md says what each reads and writes.
 public sealed partial class Simulation
 {
+    // About a second: what is needed so often is not worth giving back.
+    const int StepsBetweenTrims = 64;
+
+    int stepsUntilTrim = StepsBetweenTrims;
+
     /// <summary>Advances the simulation.</summary>
     /// <param name="dt">Time to advance by, s, within <see cref="Limits"/>. May change from step to step.</param>
     /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
@@ -24,6 +29,17 @@ public sealed partial class Simulation
         }
         using (Profiler.Time(this))
             Timestepper.Timestep(this, dt, threadDispatcher);
+        TrimPools(threadDispatcher);
+    }
+
+    // Tables that grow leave their old memory behind, and the first step of a scene needs many times what others do.
+    void TrimPools(IThreadDispatcher? threadDispatcher)
+    {
+        if (--stepsUntilTrim > 0)
+            return;
+        stepsUntilTrim = StepsBetweenTrims;
+        BufferPool.Trim();
+        threadDispatcher?.WorkerPools.Trim();
     }
 
     /// <summary>Puts islands to sleep that have rested long enough: reads rest and velocities.</summary>

@@ -1,5 +1,6 @@
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using BepuUtilities.Memory;
 using Demos.Running;
 using Demos.Scenes;
 
@@ -62,4 +63,7 @@ static class EngineDefaults
         }
         return count;
     }
+
+    /// <summary>Its pools do not tell.</summary>
+    public static double? LentBytes(BufferPool pool) => null;
 }

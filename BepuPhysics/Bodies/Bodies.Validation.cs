@@ -67,8 +67,9 @@ public sealed partial class Bodies
     // Passes over whole bundles read them.
     static bool IsZeroBehindLast(ref BodySet set)
     {
-        var motions = MemoryMarshal.AsBytes(set.MotionStates.AsSpan()[set.Count..]);
-        var inertias = MemoryMarshal.AsBytes(set.LocalInertias.AsSpan()[set.Count..]);
+        var end = BodySet.WholeBundles(set.Count);
+        var motions = MemoryMarshal.AsBytes(set.MotionStates.AsSpan()[set.Count..end]);
+        var inertias = MemoryMarshal.AsBytes(set.LocalInertias.AsSpan()[set.Count..end]);
         return motions.IndexOfAnyExcept((byte)0) < 0 && inertias.IndexOfAnyExcept((byte)0) < 0;
     }
 }

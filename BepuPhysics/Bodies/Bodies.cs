@@ -118,7 +118,7 @@ public sealed unsafe partial class Bodies
         // All memory has been taken: from here on nothing fails.
         var handle = new BodyHandle(owners.Claim(HandlePool.Take()));
         ref var set = ref ActiveSet;
-        var index = set.Count++;
+        var index = set.AddRow();
         Locations[handle.Slot] = new() { SetIndex = 0, Index = index };
         set.IndexToHandle[index] = handle;
         set.MotionStates[index] = new() { Pose = pose, Velocity = description.Velocity };

@@ -37,7 +37,8 @@ struct StepOrigin
 /// <remarks>
 /// Bodies stay scalar structs, since constraints gather them in any order. What the solver touches is kept in rows of 32 bytes,
 /// and what it does not touch (the local inertia) is kept apart, so that no cache line carries dead weight through it.
-/// Capacities are whole bundles and rows behind the last body are zero, so passes over all bodies may read whole bundles.
+/// Capacities are whole bundles, and rows behind the last body are zero up to the end of its bundle, so passes over all bodies may read whole bundles.
+/// Nothing is written to rows beyond: a set that has room for twice its bodies costs no more memory for that.
 /// </remarks>
 public struct BodySet
 {
@@ -122,9 +123,23 @@ public struct BodySet
 
     internal void Resize(int capacity, BufferPool pool)
     {
-        capacity = (capacity + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
-        var resize = new ResizeColumns(capacity, Count, pool);
+        var resize = new ResizeColumns(WholeBundles(capacity), WholeBundles(Count), pool);
         VisitColumns(ref resize);
+    }
+
+    /// <summary>Rows of the bundles that so many bodies fill or begin.</summary>
+    internal static int WholeBundles(int count) => (count + Vector<float>.Count - 1) / Vector<float>.Count * Vector<float>.Count;
+
+    /// <summary>Adds a row that is zero. There must be room.</summary>
+    /// <returns>Its index.</returns>
+    internal int AddRow()
+    {
+        if (Count % Vector<float>.Count == 0)
+        {
+            var clear = new ClearRows(Count, Vector<float>.Count);
+            VisitColumns(ref clear);
+        }
+        return Count++;
     }
 
     /// <summary>Makes room in a set of sleeping bodies.</summary>
@@ -139,7 +154,7 @@ public struct BodySet
     /// <returns>Its index.</returns>
     internal int Append(in BodySet from, int index)
     {
-        var added = Count++;
+        var added = AddRow();
         IndexToHandle[added] = from.IndexToHandle[index];
         MotionStates[added] = from.MotionStates[index];
         LocalInertias[added] = from.LocalInertias[index];
@@ -157,14 +172,14 @@ public struct BodySet
     internal void EnsureStiffness(BufferPool pool)
     {
         if (!Stiffness.Allocated)
-            new ResizeColumns(Capacity, 0, pool).Visit(ref Stiffness);
+            AddColumn(ref Stiffness, pool);
     }
 
     /// <summary>Makes room for counts of joints, from the first joint on that is counted.</summary>
     internal void EnsureJointCounts(BufferPool pool)
     {
         if (!JointCounts.Allocated)
-            new ResizeColumns(Capacity, 0, pool).Visit(ref JointCounts);
+            AddColumn(ref JointCounts, pool);
     }
 
     /// <summary>Makes room for principal frames, if this is the first body whose inertia is not diagonal.</summary>
@@ -172,7 +187,13 @@ public struct BodySet
     {
         var isDiagonal = inverseInertia.YX == 0 && inverseInertia.ZX == 0 && inverseInertia.ZY == 0;
         if (!isDiagonal && !PrincipalFrames.Allocated)
-            new ResizeColumns(Capacity, 0, pool).Visit(ref PrincipalFrames);
+            AddColumn(ref PrincipalFrames, pool);
+    }
+
+    void AddColumn<T>(ref Buffer<T> column, BufferPool pool) where T : unmanaged
+    {
+        new ResizeColumns(Capacity, 0, pool).Visit(ref column);
+        column.Clear(0, WholeBundles(Count));
     }
 
     /// <summary>Makes what the integrator keeps of a body agree with a pose that was written in the middle of a step.</summary>

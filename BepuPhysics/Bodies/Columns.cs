@@ -10,9 +10,9 @@ interface IColumnVisitor
     void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged;
 }
 
-/// <summary>Gives columns another length; rows that are new are zero.</summary>
+/// <summary>Gives columns another length. What is new is not cleared: rows are when they come into use.</summary>
 /// <param name="length">Rows that a column is to have.</param>
-/// <param name="used">Rows that are kept; those behind them are cleared.</param>
+/// <param name="used">Rows that are kept.</param>
 /// <param name="pool">Where the memory comes from.</param>
 readonly struct ResizeColumns(int length, int used, BufferPool pool) : IColumnVisitor
 {
@@ -24,7 +24,6 @@ readonly struct ResizeColumns(int length, int used, BufferPool pool) : IColumnVi
             column.CopyTo(0, resized, 0, used);
             pool.Return(ref column);
         }
-        resized.Clear(used, length - used);
         column = resized;
     }
 }

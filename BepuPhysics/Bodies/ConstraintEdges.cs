@@ -94,11 +94,15 @@ struct ConstraintEdges
     /// <summary>Makes room for a number of bodies per constraint. With more of them than before all edges have other indices.</summary>
     internal void EnsureBodiesPerConstraint(int count, Buffer<BodySet> sets, BufferPool pool)
     {
+        if (1 << shift < count)
+            Widen(count, sets, pool);
+    }
+
+    void Widen(int count, Buffer<BodySet> sets, BufferPool pool)
+    {
         var previous = shift;
         while (1 << shift < count)
             ++shift;
-        if (shift == previous || !edges.Allocated)
-            return;
         pool.TakeAtLeast<Edge>(edges.Length << shift - previous, out var renamed);
         for (int i = 0; i < edges.Length; ++i)
             renamed[Rename(i, previous)] = new() { Next = Rename(edges[i].Next, previous), Previous = Rename(edges[i].Previous, previous) };

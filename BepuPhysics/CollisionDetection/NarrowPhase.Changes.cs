@@ -202,17 +202,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // Only some steps, and some pairs, need a list; no others pay for it.
-    static void Note<T>(ref QuickList<T> notes, in T note, BufferPool pool) where T : unmanaged
+    static void Note<T>(ref QuickList<T> notes, in T note, BufferPool pool, int room = LeastRoom) where T : unmanaged
     {
         if (!notes.Span.Allocated)
-            notes = new QuickList<T>(64, pool);
+            notes = new QuickList<T>(room, pool);
         notes.Add(note, pool);
     }
 
+    const int LeastRoom = 64;
+
+    // Room for the notes of a worker in a step that makes everything anew, as the first does: room that is not used is not touched and costs next to
+    // nothing, lists that double touch twice as much and copy it. Up to some bound, as there are systems that promise memory when it is asked for.
+    static int RoomForNotes(int bodyCount, int workerCount) => Math.Clamp(bodyCount / workerCount, LeastRoom, 1 << 17);
+
     void Gather<T>(ref QuickList<T> notes, int worker) where T : unmanaged, INote
     {
+        if (notes.Count > 0)
+            MakeRoom(ref order, order.Count + notes.Count, Pool);
         for (int i = 0; i < notes.Count; ++i)
             Note(ref order, new() { Key = Key(notes[i].Pair), Worker = worker, Index = i }, Pool);
+    }
+
+    static void MakeRoom<T>(ref QuickList<T> notes, int count, BufferPool pool) where T : unmanaged
+    {
+        if (!notes.Span.Allocated)
+            notes = new QuickList<T>(Math.Max(LeastRoom, count), pool);
+        notes.EnsureCapacity(count, pool);
     }
 
     void SortByKey()
@@ -270,7 +285,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Where the manifold is noted, by many workers, and not in the flush: nobody else writes to the constraint in between.
     void Read(ref Worker worker, ref PendingManifold pending, in CachedManifold manifold)
     {
-        Note(ref worker.Old, default(ContactPatch), worker.Pool);
+        Note(ref worker.Old, default(ContactPatch), worker.Pool, worker.Room);
         pending.Old = worker.Old.Count - 1;
         new ContactConstraint(Simulation.Solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
             .ReadPatch(manifold.Features, out worker.Old[pending.Old]);
@@ -328,7 +343,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ChildManifold = childManifold,
         };
         if (sharesChanges)
-            Note(ref added, constraint, Pool);
+            Note(ref added, constraint, Pool, order.Count);
         else
             WriteAdded(constraint);
     }

@@ -184,7 +184,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 if (readsEarly && record->Manifold.HasConstraint && result.Manifold.Count > 0)
                     Read(ref worker, ref pending, record->Manifold);
             }
-            Note(ref worker.Pending, pending, worker.Pool);
+            Note(ref worker.Pending, pending, worker.Pool, worker.Room);
         }
         SkipGone(ref worker, tested.Pair, ref known, tested.IsCarried ? ChildIds.EndOfPatches : ulong.MaxValue);
     }

@@ -34,6 +34,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public StaticPairs Statics;
         /// <summary>Null where the worker has no memory: before a step, and after it.</summary>
         public BufferPool Pool;
+        /// <summary>Notes for which there is room from the first one on.</summary>
+        public int Room;
         /// <summary>Pairs until the worker tells how many it has found.</summary>
         public int PairsLeft;
         public int SkippedPairCount;
@@ -243,7 +245,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         };
         if (readsEarly && tested.ConstraintTypeId >= 0)
             Read(ref worker, ref pending, Pairs.Pairs.Values[tested.CacheIndex].Single);
-        Note(ref worker.Pending, pending, worker.Pool);
+        Note(ref worker.Pending, pending, worker.Pool, worker.Room);
     }
 
     // As what does not wait, but for what becomes of the contacts.
@@ -292,7 +294,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             if (tested.ConstraintTypeId == CachedManifold.NoConstraint)
                 return;
         }
-        Note(ref worker.Pending, new(tested.Pair, ChildIds.None, keepsHistory: true), worker.Pool);
+        Note(ref worker.Pending, new(tested.Pair, ChildIds.None, keepsHistory: true), worker.Pool, worker.Room);
     }
 
     void Release(ref Worker worker)

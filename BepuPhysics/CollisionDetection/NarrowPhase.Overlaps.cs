@@ -71,8 +71,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         Pairs.BeginStep();
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
+        var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
-            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher);
+            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, room);
         FindOverlaps(dispatcher);
         for (int i = 0; i < workerCount; ++i)
             crowd.AddRest(workers[i].PairsLeft);
@@ -96,7 +97,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
     }
 
-    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher)
+    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher, int room)
     {
         worker.Queue.Clear();
         worker.Pool = dispatcher is null ? Pool : dispatcher.WorkerPools[index];
@@ -106,6 +107,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts.Clear();
+        worker.Room = room;
+        worker.Statics.Room = room;
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }

@@ -45,6 +45,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < workerCount; ++i)
         {
             ref var statics = ref workers[i].Statics;
+            if (statics.Pairs.Count > 0)
+                MakeRoom(ref order, order.Count + statics.Pairs.Count, Pool);
             for (int j = 0; j < statics.Pairs.Count; ++j)
                 Note(ref order, new() { Key = Key(statics.Pairs[j].Tested.Pair), Worker = i, Index = j }, Pool);
         }

@@ -20,6 +20,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly WorldLock World;
     internal PairCache Pairs;
     private protected readonly Restitution Restitution;
+    readonly LoadPathStage loadPath;
     private protected Buffer<CollidablePair> pairOfConstraint;
     internal AgreedPairs AgreedPairs;
 
@@ -35,7 +36,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
-        simulation.Solver.OptionalStages.Add(new LoadPathStage(simulation.Solver, simulation.Bodies, Pool));
+        loadPath = new LoadPathStage(simulation.Solver, simulation.Bodies, Pool);
+        simulation.Solver.OptionalStages.Add(loadPath);
     }
 
     /// <summary>Number of pairs that have contacts.</summary>
@@ -97,6 +99,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         pairOfConstraint = default;
         PairCount = 0;
         Restitution.Abandon();
+        loadPath.Abandon();
     }
 
     internal void Dispose()
@@ -104,6 +107,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs.Dispose(Pool);
         AgreedPairs.Dispose(Pool);
         Restitution.Dispose();
+        loadPath.Dispose();
         if (pairOfConstraint.Allocated)
             Pool.Return(ref pairOfConstraint);
     }

@@ -189,6 +189,7 @@ public sealed unsafe partial class Solver
     {
         if (HandleOwners.NeedsSlot(HandlePool, MaximumCount, "constraints", out var slotCount))
             EnsureSlots(slotCount);
+        Edges.EnsureBodiesPerConstraint(bodyHandles.Length, bodies.Sets, pool);
         var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
         Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
         for (int i = 0; i < bodyHandles.Length; ++i)

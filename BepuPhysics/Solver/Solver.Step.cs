@@ -112,6 +112,9 @@ public sealed unsafe partial class Solver
     /// <summary>A step without bodies.</summary>
     internal void Rest()
     {
+        // No memory is kept for what sleeps.
+        for (int i = 0; i < OptionalStages.Count; ++i)
+            OptionalStages[i].EndStep();
         endsWithVelocities = false;
         shuffleState = 0;
     }

@@ -46,7 +46,6 @@ public sealed unsafe partial class Solver
 
     internal void RegisterProcessor(int typeId, TypeProcessor processor)
     {
-        Edges.EnsureBodiesPerConstraint(processor.BodiesPerConstraint, Sets.Allocated && bodies is not null ? bodies.Sets : default, pool);
         processor.TypeId = typeId;
         processors[typeId] = processor;
     }

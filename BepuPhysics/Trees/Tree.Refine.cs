@@ -113,7 +113,7 @@ public unsafe partial struct Tree
     /// fell.</summary>
     float RefineTop(int itemLimit, BufferPool pool)
     {
-        using var scratch = new BuildScratch(LeafCount, pool);
+        using var scratch = new BuildScratch(CountItems(itemLimit), pool);
         Gather(0, itemLimit, scratch, out var itemCount, out var highestItem);
         var allowedHeight = MaximumHeight - highestItem;
         if (HalvingHeight(itemCount) > allowedHeight)
@@ -125,9 +125,46 @@ public unsafe partial struct Tree
         var before = MeasureCost(scratch.NodeIndices, itemCount - 1);
         TreeBuilder.Build(this, scratch.Items, scratch.Spare, itemCount, scratch.NodeIndices, allowedHeight);
         var after = MeasureCost(scratch.NodeIndices, itemCount - 1);
-        // The subtrees stayed where they were and are in another order now.
-        SortNodes(pool);
+        // The subtrees stayed where they were, and are in another order if there was anything to gain.
+        if (!AreInOrder(scratch.NodeIndices, itemCount - 1))
+            SortNodes(pool);
         return RelativeGain(before, after);
+    }
+
+    /// <summary>Number of the largest subtrees that have no more leaves than a limit. The nodes must be in depth-first order.</summary>
+    readonly int CountItems(int leafLimit)
+    {
+        var count = 0;
+        for (var node = 0; node < NodeCount;)
+        {
+            var leavesOfA = Children[2 * node].LeafCount;
+            var leavesOfB = Children[2 * node + 1].LeafCount;
+            if (leavesOfA + leavesOfB <= leafLimit)
+            {
+                node += leavesOfA + leavesOfB - 1;
+                continue;
+            }
+            count += (leavesOfA <= leafLimit ? 1 : 0) + (leavesOfB <= leafLimit ? 1 : 0);
+            ++node;
+        }
+        return count;
+    }
+
+    /// <summary>Whether the children of some nodes, which were in depth-first order with all that is below them, are where that order has them.</summary>
+    readonly bool AreInOrder(int* nodes, int count)
+    {
+        for (var i = 0; i < count; ++i)
+        {
+            var a = Children + 2 * nodes[i];
+            var next = nodes[i] + 1;
+            for (var child = a; child < a + 2; ++child)
+            {
+                if (child->Index >= 0 && child->Index != next)
+                    return false;
+                next += child->LeafCount - 1;
+            }
+        }
+        return true;
     }
 
     static float RelativeGain(float before, float after) => before > 0 ? (before - after) / before : 0;

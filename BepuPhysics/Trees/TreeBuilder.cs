@@ -159,7 +159,8 @@ unsafe ref struct TreeBuilder
             var item = items[i];
             var key = ((float*)&item)[axis] + ((float*)&item)[axis + 4];
             var place = i;
-            while (place > 0 && keys[place - 1] > key)
+            // Items in one place are in the order of their indices, so that what is built again without need comes out the same.
+            while (place > 0 && (keys[place - 1] > key || (keys[place - 1] == key && items[place - 1].Index > item.Index)))
             {
                 keys[place] = keys[place - 1];
                 items[place] = items[place - 1];

@@ -132,6 +132,15 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         return total;
     }
 
+    /// <summary>Bytes of the blocks that are lent.</summary>
+    public ulong GetTotalTakenByteCount()
+    {
+        ulong total = 0;
+        foreach (var pool in pools)
+            total += pool is null ? 0 : (ulong)pool.TakenCount << pool.Power;
+        return total;
+    }
+
     /// <summary>Requires that all that was lent has been given back.</summary>
     /// <exception cref="InvalidOperationException">Something is still lent; the message says how much of what size, and the first ids.</exception>
     public void AssertEmpty()
@@ -198,6 +207,16 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         ReportLeaks();
         foreach (var pool in pools)
             pool?.Clear();
+    }
+
+    /// <summary>
+    /// Gives memory back to the system that nobody has borrowed since the last call: blocks that are lent stay, and so do those that were lent at
+    /// some time in between, and small ones. A simulation asks for it from time to time.
+    /// </summary>
+    public void Trim()
+    {
+        foreach (var pool in pools)
+            pool?.Trim();
     }
 
     internal void CheckNotBusy()

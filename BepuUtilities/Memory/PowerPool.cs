@@ -25,6 +25,10 @@ sealed unsafe class PowerPool
     int allocationCount;
     int usedSlotCount;
     int freeSlotCount;
+    // Fewest free slots since the last trim: so many, from the bottom of the stack on, have not been lent since.
+    int idleSlotCount;
+    // Slots, lent before, whose memory went back to the system.
+    int hollowSlotCount;
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="power">Exponent of the size of a slot in bytes.</param>
@@ -44,16 +48,16 @@ sealed unsafe class PowerPool
     public int Power { get; }
 
     /// <summary>Bytes held from the system.</summary>
-    public ulong AllocatedByteCount => (ulong)allocationCount << allocationPower;
+    public ulong AllocatedByteCount => (ulong)(allocationCount - hollowSlotCount) << allocationPower;
 
     /// <summary>Number of slots that are lent.</summary>
-    public int TakenCount => usedSlotCount - freeSlotCount;
+    public int TakenCount => usedSlotCount - freeSlotCount - hollowSlotCount;
 
     /// <summary>Lends a slot.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public int Take(out byte* memory)
     {
-        var slot = freeSlotCount > 0 ? freeSlots[--freeSlotCount] : TakeUnused();
+        var slot = freeSlotCount > 0 ? TakeFree() : TakeUnused();
         taken[slot >> 6] |= 1UL << slot;
         memory = GetBlock(slot);
         return slot;
@@ -78,7 +82,30 @@ sealed unsafe class PowerPool
     public void EnsureCapacity(ulong byteCount)
     {
         while (AllocatedByteCount < byteCount)
-            Allocate();
+        {
+            if (hollowSlotCount > 0)
+                freeSlots[freeSlotCount++] = Refill();
+            else
+                Allocate();
+        }
+    }
+
+    /// <summary>Gives memory back to the system that nobody has borrowed since the last call. Slots that share an allocation stay.</summary>
+    public void Trim()
+    {
+        if (slotShift == 0 && idleSlotCount > 0)
+        {
+            for (int i = 0; i < idleSlotCount; ++i)
+            {
+                ref var allocation = ref allocations[freeSlots[i]];
+                NativeMemory.AlignedFree((void*)allocation);
+                allocation = 0;
+            }
+            hollowSlotCount += idleSlotCount;
+            freeSlotCount -= idleSlotCount;
+            Array.Copy(freeSlots, idleSlotCount, freeSlots, 0, freeSlotCount);
+        }
+        idleSlotCount = freeSlotCount;
     }
 
     /// <summary>Writes how many slots are lent, and the first ids.</summary>
@@ -118,14 +145,34 @@ sealed unsafe class PowerPool
         allocationCount = 0;
         usedSlotCount = 0;
         freeSlotCount = 0;
+        idleSlotCount = 0;
+        hollowSlotCount = 0;
+    }
+
+    int TakeFree()
+    {
+        if (--freeSlotCount < idleSlotCount)
+            idleSlotCount = freeSlotCount;
+        return freeSlots[freeSlotCount];
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     int TakeUnused()
     {
+        if (hollowSlotCount > 0)
+            return Refill();
         if (usedSlotCount == allocationCount << slotShift)
             Allocate();
         return usedSlotCount++;
+    }
+
+    // Asks the system again for the memory of a slot that has none.
+    int Refill()
+    {
+        var slot = Array.IndexOf(allocations, 0, 0, usedSlotCount);
+        allocations[slot] = AskSystem();
+        --hollowSlotCount;
+        return slot;
     }
 
     void Allocate()
@@ -140,10 +187,16 @@ sealed unsafe class PowerPool
             Array.Resize(ref freeSlots, (int)BitOperations.RoundUpToPowerOf2((uint)slotCount));
         if (slotCount > (long)taken.Length << 6)
             Array.Resize(ref taken, (int)(BitOperations.RoundUpToPowerOf2((uint)slotCount) + 63) >> 6);
+        allocations[allocationCount] = AskSystem();
+        ++allocationCount;
+    }
+
+    nint AskSystem()
+    {
         var byteCount = (nuint)1 << allocationPower;
         var memory = (byte*)NativeMemory.AlignedAlloc(byteCount, BufferPool.Alignment);
         Poison(memory, byteCount);
-        allocations[allocationCount++] = (nint)memory;
+        return (nint)memory;
     }
 
     /// <summary>Fills memory that nobody may read with NaN and -1 in validating builds: who reads it all the same is found out.</summary>

@@ -49,6 +49,13 @@ public sealed class WorkerBufferPools : IDisposable
         return total;
     }
 
+    /// <summary>Gives memory back to the system that nobody has borrowed since the last call: <see cref="BufferPool.Trim"/>. Not while workers run.</summary>
+    public void Trim()
+    {
+        foreach (var pool in pools)
+            pool.Trim();
+    }
+
     /// <summary>Requires that all that was lent by any of the pools has been given back.</summary>
     /// <exception cref="InvalidOperationException">Something is still lent.</exception>
     public void AssertEmpty()

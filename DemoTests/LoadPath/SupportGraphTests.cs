@@ -129,4 +129,105 @@ public class SupportGraphTests
             }
         }
     }
+
+    /// <summary>
+    /// A graph that has been built of other supports before, or of the same, is as one that is new: in 400 steps of which most change one thing at most,
+    /// a support's ends, its number of contacts, whether it slides, heights, where the pieces end, or the number of bodies.
+    /// </summary>
+    [Theory]
+    [InlineData(1, true), InlineData(2, true), InlineData(3, false)]
+    public unsafe void A_graph_that_was_built_before_is_as_a_new_one(int seed, bool hasCircles)
+    {
+        using var pool = new BufferPool();
+        var random = new Random(seed);
+        var links = new SupportLink[40];
+        for (int i = 0; i < links.Length; ++i)
+            links[i] = RandomLink(random, 20, hasCircles);
+        var heights = new float[30];
+        int bodyCount = 20, half = 20, same = 0;
+        SupportGraph kept = default;
+        string last = "";
+        for (int step = 0; step < 400; ++step)
+        {
+            switch (random.Next(10))
+            {
+                case 0:
+                    links[random.Next(links.Length)] = RandomLink(random, 20, hasCircles);
+                    break;
+                case 1:
+                    ref var counted = ref links[random.Next(links.Length)];
+                    counted.Count = (byte)(5 - counted.Count);
+                    break;
+                case 2:
+                    ref var sliding = ref links[random.Next(links.Length)];
+                    sliding.Slides = !sliding.Slides;
+                    break;
+                case 3:
+                    heights[random.Next(20)] = random.NextSingle();
+                    break;
+                case 4:
+                    half = random.Next(1, links.Length);
+                    break;
+                case 5:
+                    bodyCount = 50 - bodyCount;
+                    break;
+            }
+            var found = new SupportLink[links.Length + Gap];
+            links.AsSpan(0, half).CopyTo(found);
+            links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
+            SupportGraph fresh = default;
+            fixed (SupportLink* memory = found)
+            {
+                (int, int)[] pieces = [(0, half), (half + Gap, links.Length - half)];
+                BuildAndFill(ref fresh, memory, pieces, bodyCount, heights, pool);
+                BuildAndFill(ref kept, memory, pieces, bodyCount, heights, pool);
+            }
+            var expected = Describe(fresh, bodyCount);
+            Assert.Equal(expected, Describe(kept, bodyCount));
+            same += expected == last ? 1 : 0;
+            last = expected;
+            fresh.Dispose(pool);
+        }
+        Assert.InRange(same, 100, 390);
+        kept.Dispose(pool);
+        pool.AssertEmpty();
+    }
+
+    static SupportLink RandomLink(Random random, int bodyCount, bool hasCircles)
+    {
+        var upper = random.Next(bodyCount);
+        var lower = random.Next(-3, hasCircles ? bodyCount : upper);
+        return new() { Upper = upper, Lower = lower == upper ? Ground : Math.Max(Ground, lower), Count = (byte)random.Next(2, 4), Radius = 1 };
+    }
+
+    static unsafe void BuildAndFill(
+        ref SupportGraph graph, SupportLink* found, (int, int)[] pieces, int bodyCount, float[] heights, BufferPool pool)
+    {
+        graph.Build(found, pieces, bodyCount, new Heights(heights), pool);
+        graph.Fill(found, 0, graph.Nodes.Count);
+        // What a step does to nodes.
+        for (int i = 0; i < graph.Nodes.Count; ++i)
+        {
+            Assert.False(graph.Nodes[i].HasLoad || graph.Nodes[i].IsActive || graph.Nodes[i].NeedsWork || graph.Nodes[i].HasSupports);
+            Assert.Equal(default, graph.Nodes[i].Linear + graph.Nodes[i].Angular);
+            ref var node = ref graph.Nodes[i];
+            node.HasLoad = node.IsActive = node.NeedsWork = node.HasSupports = true;
+            node.Radius += 1;
+            node.Linear = node.Angular = new(1, 2, 3);
+        }
+    }
+
+    static string Describe(in SupportGraph graph, int bodyCount)
+    {
+        var lines = new System.Text.StringBuilder();
+        foreach (var island in graph.Islands)
+            lines.Append(island).Append(' ');
+        for (int i = 0; i < bodyCount; ++i)
+            lines.Append(graph.NodeOf[i]).Append(',');
+        foreach (ref var node in graph.Nodes.AsSpan())
+            lines.Append($"|{node.Body} {node.FirstSupport} {node.SupportCount} {node.Radius}");
+        foreach (ref var link in graph.Links.AsSpan())
+            lines.Append($"|{link.Upper} {link.Lower} {link.Count} {link.Slides}");
+        return lines.ToString();
+    }
 }

@@ -1,5 +1,7 @@
 using System;
+using System.Collections.Generic;
 using System.Numerics;
+using BepuUtilities;
 using Xunit;
 
 namespace DemoTests.Trees;
@@ -56,6 +58,29 @@ public class TreeRefinementTests
         using var first = MakeBusyTree();
         using var second = MakeBusyTree();
         Assert.Equal(TreeBytes.Of(first.Tree), TreeBytes.Of(second.Tree));
+    }
+
+    /// <summary>Where nothing moves nothing is gained, even if all is on a grid and any order is as good: then no node may be moved either.</summary>
+    [Fact]
+    public unsafe void AGridAtRestIsLeftAlone()
+    {
+        var boxes = new List<BoundingBox>();
+        for (var i = 0; i < 4096; ++i)
+        {
+            var place = new Vector3(i % 64, 0, i / 64) * 2;
+            boxes.Add(new BoundingBox(place, place + Vector3.One));
+        }
+        using var model = new TreeModel(boxes);
+        for (var i = 0; i < 4000; ++i)
+            model.Tree.Refine(model.Pool);
+        var (nodes, bytes) = ((nint)model.Tree.Nodes.Memory, TreeBytes.Of(model.Tree));
+        for (var i = 0; i < 1000; ++i)
+        {
+            model.Tree.Refine(model.Pool);
+            Assert.Equal(nodes, (nint)model.Tree.Nodes.Memory);
+        }
+        Assert.Equal(bytes, TreeBytes.Of(model.Tree));
+        model.Validate();
     }
 
     static TreeModel MakeBusyTree()

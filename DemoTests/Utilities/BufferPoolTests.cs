@@ -99,6 +99,47 @@ public unsafe class BufferPoolTests
         Assert.Equal(4096ul, pool.GetTotalAllocatedByteCount());
     }
 
+    /// <summary>Of three large blocks two lie idle between two calls: these go back, and what is taken later is as good as new.</summary>
+    [Fact]
+    public void TrimmingGivesBackWhatNobodyBorrowed()
+    {
+        const ulong size = 65536;
+        using var pool = new BufferPool(4096);
+        var buffers = new Buffer<byte>[3];
+        pool.Take(100, out Buffer<byte> small);
+        for (int round = 0; round < 3; ++round)
+        {
+            foreach (ref var buffer in buffers.AsSpan())
+                pool.Take((int)size, out buffer);
+            Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
+            Assert.Equal(128 + 3 * size, pool.GetTotalTakenByteCount());
+            pool.Return(ref buffers[1]);
+            pool.Return(ref buffers[2]);
+            pool.Trim();
+            // They were lent a moment ago.
+            Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
+            pool.Take((int)size, out buffers[1]);
+            buffers[1].AsSpan().Fill((byte)round);
+            buffers[0].AsSpan().Fill(0x55);
+            pool.Return(ref buffers[1]);
+            pool.Trim();
+            Assert.Equal(4096 + 2 * size, pool.GetTotalAllocatedByteCount());
+            pool.Trim();
+            Assert.Equal(4096 + size, pool.GetTotalAllocatedByteCount());
+            Assert.Equal(128 + size, pool.GetTotalTakenByteCount());
+            Assert.Equal(-1, buffers[0].AsSpan().IndexOfAnyExcept((byte)0x55));
+            pool.EnsureCapacityForPower((int)(2 * size), 16);
+            Assert.Equal(2 * (int)size, pool.GetCapacityForPower(16));
+            pool.Return(ref buffers[0]);
+        }
+        pool.Return(ref small);
+        pool.AssertEmpty();
+        pool.Trim();
+        pool.Trim();
+        // Small blocks share an allocation, which stays.
+        Assert.Equal(4096ul, pool.GetTotalAllocatedByteCount());
+    }
+
     [Fact]
     public void AllocatedBytesAreExact()
     {

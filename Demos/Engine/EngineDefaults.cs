@@ -1,5 +1,6 @@
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using BepuUtilities.Memory;
 using Demos.Running;
 
 namespace Demos.Engine;
@@ -54,4 +55,7 @@ static class EngineDefaults
         int threshold = simulation.Solver.FallbackBatchThreshold;
         return active.Batches.Count > threshold ? active.Batches[threshold].CountConstraints() : 0;
     }
+
+    /// <summary>Bytes that a pool has lent; null where the engine does not tell.</summary>
+    public static double? LentBytes(BufferPool pool) => pool.GetTotalTakenByteCount();
 }

@@ -8,6 +8,7 @@ using BepuUtilities.Memory;
 using Demos.Accuracy;
 using Demos.Engine;
 using Demos.JointTables;
+using Demos.Memory;
 using Demos.Running;
 using Demos.Scenes;
 using Demos.Trade;
@@ -43,6 +44,7 @@ public static class DemosCommand
         root.Subcommands.Add(JointTablesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(JointTimesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(AccuracyCommand.Create((parsed, action) => Guard(parsed, _ => action())));
+        root.Subcommands.Add(MemoryCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
             root.Subcommands.Add(command);
         root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));

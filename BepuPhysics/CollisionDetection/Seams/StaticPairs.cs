@@ -123,6 +123,8 @@ struct StaticPairs
     public LoadHandover Transfer;
     /// <summary>Makes pairs agree.</summary>
     public BodyAgreement Agreement;
+    /// <summary>Pairs for which there is room from the first one on.</summary>
+    public int Room;
     PatchResults shown;
     int shownCount;
 
@@ -141,8 +143,8 @@ struct StaticPairs
     {
         if (Pairs.Span.Allocated)
             return;
-        Pairs = new(InitialCapacity, pool);
-        Results = new(InitialCapacity * 2, pool);
+        Pairs = new(Math.Max(InitialCapacity, Room), pool);
+        Results = new(Math.Max(InitialCapacity * 2, Room), pool);
         Children = new(InitialCapacity, pool);
     }
 

@@ -152,7 +152,10 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         foreach (var piece in used)
             count += piece.Count;
         if (count == 0)
+        {
+            graph.Dispose(pool);
             return;
+        }
         ref var set = ref bodies.Awake;
         graph.Build(found.Memory, used, set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
         pool.TakeAtLeast(Math.Max(1, graph.Links.Count), out supports);
@@ -321,13 +324,20 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         }
     }
 
-    // Lets go of the contacts, and gives back what the step took.
+    /// <summary>Gives all memory back.</summary>
+    internal void Dispose() => graph.Dispose(pool);
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon() => graph = default;
+
+    // Lets go of the contacts, and gives back what the step took: the graph is kept where there is one.
     void ISolverStage.EndStep()
     {
         if (hasBegun)
             LetGo();
+        else
+            graph.Dispose(pool);
         hasBegun = false;
-        graph.Dispose(pool);
         if (before.Allocated)
             pool.Return(ref before);
         if (found.Allocated)

@@ -8,8 +8,9 @@ namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>Which bodies rest on which, from what does not move upwards, island by island.</summary>
 /// <remarks>
-/// Built once per step from constraints in the order in which they are swept: nothing depends on threads or the width of vectors
-/// but the order of constraints, which does not either. One thread says who comes where, from the little that this takes; the links follow node by node.
+/// Built from constraints in the order in which they are swept: nothing depends on threads or the width of vectors but the order of constraints, which
+/// does not either. One thread says who comes where, from the little that this takes, and where that little is what it was a step ago, as in all that
+/// stands, so is the graph. The links follow node by node.
 /// </remarks>
 unsafe struct SupportGraph
 {
@@ -39,6 +40,11 @@ unsafe struct SupportGraph
     // Support with the same lower body that follows, by index in the order of upper bodies.
     Buffer<int> nextAbove;
     QuickList<int> order;
+    // What the graph was built of, beside the supports: it is the same of the same.
+    QuickList<(int Start, int Count)> builtOf;
+    int builtBodyCount;
+    // Heights change in each step.
+    bool dependsOnHeights;
 
     /// <summary>Bodies, island after island, in each from the ground upwards.</summary>
     internal QuickList<LoadNode> Nodes;
@@ -58,6 +64,9 @@ unsafe struct SupportGraph
     internal void Build<THeights>(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, THeights heights, BufferPool pool)
         where THeights : struct, IHeights
     {
+        if (IsBuiltOf(found, pieces, bodyCount))
+            return;
+        Dispose(pool);
         var count = 0;
         foreach (var piece in pieces)
             count += piece.Count;
@@ -66,6 +75,25 @@ unsafe struct SupportGraph
         LinkAbove(bodyCount);
         OrderUpwards(bodyCount, heights, pool);
         MakeNodes(bodyCount, pool);
+        builtOf = new QuickList<(int, int)>(pieces.Length, pool);
+        foreach (var piece in pieces)
+            builtOf.AddUnsafely(piece);
+        builtBodyCount = bodyCount;
+    }
+
+    // The supports lie by their upper body, each with its place among those found: no two have the same, so they are all.
+    readonly bool IsBuiltOf(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount)
+    {
+        if (!builtOf.Span.Allocated || dependsOnHeights || bodyCount != builtBodyCount || !builtOf.AsSpan().SequenceEqual(pieces))
+            return false;
+        for (int i = 0; i < starts[bodyCount]; ++i)
+        {
+            ref var support = ref byUpper[i];
+            ref var link = ref found[support.Found];
+            if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount || link.Slides != support.Slides)
+                return false;
+        }
+        return true;
     }
 
     void Take(int linkCount, int bodyCount, BufferPool pool)
@@ -152,6 +180,7 @@ unsafe struct SupportGraph
         {
             if (taken == order.Count)
             {
+                dependsOnHeights = true;
                 if (!byHeight.Allocated)
                     SortByHeight(bodyCount, heights, pool, out byHeight);
                 while (positions[byHeight[lowest]] >= 0 || waiting[byHeight[lowest]] == 0)
@@ -290,6 +319,8 @@ unsafe struct SupportGraph
         for (int i = start; i < end; ++i)
         {
             ref var node = ref Nodes[i];
+            // Nothing is left of the last step.
+            node = new() { Body = node.Body, FirstSupport = node.FirstSupport, SupportCount = node.SupportCount };
             var link = node.FirstSupport;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
@@ -330,6 +361,8 @@ unsafe struct SupportGraph
             Links.Dispose(pool);
             Islands.Dispose(pool);
         }
+        if (builtOf.Span.Allocated)
+            builtOf.Dispose(pool);
         this = default;
     }
 }
