@@ -23,8 +23,10 @@ struct RankedChild
     public const float Unknown = float.MinValue;
     /// <summary>Place of the result, in the order of children.</summary>
     public int Slot;
-    /// <summary>Whether it has taken the normal of another; whether others may take its own.</summary>
-    public bool HasYielded, IsLeader;
+    /// <summary>Whether it has taken the normal of another.</summary>
+    public bool HasYielded;
+    /// <summary>Of a leader, whose normal others may take: the one that was accepted before it; negative for the first.</summary>
+    public int PreviousLeader;
     /// <summary>Patch that its contacts are in; -1 where there is none.</summary>
     public int Patch;
     /// <summary>
@@ -78,6 +80,23 @@ static class ChildAgreement
 
     // Directions that others may yield to. What comes after these is accepted as it is.
     const int MaximumLeaderCount = 32;
+
+    /// <summary>Brings the children of a set in order.</summary>
+    public static unsafe void Begin(SeamView view)
+    {
+        ref var set = ref view.Set;
+        set.Count = SeamMemory.Sort(view.Ranked, set.Results);
+        set.Index = set.LastLeader = -1;
+        set.HasOneA = set.HasOneB = true;
+        for (int i = 1; i < set.Count; ++i)
+        {
+            var (first, other) = (view.Result(view.Ranked[0]).Children, view.Result(view.Ranked[i]).Children);
+            set.HasOneA &= first.A == other.A;
+            set.HasOneB &= first.B == other.B;
+        }
+        // What is alone agrees with itself.
+        set.Stage = set.Count > 1 ? SeamStage.Next : SeamStage.Done;
+    }
 
     /// <summary>Works on a set, until tests are to be looked at or all children agree.</summary>
     /// <param name="tests">What the last round has found, and room for the tests of the next.</param>
@@ -146,21 +165,19 @@ static class ChildAgreement
         ref var child = ref view.Ranked[index];
         ref var result = ref view.Result(child);
         var (hasA, hasB) = (false, false);
-        for (int i = 0; i < index && !(hasA && hasB); ++i)
+        for (int i = view.Set.LastLeader; i >= 0 && !(hasA && hasB); i = view.Ranked[i].PreviousLeader)
         {
             ref var leader = ref view.Ranked[i];
-            if (!leader.IsLeader || leader.Group != child.Group)
-                continue;
             ref var accepted = ref view.Result(leader);
-            if (!HasOneNormal(accepted.Manifold.Normal, result.Manifold.Normal))
+            if (leader.Group != child.Group || !HasOneNormal(accepted.Manifold.Normal, result.Manifold.Normal))
                 continue;
             hasA |= accepted.Children.A == result.Children.A || accepted.Children.A == AnyChild;
             hasB |= leader.Pair == child.Pair && accepted.Children.B == result.Children.B;
         }
-        if (!hasA && (!hasB || result.Children.A == AnyChild || !IsAlone(view, index, byA: true)))
+        if (!hasA && (!hasB || result.Children.A == AnyChild || !(view.Set.HasOneB || IsAlone(view, index, byA: true))))
             return false;
         // Children of one pair have agreed when those of several do.
-        return hasB || child.Pair != 0 || IsAlone(view, index, byA: false);
+        return hasB || child.Pair != 0 || view.Set.HasOneA || IsAlone(view, index, byA: false);
     }
 
     // Whether no child with another normal has its A, or its B.
@@ -278,7 +295,8 @@ static class ChildAgreement
     {
         ref var set = ref view.Set;
         ref var leader = ref view.Ranked[set.Index];
-        leader.IsLeader = true;
+        leader.PreviousLeader = set.LastLeader;
+        set.LastLeader = set.Index;
         ++set.LeaderCount;
         if (set.Stage == SeamStage.Rivals)
         {

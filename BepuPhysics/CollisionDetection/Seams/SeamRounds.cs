@@ -29,7 +29,7 @@ static class SeamRounds
         }
     }
 
-    static unsafe void Advance(ref SeamMemory memory, ref SeamSet set, SeamView view, BufferPool pool)
+    static void Advance(ref SeamMemory memory, ref SeamSet set, SeamView view, BufferPool pool)
     {
         switch (set.Stage)
         {
@@ -46,9 +46,7 @@ static class SeamRounds
                 ++set.Stage;
                 break;
             case SeamStage.Order:
-                set.Count = SeamMemory.Sort(view.Ranked, set.Results);
-                // What is alone agrees with itself.
-                set.Stage = set.Count > 1 ? SeamStage.Next : SeamStage.Done;
+                ChildAgreement.Begin(view);
                 break;
             default:
                 ChildAgreement.Advance(ref memory.Tests, view, pool);

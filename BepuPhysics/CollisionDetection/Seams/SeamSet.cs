@@ -34,8 +34,10 @@ unsafe struct SeamSet
     public SeamStage Stage;
     /// <summary>The child that is looked at, by its place in the order.</summary>
     public int Index;
-    /// <summary>Number of children that others may yield to.</summary>
-    public int LeaderCount;
+    /// <summary>Number of children that others may yield to; the last of them.</summary>
+    public int LeaderCount, LastLeader;
+    /// <summary>Whether all have one child of A, or of B: those of the other shape are all different then.</summary>
+    public bool HasOneA, HasOneB;
     /// <summary>Its tests of the last round.</summary>
     public SeamTests Tests;
     /// <summary>What the set is of.</summary>

@@ -27,6 +27,8 @@ static class TriangleNeighbours
         public Vector3 Normal;
         // Directions in its plane out of each edge; bounds of directions at each edge.
         public Vector3 Out0, Out1, Out2, Bound0, Bound1, Bound2;
+        // Corners, less the first.
+        readonly Vector3 corner1, corner2;
         public readonly bool IsA;
 
         public Surface(in Triangle triangle, in Quaternion orientation, in TriangleCone cone, bool isA)
@@ -35,6 +37,7 @@ static class TriangleNeighbours
             var ab = Exact.Rotate(triangle.B - triangle.A, orientation);
             var bc = Exact.Rotate(triangle.C - triangle.B, orientation);
             var ca = Exact.Rotate(triangle.A - triangle.C, orientation);
+            (corner1, corner2) = (ab, -ca);
             Normal = Exact.Normalize(Exact.Cross(ab, ca));
             Out0 = Exact.Normalize(Exact.Cross(Normal, ab));
             Out1 = Exact.Normalize(Exact.Cross(Normal, bc));
@@ -47,15 +50,21 @@ static class TriangleNeighbours
         // The direction of the bound that a direction is farthest beyond; zero where it is beyond none.
         public readonly Vector3 Violated(in Vector3 direction)
         {
+            // What touches the triangle elsewhere is not at an edge: where the triangle is obtuse, it may lean beyond that all the same.
+            var (reach1, reach2) = (Exact.Dot(direction, corner1), Exact.Dot(direction, corner2));
+            var farthest = MathHelper.Max(0, MathHelper.Max(reach1, reach2)) - Beyond * MathHelper.Max(Exact.Length(corner1), Exact.Length(corner2));
             var (most, bound) = (Beyond, default(Vector3));
-            if (Exact.Dot(direction, Bound0) is var first && first > most)
+            if (IsAtEdge(0, reach1, reach2, farthest) && Exact.Dot(direction, Bound0) is var first && first > most)
                 (most, bound) = (first, Bound0);
-            if (Exact.Dot(direction, Bound1) is var second && second > most)
+            if (IsAtEdge(reach1, reach2, 0, farthest) && Exact.Dot(direction, Bound1) is var second && second > most)
                 (most, bound) = (second, Bound1);
-            if (Exact.Dot(direction, Bound2) > most)
+            if (IsAtEdge(reach2, 0, reach1, farthest) && Exact.Dot(direction, Bound2) > most)
                 bound = Bound2;
             return bound;
         }
+
+        // Whether the farthest point is one of an edge, by how far its ends and the corner opposite are: not that corner, unless the edge is as far as a whole.
+        static bool IsAtEdge(float a, float b, float opposite, float farthest) => opposite < farthest || (a >= farthest && b >= farthest);
     }
 
     /// <summary>Looks children that were touched beyond their neighbours up along the directions that there are.</summary>
