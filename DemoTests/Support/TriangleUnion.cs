@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
+using BepuPhysics.Collidables;
 using Demos.References;
 
 namespace DemoTests.Support;
@@ -27,6 +28,25 @@ sealed class TriangleUnion
     readonly List<ConvexReference> references = [];
     readonly Double3 meshOffset;
 
+    TriangleUnion(ConvexShape shape) => (this.shape, toWorld) = (shape, ConvexRotation.Identity);
+
+    /// <summary>Triangles that are moved as one thing, and others that stay: all pairs of them that are in reach.</summary>
+    /// <param name="movers">The triangles that are moved, less their position.</param>
+    /// <param name="triangles">The others.</param>
+    /// <param name="position">Where the movers are.</param>
+    /// <param name="reach">How far they may be moved, m.</param>
+    public static TriangleUnion Of(Triangle[] movers, (Vector3 A, Vector3 B, Vector3 C)[] triangles, Vector3 position, double reach)
+    {
+        TriangleUnion all = new(ConvexShape.Triangle(movers[0].A, movers[0].B, movers[0].C));
+        foreach (var mover in movers)
+        {
+            var one = ConvexShape.Triangle(mover.A, mover.B, mover.C);
+            // Planes depend on nothing but the shapes and the position.
+            all.polytopes.AddRange(new TriangleUnion(one, position, Quaternion.Identity, triangles, reach).polytopes);
+        }
+        return all;
+    }
+
     /// <param name="shape">The shape.</param>
     /// <param name="position">Where it is, in the frame of the triangles.</param>
     /// <param name="orientation">How it lies there.</param>
@@ -43,7 +63,7 @@ sealed class TriangleUnion
             var far = shape.OuterRadius + reach;
             if (Beyond(a.X, b.X, c.X, middle.X, far) || Beyond(a.Y, b.Y, c.Y, middle.Y, far) || Beyond(a.Z, b.Z, c.Z, middle.Z, far))
                 continue;
-            if (shape.Kind is ConvexKind.Box or ConvexKind.Hull)
+            if (shape.Kind is ConvexKind.Box or ConvexKind.Hull or ConvexKind.Triangle)
             {
                 var planes = CreatePlanes([ToLocal(a), ToLocal(b), ToLocal(c)]);
                 if (planes.Min(plane => plane.Depth) > -reach)

@@ -164,4 +164,48 @@ sealed record MeshSample(Vector3[] Vertices, int[] Indices)
         }
         return new([.. vertices], [.. indices]);
     }
+
+    /// <summary>Surface of the solid cells of a grid: closed, two triangles for each side of a cell that is next to none.</summary>
+    /// <param name="x">Borders of the cells along X, in ascending order, m; the others alike.</param>
+    /// <param name="y">Those along Y.</param>
+    /// <param name="z">Those along Z.</param>
+    /// <param name="isSolid">Whether a cell is solid, by its indices. No two solid cells may meet in an edge alone.</param>
+    public static MeshSample Blocks(float[] x, float[] y, float[] z, Func<int, int, int, bool> isSolid)
+    {
+        float[][] lines = [x, y, z];
+        var numbers = new Dictionary<(int, int, int), int>();
+        var vertices = new List<Vector3>();
+        var indices = new List<int>();
+        bool Has(int[] cell) => cell[0] >= 0 && cell[1] >= 0 && cell[2] >= 0 && cell[0] < x.Length - 1 && cell[1] < y.Length - 1 && cell[2] < z.Length - 1
+            && isSolid(cell[0], cell[1], cell[2]);
+        for (int i = 0; i < (x.Length - 1) * (y.Length - 1) * (z.Length - 1) * 6; ++i)
+        {
+            int face = i % 6, rest = i / 6;
+            int[] cell = [rest % (x.Length - 1), rest / (x.Length - 1) % (y.Length - 1), rest / (x.Length - 1) / (y.Length - 1)];
+            int axis = face / 2, upper = face % 2;
+            int[] next = [.. cell];
+            next[axis] += 2 * upper - 1;
+            if (!Has(cell) || Has(next))
+                continue;
+            int a = Number(0, 0), b = Number(1, 0), c = Number(0, 1), d = Number(1, 1);
+            // Clockwise from outside.
+            indices.AddRange(upper == 1 ? [a, c, b, b, c, d] : [a, b, c, b, d, c]);
+
+            int Number(int u, int v)
+            {
+                int[] corner = [.. cell];
+                corner[axis] += upper;
+                corner[(axis + 1) % 3] += u;
+                corner[(axis + 2) % 3] += v;
+                var key = (corner[0], corner[1], corner[2]);
+                if (!numbers.TryGetValue(key, out var number))
+                {
+                    vertices.Add(new(lines[0][corner[0]], lines[1][corner[1]], lines[2][corner[2]]));
+                    numbers.Add(key, number = vertices.Count - 1);
+                }
+                return number;
+            }
+        }
+        return new([.. vertices], [.. indices]);
+    }
 }
