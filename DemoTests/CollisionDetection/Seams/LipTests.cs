@@ -1,6 +1,5 @@
 using System;
 using System.Linq;
-using System.Numerics;
 using DemoTests.CollisionDetection.Children;
 using Xunit;
 using Xunit.Abstractions;

@@ -5,7 +5,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.CollisionDetection.Children;
-using DemoTests.Compounds;
 using Xunit;
 using Xunit.Abstractions;
 
