@@ -82,8 +82,12 @@ public unsafe class ChildBenchmarks : IDisposable
             for (int j = 0; j < 3; ++j)
             {
                 var corner = j == 0 ? triangle.A : j == 1 ? triangle.B : triangle.C;
-                ConvexContactManifold.GetConvexContactReference(ref found[i].Manifold, j) =
-                    new() { Offset = corner with { Y = -.5f } + offset with { Y = 0 }, Depth = Depth - (isSuspect ? .1f : i > 0 ? .01f : 0) * Depth, FeatureId = j };
+                ConvexContactManifold.GetConvexContactReference(ref found[i].Manifold, j) = new()
+                {
+                    Offset = corner with { Y = -.5f } + offset with { Y = 0 },
+                    Depth = Depth - (isSuspect ? .1f : i > 0 ? .01f : 0) * Depth,
+                    FeatureId = j,
+                };
             }
         }
     }

@@ -22,7 +22,7 @@ public enum SeparateFloor
     Meshes,
     /// <summary>Kinematic boxes of 1 m that rest.</summary>
     Kinematics,
-    /// <summary>One mesh of squares of 2 m, every other one of which is cut into 3 x 7: vertices in the middle of the others' edges, which nobody shares.</summary>
+    /// <summary>One mesh of squares of 2 m, every other one of which is cut into 3 x 7: vertices in the middle of the others' edges.</summary>
     Junctions,
 }
 

@@ -200,13 +200,13 @@ public sealed class UnionDepthTests(ITestOutputHelper output) : IDisposable
         excesses.Sort();
         rests.Sort();
         var (excess, rest) = (excesses[(excesses.Count - 1) * 99 / 100], rests[(rests.Count - 1) * 99 / 100]);
-        output.WriteLine($"{kind}: {excesses.Count} cases, {missed} missed; at the 99th percentile {excess:g3} of the inner radius too far and {rest:g3} left; " +
-            $"at most {excesses[^1]:g3} and {rests[^1]:g3}");
+        output.WriteLine($"{kind}: {excesses.Count} cases, {missed} missed; at the 99th percentile {excess:g3} of the inner radius too far " +
+            $"and {rest:g3} left; at most {excesses[^1]:g3} and {rests[^1]:g3}");
         Assert.InRange(excesses.Count, cases.Count / 2, cases.Count);
         Assert.InRange(excess, 0, 1e-3);
         // What is not yet as it should be. The corners of a disc that is a hundredth as thick as wide are not always its lowest points: up to .007 of its
-        // inner radius is left in the mesh, where 1e-3 may be. And of a thousand capsules six have no contact at all, of other shapes one, where none may be without: where triangles
-        // are obtuse, or a corner of a saddle is touched, each of them takes the contact for one of its neighbours'.
+        // inner radius is left in the mesh, where 1e-3 may be. And of a thousand capsules six have no contact at all, of other shapes one, where none may be
+        // without: where triangles are obtuse, or a corner of a saddle is touched, each of them takes the contact for one of its neighbours'.
         Assert.InRange(rest, 0, kind == ConvexKind.Cylinder ? 7e-3 : 1e-3);
         Assert.InRange(missed, 0, cases.Count / 150);
     }
