@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
@@ -28,6 +29,58 @@ public class IslandTests
             counts.Add(expected.Count);
         }
         Assert.True(counts.Count > 5, "The scene has hardly changed.");
+    }
+
+    /// <summary>After each single edit, with part of the bodies asleep: those that sleep as one island, and those that would.</summary>
+    [Fact]
+    public void After_each_of_a_thousand_edits_islands_are_what_a_walk_finds()
+    {
+        using var scramble = new Scramble(seed: 31, threads: 1, sizes: null, sleeps: true);
+        var (most, asleep, awake) = (0, 0, 0);
+        for (int edit = 0; edit < 1000; ++edit)
+        {
+            // Long enough without one, now and then, for what rests to sleep.
+            for (int step = edit % 20 == 0 ? 12 : edit % 2; step > 0; --step)
+                scramble.Step();
+            scramble.Change();
+            var expected = Walk(scramble);
+            var active = Find(scramble.Simulation);
+            var sleeping = FindSleeping(scramble);
+            Assert.Equal(expected, active.Concat(sleeping).OrderBy(island => scramble.Bodies.First(body => body.Value == island[0]).Slot));
+            most = Math.Max(most, expected.Max(island => island.Length));
+            asleep += sleeping.Count;
+            awake += active.Count;
+        }
+        Assert.True(most > 5 && asleep > 500 && awake > 5000, $"at most {most} bodies in an island; {asleep} asleep, {awake} awake");
+    }
+
+    // The bodies that sleep, by the island that each was put into.
+    static List<int[]> FindSleeping(Scramble scramble)
+    {
+        var bodies = scramble.Simulation.Bodies;
+        return [.. scramble.Bodies
+            .Where(body => bodies.IsAsleep(body.Slot) && !bodies[body].Kinematic)
+            .GroupBy(body => bodies.Asleep.Islands[bodies.Locations[body.Slot].Index])
+            .Select(island => island.OrderBy(body => body.Slot).Select(body => body.Value).ToArray())];
+    }
+
+    // By the joints that the scramble knows of and the contacts that each body has, wherever it is.
+    static List<int[]> Walk(Scramble scramble)
+    {
+        var bodies = scramble.Simulation.Bodies;
+        var joined = scramble.Bodies.ToDictionary(body => body, _ => new List<BodyHandle>());
+        foreach (var (a, b) in scramble.Joined)
+        {
+            joined[a].Add(b);
+            joined[b].Add(a);
+        }
+        return Walk(scramble.Bodies.Where(body => !bodies[body].Kinematic), body =>
+        {
+            var open = new Queue<BodyHandle>(joined[body]);
+            var neighbours = new Neighbours { Found = open };
+            bodies.EnumerateConnectedBodies(body, ref neighbours);
+            return open;
+        });
     }
 
     [Fact]
@@ -74,25 +127,32 @@ public class IslandTests
 
     static List<int[]> Walk(Simulation simulation)
     {
-        var left = new SortedDictionary<int, BodyHandle>();
-        for (int i = 0; i < simulation.Bodies.ActiveSet.Count; ++i)
+        var bodies = simulation.Bodies;
+        var all = Enumerable.Range(0, bodies.ActiveSet.Count).Select(i => bodies.ActiveSet.IndexToHandle[i]);
+        return Walk(all.Where(body => !bodies[body].Kinematic), body =>
         {
-            var handle = simulation.Bodies.ActiveSet.IndexToHandle[i];
-            if (!simulation.Bodies[handle].Kinematic)
-                left.Add(handle.Slot, handle);
-        }
+            var neighbours = new Neighbours { Found = new() };
+            bodies.EnumerateConnectedBodies(body, ref neighbours);
+            return neighbours.Found;
+        });
+    }
+
+    // Depth first; a neighbour that is none of the bodies ends the way.
+    static List<int[]> Walk(IEnumerable<BodyHandle> bodies, Func<BodyHandle, IEnumerable<BodyHandle>> neighboursOf)
+    {
+        var left = new SortedDictionary<int, BodyHandle>(bodies.ToDictionary(body => body.Slot));
         var islands = new List<int[]>();
         while (left.Count > 0)
         {
             var island = new SortedDictionary<int, BodyHandle>();
-            var open = new Queue<BodyHandle>([left.First().Value]);
-            while (open.TryDequeue(out var body))
+            var open = new Stack<BodyHandle>([left.First().Value]);
+            while (open.TryPop(out var body))
             {
                 if (!left.Remove(body.Slot))
                     continue;
                 island.Add(body.Slot, body);
-                var neighbours = new Neighbours { Found = open };
-                simulation.Bodies.EnumerateConnectedBodies(body, ref neighbours);
+                foreach (var neighbour in neighboursOf(body))
+                    open.Push(neighbour);
             }
             islands.Add([.. island.Values.Select(body => body.Value)]);
         }

@@ -31,7 +31,7 @@ public class LevelTests
     const int Half = 8;
 
     // A plane through a point, turned at random about its normal and shifted along itself.
-    static void AddPlane(ClusterWorld world, LevelGround ground, Quaternion turn, Vector3 place, int seed)
+    internal static void AddPlane(ClusterWorld world, LevelGround ground, Quaternion turn, Vector3 place, int seed)
     {
         var random = new Random(seed);
         turn *= Quaternion.CreateFromAxisAngle(Vector3.UnitY, random.NextSingle() * 6);

@@ -22,6 +22,8 @@ public enum SeparateFloor
     Meshes,
     /// <summary>Kinematic boxes of 1 m that rest.</summary>
     Kinematics,
+    /// <summary>One mesh of squares of 2 m, every other one of which is cut into 3 x 7: vertices in the middle of the others' edges.</summary>
+    Junctions,
 }
 
 /// <summary>Floors of separate statics whose top is at y = 0.</summary>
@@ -38,11 +40,12 @@ static class SeparateFloors
         var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitY, random.NextSingle() * .7f - .35f);
         var shift = new Vector3(random.NextSingle() - .5f, 0, random.NextSingle() - .5f);
         var shapes = world.Simulation.Shapes;
-        var size = floor switch { SeparateFloor.TenByTen => 3, SeparateFloor.Fields => 4, SeparateFloor.Meshes => 24, _ => 1 };
+        var size = floor switch { SeparateFloor.TenByTen => 3, SeparateFloor.Fields => 4, SeparateFloor.Meshes => 24, SeparateFloor.Junctions => 36, _ => 1 };
         var shape = floor switch
         {
             SeparateFloor.Fields => AddField(world),
             SeparateFloor.Meshes => AddMesh(world),
+            SeparateFloor.Junctions => AddJunctions(world, size),
             _ => shapes.Add(new Box(size, 1, size)),
         };
         var cells = new List<(int X, int Z)>(Cells(size, floor, turn, shift));
@@ -53,7 +56,8 @@ static class SeparateFloors
             var isHigh = (x + z) % 2 != 0;
             // Boxes are placed by their centre, grids by their corner.
             var local = floor is SeparateFloor.Fields ? new Vector3(x, 0, z) * size
-                : floor is SeparateFloor.Meshes ? new Vector3(x * size - 13, 0, z * size - 12) : new Vector3((x + .5f) * size, -.5f, (z + .5f) * size);
+                : floor is SeparateFloor.Meshes ? new Vector3(x * size - 13, 0, z * size - 12)
+                : floor is SeparateFloor.Junctions ? new Vector3(-6.3f, 0, -18.7f) : new Vector3((x + .5f) * size, -.5f, (z + .5f) * size);
             Put(local + new Vector3(0, isHigh ? lip : 0, 0));
             if (floor == SeparateFloor.Voxels)
                 Put(local - Vector3.UnitY);
@@ -75,6 +79,11 @@ static class SeparateFloors
         {
             yield return (0, 0);
             yield return (1, 0);
+            yield break;
+        }
+        if (floor == SeparateFloor.Junctions)
+        {
+            yield return (0, 0);
             yield break;
         }
         for (int x = -6 / size - 1; x < 28 / size; ++x)
@@ -109,6 +118,31 @@ static class SeparateFloors
                     continue;
                 var corner = z * (Count + 1) + x;
                 indices.AddRange([corner, corner + 1, corner + Count + 1, corner + 1, corner + Count + 2, corner + Count + 1]);
+            }
+        }
+        var mesh = new Mesh(vertices.ToArray(), indices.ToArray(), Vector3.One, world.Simulation.BufferPool);
+        world.Own(mesh);
+        return world.Simulation.Shapes.Add(mesh);
+    }
+
+    static TypedIndex AddJunctions(ClusterWorld world, int size)
+    {
+        const int Square = 2;
+        var vertices = new List<Vector3>();
+        var indices = new List<int>();
+        for (int i = 0; i < size * size / (Square * Square); ++i)
+        {
+            var (x, z) = (i % (size / Square), i / (size / Square));
+            var (countX, countZ) = (x + z) % 2 == 0 ? (1, 1) : (3, 7);
+            var first = vertices.Count;
+            for (int j = 0; j < (countX + 1) * (countZ + 1); ++j)
+            {
+                var (column, row) = (j % (countX + 1), j / (countX + 1));
+                vertices.Add(new Vector3(x + (float)column / countX, 0, z + (float)row / countZ) * Square);
+                if (column == countX || row == countZ)
+                    continue;
+                var corner = first + j;
+                indices.AddRange([corner, corner + 1, corner + countX + 1, corner + 1, corner + countX + 2, corner + countX + 1]);
             }
         }
         var mesh = new Mesh(vertices.ToArray(), indices.ToArray(), Vector3.One, world.Simulation.BufferPool);
