@@ -90,9 +90,11 @@ static class ChildAgreement
         set.HasOneA = set.HasOneB = true;
         for (int i = 1; i < set.Count; ++i)
         {
-            var (first, other) = (view.Result(view.Ranked[0]).Children, view.Result(view.Ranked[i]).Children);
-            set.HasOneA &= first.A == other.A;
-            set.HasOneB &= first.B == other.B;
+            ref var first = ref view.Ranked[0];
+            ref var other = ref view.Ranked[i];
+            set.HasOneA &= view.Result(first).Children.A == view.Result(other).Children.A;
+            // Children of several pairs are those of several shapes.
+            set.HasOneB &= first.Pair == other.Pair && view.Result(first).Children.B == view.Result(other).Children.B;
         }
         // What is alone agrees with itself.
         set.Stage = set.Count > 1 ? SeamStage.Next : SeamStage.Done;
@@ -263,16 +265,16 @@ static class ChildAgreement
         var ranked = view.Ranked;
         var index = view.Set.Index;
         ref var child = ref ranked[index];
-        var least = child.Depth - ToleranceOf(child, view);
+        var tolerance = ToleranceOf(child, view);
         var first = tests.Count;
         for (int i = index + 1; i < ranked.Length && ranked[i].Class == child.Class && tests.Count - first < 2 * MaximumLeaderCount; ++i)
         {
             if (!MayYield(ranked[i], child, view))
                 continue;
-            if (ranked[i].Depth < least)
+            if (ranked[i].Depth < child.Depth - tolerance)
                 break;
-            AddFollower(ref tests, view, index, i, pool);
-            AddFollower(ref tests, view, i, index, pool);
+            AddFollower(ref tests, view, index, i, tolerance, pool);
+            AddFollower(ref tests, view, i, index, tolerance, pool);
         }
     }
 
@@ -332,22 +334,25 @@ static class ChildAgreement
         var known = view.Set.Stage == SeamStage.Rivals ? view.Set.Tests.First + 1 : view.Set.Tests.End;
         for (int i = index + 1; i < view.Ranked.Length; ++i)
         {
-            if (known < view.Set.Tests.End && tests[known].Owner == i)
+            var isRival = known < view.Set.Tests.End && tests[known].Owner == i;
+            if (isRival || MayYield(view.Ranked[i], view.Ranked[index], view))
             {
-                Follow(view, tests[known]);
-                known += 2;
+                var tolerance = ToleranceOf(view.Ranked[i], view);
+                // A rival was allowed what the leader is, which may be another child of the body.
+                if (isRival && tests[known].GreatestDepth == view.Ranked[index].Overlap + tolerance)
+                    Follow(view, tests[known]);
+                else
+                    AddFollower(ref tests, view, i, index, tolerance, pool);
             }
-            else if (MayYield(view.Ranked[i], view.Ranked[index], view))
-                AddFollower(ref tests, view, i, index, pool);
+            known += isRival ? 2 : 0;
         }
     }
 
-    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, BufferPool pool)
+    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, float tolerance, BufferPool pool)
     {
-        ref var child = ref view.Ranked[follower];
-        ref var placed = ref view.Placed(child);
+        ref var placed = ref view.Placed(view.Ranked[follower]);
         var normal = view.Result(view.Ranked[leader]).Manifold.Normal;
-        tests.Add(placed, normal, view.Ranked[leader].Overlap + ToleranceOf(child, view), placed.SpeculativeMargin, follower, pool);
+        tests.Add(placed, normal, view.Ranked[leader].Overlap + tolerance, placed.SpeculativeMargin, follower, pool);
     }
 
     static void Follow(SeamView view, in DirectedPair test)

@@ -19,6 +19,9 @@ unsafe struct DirectedTests(BufferPool pool)
     /// <summary>Number of pairs that were added since the last round.</summary>
     public readonly int Count => added.Count;
 
+    /// <summary>Number of pairs of the last round.</summary>
+    public readonly int FoundCount => found.Count;
+
     /// <summary>A pair of the last round, in the order in which they were added.</summary>
     public readonly ref DirectedPair this[int index] => ref found[index];
 

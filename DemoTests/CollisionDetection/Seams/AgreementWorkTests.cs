@@ -31,17 +31,23 @@ public sealed unsafe class AgreementWorkTests : IDisposable
         var (results, placed) = (new ChildResult[PatchSet.Capacity + count], new PlacedChildren[count]);
         var children = results.AsSpan(PatchSet.Capacity);
         var suspectCount = Fill(children, placed, percent);
-        memory.Rank(children, pool);
-        TriangleNeighbours.Apply(ref memory, children, placed, Margin, pool);
-        memory.Sort(children);
-        ChildAgreement.Run(ref memory, children, placed, pool);
-        Assert.Equal(1, memory.Leaders.Count);
+        fixed (ChildResult* first = children)
+        fixed (PlacedChildren* places = placed)
+        {
+            for (int i = 0; i < count; ++i)
+                memory.Touching.Add(new() { Slot = i }, pool);
+            memory.Sets.Add(new() { Results = first, Placed = places, Count = count, Stage = SeamStage.DirectionsOfB }, pool);
+            SeamRounds.Run(ref memory, pool);
+        }
+        ref var set = ref memory.Sets[0];
+        Assert.Equal(1, set.LeaderCount);
         // What was looked at last is what the leader was offered to.
-        Assert.Equal(suspectCount, memory.Ranked.AsSpan().ToArray().Count(child => child.HasYielded));
+        Assert.Equal(suspectCount, memory.TouchingOf(set).ToArray().Count(child => child.HasYielded));
         if (suspectCount > 0)
-            Assert.Equal(suspectCount, memory.Tests.Count);
+            Assert.Equal(suspectCount, memory.Tests.FoundCount);
         foreach (ref var child in children)
             Assert.Equal(Vector3.UnitY, child.Manifold.Normal);
+        memory.Rank(memory.TouchingOf(set), pool);
         Assert.Equal(1, PatchSet.Build(ref memory, children, placed, default, results.AsSpan(0, PatchSet.Capacity), pool));
         memory.Dispose(pool);
     }
@@ -72,7 +78,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
             results[i].Children = new(0, i);
             results[i].Manifold.Normal = isSuspect ? Vector3.Normalize(new(.035f * cosine, 1, .035f * sine)) : Vector3.UnitY;
             results[i].Manifold.Count = 1;
-            results[i].Manifold.Contact0 = new() { Offset = offset with { Y = -.5f }, Depth = Depth - (isSuspect ? .1f : i > 0 ? .01f : 0) * Depth };
+            results[i].Manifold.Contact0 = new() { Offset = offset with { Y = -.5f }, Depth = Depth - (isSuspect ? .2f : i > 0 ? .01f : 0) * Depth };
         }
         return suspectCount;
     }
