@@ -107,11 +107,14 @@ public unsafe class ChildBenchmarks : IDisposable
     {
         found.CopyTo(results, Room);
         var children = results.AsSpan(Room);
-        if (!memory.Rank(children, pool))
-            return;
-        TriangleNeighbours.Apply(ref memory, children, placed, Margin, pool);
-        memory.Sort(children);
-        ChildAgreement.Run(ref memory, children, placed, pool);
+        memory.Begin();
+        fixed (ChildResult* first = children)
+        fixed (PlacedChildren* places = placed)
+        {
+            memory.Add(first, places, Children, owner: 0, pool);
+            SeamRounds.Run(ref memory, pool);
+        }
+        memory.Rank(memory.TouchingOf(memory.Sets[0]), pool);
         PatchCount = PatchSet.Build(ref memory, children, placed, default, results.AsSpan(0, Room), pool);
     }
 }

@@ -104,7 +104,10 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     int IUnmanagedMemoryPool.GetCapacityForCount<T>(int count) => GetCapacityForCount<T>(count);
 
-    /// <summary>Asks the system, if need be, for so much memory that blocks of one power of two fill a number of bytes, lent ones included.</summary>
+    /// <summary>
+    /// Asks the system, if need be, for so much memory that blocks of one power of two fill a number of bytes, lent ones included. It is kept until
+    /// <see cref="Clear"/>.
+    /// </summary>
     /// <param name="byteCount">Number of bytes.</param>
     /// <param name="power">Exponent of the size of a block, in [0, 30].</param>
     public void EnsureCapacityForPower(int byteCount, int power)
@@ -211,7 +214,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     /// <summary>
     /// Gives memory back to the system that nobody has borrowed since the last call: blocks that are lent stay, and so do those that were lent at
-    /// some time in between, and small ones. A simulation asks for it from time to time.
+    /// some time in between, small ones, and what <see cref="EnsureCapacityForPower"/> has asked for. A simulation asks for it from time to time.
     /// </summary>
     public void Trim()
     {

@@ -29,6 +29,8 @@ sealed unsafe class PowerPool
     int idleSlotCount;
     // Slots, lent before, whose memory went back to the system.
     int hollowSlotCount;
+    // Bytes that were asked for, and are kept.
+    ulong reservedByteCount;
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="power">Exponent of the size of a slot in bytes.</param>
@@ -81,6 +83,7 @@ sealed unsafe class PowerPool
     /// <summary>Asks the system for memory until at least so many bytes are held.</summary>
     public void EnsureCapacity(ulong byteCount)
     {
+        reservedByteCount = Math.Max(reservedByteCount, byteCount);
         while (AllocatedByteCount < byteCount)
         {
             if (hollowSlotCount > 0)
@@ -90,20 +93,24 @@ sealed unsafe class PowerPool
         }
     }
 
-    /// <summary>Gives memory back to the system that nobody has borrowed since the last call. Slots that share an allocation stay.</summary>
+    /// <summary>
+    /// Gives memory back to the system that nobody has borrowed since the last call. Slots that share an allocation stay, and so does what was asked for.
+    /// </summary>
     public void Trim()
     {
-        if (slotShift == 0 && idleSlotCount > 0)
+        var kept = (int)((reservedByteCount + (1ul << allocationPower) - 1) >> allocationPower);
+        var goneCount = Math.Min(idleSlotCount, allocationCount - hollowSlotCount - kept);
+        if (slotShift == 0 && goneCount > 0)
         {
-            for (int i = 0; i < idleSlotCount; ++i)
+            for (int i = 0; i < goneCount; ++i)
             {
                 ref var allocation = ref allocations[freeSlots[i]];
                 NativeMemory.AlignedFree((void*)allocation);
                 allocation = 0;
             }
-            hollowSlotCount += idleSlotCount;
-            freeSlotCount -= idleSlotCount;
-            Array.Copy(freeSlots, idleSlotCount, freeSlots, 0, freeSlotCount);
+            hollowSlotCount += goneCount;
+            freeSlotCount -= goneCount;
+            Array.Copy(freeSlots, goneCount, freeSlots, 0, freeSlotCount);
         }
         idleSlotCount = freeSlotCount;
     }
@@ -147,6 +154,7 @@ sealed unsafe class PowerPool
         freeSlotCount = 0;
         idleSlotCount = 0;
         hollowSlotCount = 0;
+        reservedByteCount = 0;
     }
 
     int TakeFree()

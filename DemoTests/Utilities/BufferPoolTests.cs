@@ -128,8 +128,6 @@ public unsafe class BufferPoolTests
             Assert.Equal(4096 + size, pool.GetTotalAllocatedByteCount());
             Assert.Equal(128 + size, pool.GetTotalTakenByteCount());
             Assert.Equal(-1, buffers[0].AsSpan().IndexOfAnyExcept((byte)0x55));
-            pool.EnsureCapacityForPower((int)(2 * size), 16);
-            Assert.Equal(2 * (int)size, pool.GetCapacityForPower(16));
             pool.Return(ref buffers[0]);
         }
         pool.Return(ref small);
@@ -138,6 +136,35 @@ public unsafe class BufferPoolTests
         pool.Trim();
         // Small blocks share an allocation, which stays.
         Assert.Equal(4096ul, pool.GetTotalAllocatedByteCount());
+    }
+
+    [Fact]
+    public void WhatWasAskedForIsNotTrimmed()
+    {
+        const int size = 65536;
+        using var pool = new BufferPool(4096);
+        pool.Take(size, out Buffer<byte> first);
+        pool.Take(size, out Buffer<byte> second);
+        pool.Return(ref first);
+        pool.Return(ref second);
+        pool.Trim();
+        pool.Trim();
+        Assert.Equal(0ul, pool.GetTotalAllocatedByteCount());
+        pool.EnsureCapacityForPower(size + 1, 16);
+        Assert.Equal(2 * size, pool.GetCapacityForPower(16));
+        pool.Take(size, out first);
+        pool.Take(size, out second);
+        pool.Take(size, out Buffer<byte> third);
+        foreach (var buffer in new[] { first, second, third })
+            buffer.AsSpan().Fill(1);
+        pool.Return(ref first);
+        pool.Return(ref second);
+        pool.Return(ref third);
+        for (int i = 0; i < 3; ++i)
+            pool.Trim();
+        Assert.Equal(2 * (ulong)size, pool.GetTotalAllocatedByteCount());
+        pool.Clear();
+        Assert.Equal(0ul, pool.GetTotalAllocatedByteCount());
     }
 
     [Fact]

@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using BepuPhysics.Collidables;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -153,26 +152,7 @@ unsafe struct ChildPairs(BufferPool pool)
     public bool WaitToJoin(int parent, BufferPool pool)
     {
         ref var open = ref parents[parent];
-        ref var touching = ref Seams.Touching;
-        var set = new SeamSet
-        {
-            Owner = parent,
-            Results = open.Slots.Memory + PatchSet.Capacity,
-            Placed = open.Placed.Memory,
-            First = touching.Count,
-            Index = -1,
-        };
-        var hasTriangle = false;
-        for (int i = 0; i < open.SlotCount; ++i)
-        {
-            if (set.Results[i].Manifold.Count == 0)
-                continue;
-            touching.Add(new() { Slot = i }, pool);
-            hasTriangle |= set.Placed[i].TypeA == Triangle.Id || set.Placed[i].TypeB == Triangle.Id;
-        }
-        set.Count = touching.Count - set.First;
-        set.Stage = set.Count == 0 ? SeamStage.Done : hasTriangle ? SeamStage.DirectionsOfB : SeamStage.Order;
-        Seams.Sets.Add(set, pool);
+        Seams.Add(open.Slots.Memory + PatchSet.Capacity, open.Placed.Memory, open.SlotCount, parent, pool);
         return Seams.Sets.Count == SeamMemory.SetCapacity;
     }
 

@@ -1,4 +1,5 @@
 using System;
+using BepuPhysics.Collidables;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -28,6 +29,28 @@ struct SeamMemory(BufferPool pool)
 
     /// <summary>Forgets all sets.</summary>
     public void Begin() => Sets.Count = Touching.Count = 0;
+
+    /// <summary>Adds the children of a parent, as they were found.</summary>
+    /// <param name="results">What was found for each.</param>
+    /// <param name="placed">Where each is.</param>
+    /// <param name="count">Number of them.</param>
+    /// <param name="owner">What they are of.</param>
+    /// <param name="pool">Source of memory.</param>
+    public unsafe void Add(ChildResult* results, PlacedChildren* placed, int count, int owner, BufferPool pool)
+    {
+        var set = new SeamSet { Owner = owner, Results = results, Placed = placed, First = Touching.Count, Index = -1 };
+        var hasTriangle = false;
+        for (int i = 0; i < count; ++i)
+        {
+            if (results[i].Manifold.Count == 0)
+                continue;
+            Touching.Add(new() { Slot = i }, pool);
+            hasTriangle |= placed[i].TypeA == Triangle.Id || placed[i].TypeB == Triangle.Id;
+        }
+        set.Count = Touching.Count - set.First;
+        set.Stage = set.Count == 0 ? SeamStage.Done : hasTriangle ? SeamStage.DirectionsOfB : SeamStage.Order;
+        Sets.Add(set, pool);
+    }
 
     /// <summary>The children of a set that touch.</summary>
     public readonly Span<RankedChild> TouchingOf(in SeamSet set) => Touching.AsSpan().Slice(set.First, set.Count);

@@ -34,9 +34,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
         fixed (ChildResult* first = children)
         fixed (PlacedChildren* places = placed)
         {
-            for (int i = 0; i < count; ++i)
-                memory.Touching.Add(new() { Slot = i }, pool);
-            memory.Sets.Add(new() { Results = first, Placed = places, Count = count, Stage = SeamStage.DirectionsOfB }, pool);
+            memory.Add(first, places, count, owner: 0, pool);
             SeamRounds.Run(ref memory, pool);
         }
         ref var set = ref memory.Sets[0];
