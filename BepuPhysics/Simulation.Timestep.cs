@@ -7,8 +7,8 @@ namespace BepuPhysics;
 // The step. DefaultTimestepper calls these stages in order; Docs/Timestep.md says what each reads and writes.
 public sealed partial class Simulation
 {
-    // About a second: what is needed so often is not worth giving back.
-    const int StepsBetweenTrims = 64;
+    // Some seconds: what is needed so often is not worth giving back.
+    const int StepsBetweenTrims = 256;
 
     int stepsUntilTrim = StepsBetweenTrims;
 

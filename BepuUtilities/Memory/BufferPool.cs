@@ -214,7 +214,8 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     /// <summary>
     /// Gives memory back to the system that nobody has borrowed since the last call: blocks that are lent stay, and so do those that were lent at
-    /// some time in between, small ones, and what <see cref="EnsureCapacityForPower"/> has asked for. A simulation asks for it from time to time.
+    /// some time in between, small ones, and what <see cref="EnsureCapacityForPower"/> has asked for.
+    /// What is needed again after that is kept for twice as many calls from then on. A simulation calls this from time to time.
     /// </summary>
     public void Trim()
     {

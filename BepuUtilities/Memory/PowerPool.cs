@@ -29,6 +29,10 @@ sealed unsafe class PowerPool
     int idleSlotCount;
     // Slots, lent before, whose memory went back to the system.
     int hollowSlotCount;
+    // Trims that a slot has to be idle for, and those that there were since the last which gave memory back. What is needed again soon after that is kept
+    // for twice as long from then on: a scene whose needs come and go takes nothing from the system any more after a while.
+    int patience = 1, trimCount;
+    const int MaximumPatience = 1 << 20;
     // Bytes that were asked for, and are kept.
     ulong reservedByteCount;
 
@@ -98,6 +102,9 @@ sealed unsafe class PowerPool
     /// </summary>
     public void Trim()
     {
+        if (++trimCount < patience)
+            return;
+        trimCount = 0;
         var kept = (int)((reservedByteCount + (1ul << allocationPower) - 1) >> allocationPower);
         var goneCount = Math.Min(idleSlotCount, allocationCount - hollowSlotCount - kept);
         if (slotShift == 0 && goneCount > 0)
@@ -155,6 +162,8 @@ sealed unsafe class PowerPool
         idleSlotCount = 0;
         hollowSlotCount = 0;
         reservedByteCount = 0;
+        patience = 1;
+        trimCount = 0;
     }
 
     int TakeFree()
@@ -168,7 +177,10 @@ sealed unsafe class PowerPool
     int TakeUnused()
     {
         if (hollowSlotCount > 0)
+        {
+            patience = Math.Min(patience * 2, MaximumPatience);
             return Refill();
+        }
         if (usedSlotCount == allocationCount << slotShift)
             Allocate();
         return usedSlotCount++;

@@ -60,7 +60,7 @@ public class MemoryTests
     [InlineData(1), InlineData(2)]
     public void What_the_first_step_needed_goes_back(int threads)
     {
-        const int width = 160;
+        const int width = 120;
         var scene = new SceneDescription { Name = "boxes" };
         int ground = scene.AddBox(400, 1, 400), box = scene.AddBox(0.5f, 0.5f, 0.5f);
         scene.AddStatic(ground, new Vector3(0, -1, 0));
@@ -69,7 +69,7 @@ public class MemoryTests
         using var world = new SceneWorld(scene, threads);
         world.Step();
         var most = world.PoolBytes;
-        for (int i = 0; i < 150; ++i)
+        for (int i = 0; i < 520; ++i)
             world.Step();
         Assert.InRange(world.PoolBytes, 1ul, most * 2 / 3);
         world.Simulation.Validate();

@@ -107,35 +107,54 @@ public unsafe class BufferPoolTests
         using var pool = new BufferPool(4096);
         var buffers = new Buffer<byte>[3];
         pool.Take(100, out Buffer<byte> small);
-        for (int round = 0; round < 3; ++round)
-        {
-            foreach (ref var buffer in buffers.AsSpan())
-                pool.Take((int)size, out buffer);
-            Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
-            Assert.Equal(128 + 3 * size, pool.GetTotalTakenByteCount());
-            pool.Return(ref buffers[1]);
-            pool.Return(ref buffers[2]);
-            pool.Trim();
-            // They were lent a moment ago.
-            Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
-            pool.Take((int)size, out buffers[1]);
-            buffers[1].AsSpan().Fill((byte)round);
-            buffers[0].AsSpan().Fill(0x55);
-            pool.Return(ref buffers[1]);
-            pool.Trim();
-            Assert.Equal(4096 + 2 * size, pool.GetTotalAllocatedByteCount());
-            pool.Trim();
-            Assert.Equal(4096 + size, pool.GetTotalAllocatedByteCount());
-            Assert.Equal(128 + size, pool.GetTotalTakenByteCount());
-            Assert.Equal(-1, buffers[0].AsSpan().IndexOfAnyExcept((byte)0x55));
-            pool.Return(ref buffers[0]);
-        }
+        foreach (ref var buffer in buffers.AsSpan())
+            pool.Take((int)size, out buffer);
+        Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
+        Assert.Equal(128 + 3 * size, pool.GetTotalTakenByteCount());
+        pool.Return(ref buffers[1]);
+        pool.Return(ref buffers[2]);
+        pool.Trim();
+        // They were lent a moment ago.
+        Assert.Equal(4096 + 3 * size, pool.GetTotalAllocatedByteCount());
+        pool.Take((int)size, out buffers[1]);
+        buffers[0].AsSpan().Fill(0x55);
+        pool.Return(ref buffers[1]);
+        pool.Trim();
+        Assert.Equal(4096 + 2 * size, pool.GetTotalAllocatedByteCount());
+        pool.Trim();
+        Assert.Equal(4096 + size, pool.GetTotalAllocatedByteCount());
+        Assert.Equal(128 + size, pool.GetTotalTakenByteCount());
+        Assert.Equal(-1, buffers[0].AsSpan().IndexOfAnyExcept((byte)0x55));
+        pool.Return(ref buffers[0]);
         pool.Return(ref small);
         pool.AssertEmpty();
         pool.Trim();
         pool.Trim();
         // Small blocks share an allocation, which stays.
         Assert.Equal(4096ul, pool.GetTotalAllocatedByteCount());
+    }
+
+    [Fact]
+    public void WhatIsNeededAgainIsKeptForTwiceAsLong()
+    {
+        const int size = 65536;
+        using var pool = new BufferPool(4096);
+        var patience = 1;
+        for (int need = 0; need < 5; ++need)
+        {
+            pool.Take(size, out Buffer<byte> buffer);
+            buffer.AsSpan().Fill((byte)need);
+            pool.Return(ref buffer);
+            // The trims until it counts as lent no more, and as many again.
+            var trims = 0;
+            while (pool.GetTotalAllocatedByteCount() > 0)
+            {
+                pool.Trim();
+                ++trims;
+            }
+            Assert.InRange(trims, patience + 1, 2 * patience);
+            patience *= 2;
+        }
     }
 
     [Fact]

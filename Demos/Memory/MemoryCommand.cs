@@ -17,7 +17,7 @@ static class MemoryCommand
     public static Command Create(Func<ParseResult, Func<int>, int> guard)
     {
         var bodies = new Option<int>("--bodies") { Description = "Boxes that lie on a ground, apart from each other.", DefaultValueFactory = _ => 100_000 };
-        var steps = new Option<int>("--steps") { Description = "Steps before memory is looked at.", DefaultValueFactory = _ => 200 };
+        var steps = new Option<int>("--steps") { Description = "Steps before memory is looked at.", DefaultValueFactory = _ => 600 };
         var threads = new Option<int>("--threads") { Description = "Threads that step.", DefaultValueFactory = _ => 1 };
         var peer = new Option<string?>("--peer")
         {

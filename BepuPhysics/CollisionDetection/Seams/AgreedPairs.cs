@@ -9,6 +9,9 @@ struct AgreedPairs
 {
     QuickList<AgreedPair> now, before;
 
+    // Pairs that there is room for without a need; and how many times those that there are.
+    const int LeastRoom = 64, MostRoom = 4;
+
     /// <summary>The pairs of this step.</summary>
     public readonly Span<AgreedPair> Now => now.AsSpan();
 
@@ -22,6 +25,12 @@ struct AgreedPairs
     {
         (now, before) = (before, now);
         now.Count = 0;
+        // In its first step each pair waits; of what lies on one ground, no later one.
+        if (now.Span.Allocated && now.Span.Length > Math.Max(LeastRoom, MostRoom * count))
+        {
+            now.Dispose(pool);
+            now = default;
+        }
         if (count == 0)
             return;
         if (!now.Span.Allocated)

@@ -49,11 +49,11 @@ public sealed class MeshSerializationTests : IDisposable
     [Fact]
     public void The_bytes_of_a_mesh_do_not_change_from_machine_to_machine()
     {
-        // Recorded once: a change here is a change of the form, which has a mark of its own.
+        // Recorded once: a change here is a change of the form, which has a mark of its own, or of the order that the builder of trees leaves equals in.
         var hash = new StateHash();
         hash.Add((ReadOnlySpan<byte>)Write(new([new(0, 0, 0), new(1, 0, 0), new(0, 0, 1), new(1, .5f, 1), new(2, 0, 0)], [0, 1, 2, 1, 3, 2, 1, 4, 3]),
             Vector3.One));
-        Assert.Equal("0xEC8422844C4D67AA", $"0x{hash.Value:X}");
+        Assert.Equal("0xEDB2797E7612D33B", $"0x{hash.Value:X}");
     }
 
     [Fact]

@@ -14,7 +14,6 @@ using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
-
 namespace DemoTests.CollisionDetection.Seams;
 
 /// <summary>
@@ -205,10 +204,10 @@ public sealed class UnionDepthTests(ITestOutputHelper output) : IDisposable
         Assert.InRange(excesses.Count, cases.Count / 2, cases.Count);
         Assert.InRange(excess, 0, 1e-3);
         // What is not yet as it should be. The corners of a disc that is a hundredth as thick as wide are not always its lowest points: up to .007 of its
-        // inner radius is left in the mesh, where 1e-3 may be. And of a thousand capsules six have no contact at all, of other shapes one, where none may be
-        // without: where triangles are obtuse, or a corner of a saddle is touched, each of them takes the contact for one of its neighbours'.
+        // inner radius is left in the mesh, where 1e-3 may be. And four of 3,200 cylinders and one of 3,000 hulls have no contact, where none may be
+        // without: where a corner of a saddle is touched, each triangle takes the contact for one of its neighbours'.
         Assert.InRange(rest, 0, kind == ConvexKind.Cylinder ? 7e-3 : 1e-3);
-        Assert.InRange(missed, 0, cases.Count / 150);
+        Assert.InRange(missed, 0, kind is ConvexKind.Cylinder or ConvexKind.Hull ? cases.Count / 600 : 0);
     }
 
     // Every other pair has the mesh first.
