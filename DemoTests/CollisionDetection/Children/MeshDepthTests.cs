@@ -26,18 +26,18 @@ public sealed class MeshDepthTests(ITestOutputHelper output) : IDisposable
 
     readonly struct Callbacks(List<(Double3 Normal, double Distance)> contacts) : ICollisionCallbacks
     {
-        public bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
-
-        public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
-
         public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
         {
-            for (int i = 0; i < manifold.Count; ++i)
+            for (var contact = 0; contact < manifold.Count; ++contact)
             {
-                manifold.GetContact(i, out _, out var normal, out var depth, out _);
+                manifold.GetContact(contact, out _, out var normal, out var depth, out _);
                 contacts.Add(((Double3)normal * (1 / ((Double3)normal).Length), depth));
             }
         }
+
+        public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
+
+        public bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
     }
 
     static MeshSample Create(string name) => name switch
