@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
-using System.Diagnostics;
 using System.IO;
 using System.Linq;
 using Demos.Accuracy;
@@ -89,16 +88,6 @@ static class JointTablesCommand
         }
     }
 
-    static void RunPeer(string program, JointTable[] tables, Action<JointTableRow> add)
-    {
-        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true };
-        foreach (string argument in (string[])[program, Word, RowsOption, .. tables.Select(table => table.Name)])
-            start.ArgumentList.Add(argument);
-        using Process process = Process.Start(start) ?? throw new SceneException("dotnet cannot be started to run the peer program");
-        while (process.StandardOutput.ReadLine() is string line)
-            add(JointTableRow.Parse(line));
-        process.WaitForExit();
-        if (process.ExitCode != 0)
-            throw new SceneException($"the peer program ended with status {process.ExitCode}");
-    }
+    static void RunPeer(string program, JointTable[] tables, Action<JointTableRow> add) =>
+        PeerProgram.Run(program, [Word, RowsOption, .. tables.Select(table => table.Name)], line => add(JointTableRow.Parse(line)));
 }

@@ -1,6 +1,5 @@
 using System;
 using System.CommandLine;
-using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using Demos.Engine;
@@ -58,13 +57,10 @@ static class MemoryCommand
 
     static string[] RunRow(string program, int bodies, int steps, int threads)
     {
-        var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true };
-        foreach (string argument in (string[])[program, Word, RowOption, "--bodies", Number(bodies), "--steps", Number(steps), "--threads", Number(threads)])
-            start.ArgumentList.Add(argument);
-        using Process process = Process.Start(start) ?? throw new SceneException($"{program} cannot be started");
-        string line = process.StandardOutput.ReadToEnd();
-        process.WaitForExit();
-        return process.ExitCode == 0 ? line.Trim().Split(';') : throw new SceneException($"{program} ended with status {process.ExitCode}");
+        string[] cells = [];
+        PeerProgram.Run(program, [Word, RowOption, "--bodies", Number(bodies), "--steps", Number(steps), "--threads", Number(threads)],
+            line => cells = line.Split(';'));
+        return cells;
     }
 
     static string Number(int number) => number.ToString(CultureInfo.InvariantCulture);

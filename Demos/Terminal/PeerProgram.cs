@@ -14,6 +14,22 @@ public static class PeerProgram
     public static string Find(string programOrFolder) =>
         programOrFolder.EndsWith(".dll", StringComparison.OrdinalIgnoreCase) ? programOrFolder : Build(programOrFolder);
 
+    /// <summary>Runs a program, this one or the peer's, in a process of its own, and reads what it writes.</summary>
+    /// <param name="program">Path of the assembly.</param>
+    /// <param name="arguments">Its arguments.</param>
+    /// <param name="read">Called with each line.</param>
+    /// <exception cref="SceneException">It cannot be started, or does not end well.</exception>
+    public static void Run(string program, string[] arguments, Action<string> read)
+    {
+        var start = new ProcessStartInfo("dotnet", [program, .. arguments]) { RedirectStandardOutput = true };
+        using Process process = Process.Start(start) ?? throw new SceneException($"dotnet cannot be started to run {program}");
+        while (process.StandardOutput.ReadLine() is string line)
+            read(line);
+        process.WaitForExit();
+        if (process.ExitCode != 0)
+            throw new SceneException($"{program} ended with status {process.ExitCode}");
+    }
+
     /// <summary>Builds it and returns the path of the assembly.</summary>
     /// <param name="folder">Holds the peer's BepuPhysics.dll and BepuUtilities.dll.</param>
     /// <exception cref="SceneException">There is no such engine in the folder, or the program does not compile against it.</exception>

@@ -32,8 +32,8 @@ unsafe struct BodyAgreement(BufferPool pool)
     /// <returns>Its number.</returns>
     public int BeginBody(BufferPool pool)
     {
-        // The owner is the place of its first result until all bodies are there.
-        memory.Sets.Add(new() { First = memory.Touching.Count, Owner = results.Count, Stage = SeamStage.Done, Index = -1 }, pool);
+        // Each child that is added has a place of its own among the results, which is that among those that touch.
+        memory.Sets.Add(new() { First = results.Count, Stage = SeamStage.Done, Index = -1 }, pool);
         return memory.Sets.Count - 1;
     }
 
@@ -47,7 +47,7 @@ unsafe struct BodyAgreement(BufferPool pool)
     public int Add(in SeamChild child, int pair, int group, int remembered, BufferPool pool)
     {
         ref var set = ref memory.Sets[memory.Sets.Count - 1];
-        if (set.Count > 0 && !ChildAgreement.HasOneNormal(results[set.Owner].Manifold.Normal, child.Result.Manifold.Normal))
+        if (set.Count > 0 && !ChildAgreement.HasOneNormal(results[set.First].Manifold.Normal, child.Result.Manifold.Normal))
             set.Stage = SeamStage.Order;
         memory.Touching.Add(new() { Slot = set.Count, Class = child.Class, Pair = pair, Group = group, Remembered = remembered }, pool);
         placed.Add(child.Placed, pool);
@@ -78,8 +78,8 @@ unsafe struct BodyAgreement(BufferPool pool)
     {
         foreach (ref var set in memory.Sets.AsSpan())
         {
-            set.Results = results.Span.Memory + set.Owner;
-            set.Placed = placed.Span.Memory + set.Owner;
+            set.Results = results.Span.Memory + set.First;
+            set.Placed = placed.Span.Memory + set.First;
         }
         SeamRounds.Run(ref memory, pool);
     }

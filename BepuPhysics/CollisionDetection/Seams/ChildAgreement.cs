@@ -152,7 +152,7 @@ static class ChildAgreement
             }
         }
         while (ranked[set.Index].HasYielded || HasLeader(view, set.Index));
-        if (view.Placed(ranked[set.Index]).AreKnown && HasNext(view, set.Index))
+        if (view.Placed(ranked[set.Index]).AreKnown && HasFollower(view, set.Index, ofClass: true))
         {
             AddOverlaps(ref tests, view, pool);
             set.Stage = SeamStage.Measured;
@@ -218,10 +218,11 @@ static class ChildAgreement
     // Depth by which a child may be deeper than what it yields to.
     static float ToleranceOf(in RankedChild child, SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
 
-    static bool HasNext(SeamView view, int index)
+    // Whether one of those that come later, or of those of its class, may yield to a child.
+    static bool HasFollower(SeamView view, int index, bool ofClass)
     {
         var ranked = view.Ranked;
-        for (int i = index + 1; i < ranked.Length && ranked[i].Class == ranked[index].Class; ++i)
+        for (int i = index + 1; i < ranked.Length && !(ofClass && ranked[i].Class != ranked[index].Class); ++i)
         {
             if (MayYield(ranked[i], ranked[index], view))
                 return true;
@@ -305,7 +306,7 @@ static class ChildAgreement
             AddFollowers(ref tests, view, pool);
             set.Stage = SeamStage.Followers;
         }
-        else if (HasFollower(view, set.Index))
+        else if (HasFollower(view, set.Index, ofClass: false))
         {
             if (view.Placed(leader).AreKnown)
                 AddOverlap(ref tests, view, set.Index, pool);
@@ -315,16 +316,6 @@ static class ChildAgreement
         }
         else
             set.Stage = SeamStage.Next;
-    }
-
-    static bool HasFollower(SeamView view, int index)
-    {
-        for (int i = index + 1; i < view.Ranked.Length; ++i)
-        {
-            if (MayYield(view.Ranked[i], view.Ranked[index], view))
-                return true;
-        }
-        return false;
     }
 
     static void AddFollowers(ref DirectedTests tests, SeamView view, BufferPool pool)
