@@ -67,4 +67,26 @@ public class StyleTests(ITestOutputHelper output)
         }
         Assert.Empty(found);
     }
+
+    [Fact]
+    public void Namespaces_that_are_used_are_in_order()
+    {
+        List<string> found = [];
+        foreach (var file in Files)
+        {
+            var lines = RepositoryFiles.Read(file).Split('\n').Where(line => line.StartsWith("using ", StringComparison.Ordinal)).ToArray();
+            if (!lines.SequenceEqual(lines.OrderBy(KindOfUsing).ThenBy(line => line.TrimEnd(';'), StringComparer.OrdinalIgnoreCase)))
+                found.Add(file);
+        }
+        Assert.Empty(found);
+    }
+
+    // Those of the framework, all others, members of types, other names of types.
+    static int KindOfUsing(string line) => line switch
+    {
+        _ when line.StartsWith("using static ", StringComparison.Ordinal) => 2,
+        _ when line.Contains('=', StringComparison.Ordinal) => 3,
+        _ when line.StartsWith("using System;", StringComparison.Ordinal) || line.StartsWith("using System.", StringComparison.Ordinal) => 0,
+        _ => 1,
+    };
 }
