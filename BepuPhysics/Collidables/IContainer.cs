@@ -20,6 +20,17 @@ unsafe struct ContainerChild
     public TriangleCone Cone;
 }
 
+/// <summary>How something that is inside of a container gets out, in the container's frame.</summary>
+struct WayOut
+{
+    /// <summary>The child that is passed.</summary>
+    public int Child;
+    /// <summary>Unit direction in which to go.</summary>
+    public Vector3 Normal;
+    /// <summary>Point of the surface that is passed.</summary>
+    public Vector3 Place;
+}
+
 /// <summary>A shape made of convex children, numbered from zero, in a tree or in a list.</summary>
 /// <remarks>
 /// Children are found by boxes in the container's own frame. Everything that is found may be wider than it need be, never narrower. It must
@@ -53,6 +64,18 @@ unsafe interface IContainer : IShape
     /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
     /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
     void FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool);
+
+    /// <summary>Whether the children are triangles of a surface, not bodies with a middle.</summary>
+    static abstract bool IsSurface { get; }
+
+    /// <summary>Whether what is inside is pushed out; of surfaces only.</summary>
+    bool IsSolid { get; }
+
+    /// <summary>Finds the nearest way out for a point inside of a container that is solid.</summary>
+    /// <param name="point">The point in the container's frame.</param>
+    /// <param name="way">The way out.</param>
+    /// <returns>Whether the point is inside.</returns>
+    bool FindWayOut(Vector3 point, out WayOut way);
 
     /// <summary>Gets a child.</summary>
     /// <param name="index">Number of the child.</param>

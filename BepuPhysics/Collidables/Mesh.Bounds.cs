@@ -46,7 +46,7 @@ public unsafe partial struct Mesh
         ApplyScale(ref min, ref max);
     }
 
-    readonly void ApplyScale(ref Vector3 min, ref Vector3 max)
+    internal readonly void ApplyScale(ref Vector3 min, ref Vector3 max)
     {
         Vector3 a = min * scale, b = max * scale;
         min = Exact.Min(a, b);

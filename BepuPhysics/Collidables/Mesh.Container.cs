@@ -45,6 +45,8 @@ public unsafe partial struct Mesh : IContainer
 
     static bool IContainer.IsList => false;
 
+    static bool IContainer.IsSurface => true;
+
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
         FindLocalOverlaps(min, max, ref found, pool);
 

@@ -13,6 +13,7 @@ public unsafe partial struct Mesh
     // "TBM1", so that another kind of file, or a later form, is told apart.
     const uint Magic = 0x314D4254;
     const int PrefixByteCount = 32;
+    const int TwoSidedFlag = 1, SolidFlag = 2;
 
     /// <summary>Loads a mesh from bytes that <see cref="Serialize"/> wrote, on this or any other machine.</summary>
     /// <remarks>Bytes that were damaged are refused, and nothing outside of them is read. A mesh is loaded as it was built, without building it
@@ -36,13 +37,19 @@ public unsafe partial struct Mesh
             throw new ArgumentException("The mesh is damaged: its bytes do not have the hash that was written with them.", nameof(data));
         scale = MemoryMarshal.Read<Vector3>(data[12..]);
         MeshBuilder.CheckScale(scale);
-        twoSided = data[24] != 0;
+        twoSided = (data[24] & TwoSidedFlag) != 0;
         pool.Take(data.Length - PrefixByteCount, out this.data);
         data[PrefixByteCount..].CopyTo(this.data.AsSpan());
         if (MeshCheck.FindFault(Header) is { } fault)
         {
             pool.Return(ref this.data);
             throw new ArgumentException($"The mesh is damaged: {fault}.", nameof(data));
+        }
+        solid = (data[24] & SolidFlag) != 0;
+        if (solid && !Report.IsClosed)
+        {
+            pool.Return(ref this.data);
+            throw new ArgumentException("The mesh is damaged: it says that it is solid, and is not closed.", nameof(data));
         }
     }
 
@@ -62,7 +69,7 @@ public unsafe partial struct Mesh
         data[..PrefixByteCount].Clear();
         BinaryPrimitives.WriteUInt32LittleEndian(data, Magic);
         MemoryMarshal.Write(data[12..], scale);
-        data[24] = twoSided ? (byte)1 : (byte)0;
+        data[24] = (byte)((twoSided ? TwoSidedFlag : 0) | (solid ? SolidFlag : 0));
         this.data.AsSpan().CopyTo(data[PrefixByteCount..]);
         BinaryPrimitives.WriteUInt64LittleEndian(data[4..], Hash(data));
     }

@@ -27,6 +27,7 @@ public unsafe partial struct Mesh : IDisposableShape
     Buffer<byte> data;
     Vector3 scale;
     bool twoSided;
+    bool solid;
 
     /// <summary>Creates a mesh and returns the buffer of triangles to the pool.</summary>
     /// <remarks>

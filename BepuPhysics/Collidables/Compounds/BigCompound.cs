@@ -144,6 +144,16 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => false;
 
+    static bool IContainer.IsSurface => false;
+
+    readonly bool IContainer.IsSolid => false;
+
+    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
+    {
+        way = default;
+        return false;
+    }
+
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var collector = new Collector { Found = found, Pool = pool };

@@ -98,6 +98,16 @@ public unsafe struct Compound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => true;
 
+    static bool IContainer.IsSurface => false;
+
+    readonly bool IContainer.IsSolid => false;
+
+    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
+    {
+        way = default;
+        return false;
+    }
+
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         for (int i = 0; i < Children.Length; ++i)

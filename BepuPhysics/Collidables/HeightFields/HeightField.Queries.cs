@@ -30,6 +30,16 @@ public unsafe partial struct HeightField
     static bool IContainer.IsList => false;
 
     // In the order of their numbers.
+    static bool IContainer.IsSurface => true;
+
+    readonly bool IContainer.IsSolid => false;
+
+    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
+    {
+        way = default;
+        return false;
+    }
+
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var (firstX, lastX) = FindCells(min.X, max.X, CellWidth, CellCountX);

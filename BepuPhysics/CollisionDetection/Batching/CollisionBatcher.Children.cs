@@ -69,9 +69,10 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
         if (task.Expands)
             throw new InvalidOperationException($"Children of a shape must be convex: {task.Description}.");
-        var slot = Children->TakeSlot(parent, ids, task.KeepsHistories, children);
+        var keepsHistories = task.KeepsHistories && !children.LeadsOut;
+        var slot = Children->TakeSlot(parent, ids, keepsHistories, children);
         var history = PairInput.NoHistory;
-        if (task.KeepsHistories &&
+        if (keepsHistories &&
             TCallbacks.Recall(ref Callbacks, pair.PairId, ids, children, pair.SpeculativeMargin, out history, ref Children->Slot(slot).Manifold))
         {
             CompleteChild(slot);

@@ -32,6 +32,8 @@ struct FoundChild(int parent, ChildIds children)
 {
     public int Parent = parent;
     public ChildIds Children = children;
+    /// <summary>Whether one is inside of the other's solid, and is to meet the way out in place of a triangle.</summary>
+    public bool LeadsOut;
 }
 
 /// <summary>The convex shapes of two children, and where they are. A shape without children is its own.</summary>
@@ -47,6 +49,8 @@ unsafe struct ChildShapes
     public Quaternion OrientationA, OrientationB;
     /// <summary>What is next to a triangle of a surface; nothing for all else.</summary>
     public TriangleCone ConeA, ConeB;
+    /// <summary>Whether one is a plane that leads out of a solid: what the triangle's tests keep is not of use to it.</summary>
+    public bool LeadsOut;
 }
 
 /// <summary>Expands pairs of which one shape at least is made of children into pairs of children, which are convex.</summary>

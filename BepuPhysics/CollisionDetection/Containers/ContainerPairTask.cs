@@ -1,6 +1,8 @@
 using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -12,6 +14,8 @@ namespace BepuPhysics.CollisionDetection;
 sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<TContainerA, TContainerB>
     where TContainerA : unmanaged, IContainer where TContainerB : unmanaged, IContainer
 {
+    const int InitialCapacity = 16;
+
     // Behind the pairs is room for two children that are made on the way.
     internal override int BatchByteCount => ScratchStart + 2 * IContainer.ScratchByteCount;
 
@@ -30,17 +34,60 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
-                ContainerDescent<TContainerA, TContainerB>.Find(entry.A, entry.B, new(ref motion, i), start + i, entry.Pair.Flipped, shapes, ref found, pool);
+                var placement = new NodePlacement(ref motion, i);
+                var first = found.Count;
+                ContainerDescent<TContainerA, TContainerB>.Find(entry.A, entry.B, placement, start + i, entry.Pair.Flipped, shapes, ref found, pool);
+                if (!TContainerA.IsSurface && entry.B.IsSolid)
+                    FindWaysOut(entry, placement, start + i, first, shapes, ref found, pool);
             }
         }
     }
+
+    // A child of A that is inside of B meets nothing of B but the way out.
+    static void FindWaysOut(in Entry entry, in NodePlacement placement, int parent, int first, Shapes shapes, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        pool.TakeAtLeast<NodeChild>(Math.Max(entry.A.MaximumFanOut, entry.B.MaximumFanOut), out var below);
+        Vector3 min = new(float.MaxValue), max = new(-float.MaxValue);
+        for (int i = entry.B.Open(0, shapes, below.Memory) - 1; i >= 0; --i)
+        {
+            var box = placement.Place(below[i]);
+            min = Exact.Min(min, box.Min);
+            max = Exact.Max(max, box.Max);
+        }
+        if (TContainerA.IsList)
+            entry.A.Open(0, shapes, below.Memory);
+        var near = new QuickList<int>(InitialCapacity, pool);
+        entry.A.FindOverlaps(min, max, below.Memory, ref near, pool);
+        var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
+        foreach (int child in near.AsSpan())
+        {
+            if (!WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.A, child, entry.B, shapes, scratch, out var way))
+                continue;
+            var count = first;
+            for (int i = first; i < found.Count; ++i)
+            {
+                if (ChildOfA(found[i], entry.Pair) != child)
+                    found[count++] = found[i];
+            }
+            found.Count = count;
+            found.Add(new(parent, entry.Pair.Flipped ? new(way.Child, child) : new(child, way.Child)) { LeadsOut = true }, pool);
+        }
+        near.Dispose(pool);
+        pool.Return(ref below);
+    }
+
+    static int ChildOfA(in FoundChild found, in ParentPair pair) => pair.Flipped ? found.Children.B : found.Children.A;
 
     internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
         var scratch = batch.Bundles.Memory + ScratchStart;
         ContainerPlaces.SetParents(entry.Pair, out children);
-        if (entry.Pair.Flipped)
+        if (found.LeadsOut)
+        {
+            SetWayOut(entry, ChildOfA(found, entry.Pair), shapes, scratch, ref children);
+        }
+        else if (entry.Pair.Flipped)
         {
             ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);
             ContainerPlaces.SetB(ref children, entry.A, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
@@ -50,5 +97,16 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
             ContainerPlaces.SetA(ref children, entry.A, found.Children.A, shapes, scratch);
             ContainerPlaces.SetB(ref children, entry.B, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
         }
+    }
+
+    static void SetWayOut(in Entry entry, int child, Shapes shapes, byte* scratch, ref ChildShapes children)
+    {
+        ref readonly var pair = ref entry.Pair;
+        WaysOut.Find(pair, pair.Flipped, entry.A, child, entry.B, shapes, scratch, out var way);
+        WaysOut.Set(ref children, pair.Flipped, way, scratch);
+        if (pair.Flipped)
+            ContainerPlaces.SetB(ref children, entry.A, child, shapes, scratch + IContainer.ScratchByteCount);
+        else
+            ContainerPlaces.SetA(ref children, entry.A, child, shapes, scratch + IContainer.ScratchByteCount);
     }
 }

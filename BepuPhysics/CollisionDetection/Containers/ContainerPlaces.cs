@@ -22,6 +22,7 @@ static unsafe class ContainerPlaces
         children.NameB = pair.NameB;
         children.ConeA = default;
         children.ConeB = default;
+        children.LeadsOut = false;
     }
 
     /// <summary>A child of a container, and a shape that has none.</summary>

@@ -36,19 +36,26 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
+                if (entry.B.IsSolid && WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
+                {
+                    found.Add(new(start + i, Ids(entry.Pair, way.Child)) { LeadsOut = true }, pool);
+                    continue;
+                }
                 children.Count = 0;
                 if (TContainer.IsList)
                     List(entry, shapes, ref list, ref listed, pool);
                 entry.B.FindOverlaps(
                     Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), list.Memory, ref children, pool);
                 for (int j = 0; j < children.Count; ++j)
-                    found.Add(new(start + i, entry.Pair.Flipped ? new(children[j], 0) : new(0, children[j])), pool);
+                    found.Add(new(start + i, Ids(entry.Pair, children[j])), pool);
             }
         }
         children.Dispose(pool);
         if (list.Allocated)
             pool.Return(ref list);
     }
+
+    static ChildIds Ids(in ParentPair pair, int child) => pair.Flipped ? new(child, 0) : new(0, child);
 
     // Measures the children of a container, unless they are those that were measured last.
     static void List(in Entry entry, Shapes shapes, ref Buffer<NodeChild> list, ref TypedIndex listed, BufferPool pool)
@@ -79,8 +86,31 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
+        if (found.LeadsOut)
+        {
+            SetWayOut(ref entry, batch.Bundles.Memory + ScratchStart, out children);
+            return;
+        }
         ContainerPlaces.Set(
             entry.Pair, containerIsA: entry.Pair.Flipped, entry.B, found.Children, TConvex.TypeId, Unsafe.AsPointer(ref entry.A), shapes,
             batch.Bundles.Memory + ScratchStart, out children);
+    }
+
+    static void SetWayOut(ref Entry entry, void* scratch, out ChildShapes children)
+    {
+        ref var pair = ref entry.Pair;
+        ContainerPlaces.SetParents(pair, out children);
+        if (pair.Flipped)
+        {
+            children.TypeB = TConvex.TypeId;
+            children.ShapeB = Unsafe.AsPointer(ref entry.A);
+        }
+        else
+        {
+            children.TypeA = TConvex.TypeId;
+            children.ShapeA = Unsafe.AsPointer(ref entry.A);
+        }
+        WaysOut.Find(pair, pair.Flipped, entry.B, out var way);
+        WaysOut.Set(ref children, pair.Flipped, way, scratch);
     }
 }

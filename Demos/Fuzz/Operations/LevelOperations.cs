@@ -12,6 +12,7 @@ static class LevelOperations
     public static FuzzOperation[] All { get; } =
     [
         new("Shapes.Add mesh", 8, AddMesh),
+        new("Shapes.Add solid mesh", 4, AddSolid),
         new("Shapes.Add height field", 6, AddField),
         new("Shapes.Add half-space", 3, AddHalfSpace),
         new("Mesh of any triangles", 5, MakeMesh),
@@ -43,6 +44,26 @@ static class LevelOperations
         if (w.ShapeNames.Live.Count >= MaximumShapes)
             return;
         var mesh = new Mesh(Triangles(w), w.Random.Spoil(Scale(w), 4), w.Pool) { TwoSided = w.Random.Percent(30) };
+        Own(w, mesh);
+    }
+
+    // A tetrahedron as large as what may get into it, or larger; some of them are inside out or flat, and refused.
+    static void AddSolid(FuzzWorld w)
+    {
+        if (w.ShapeNames.Live.Count >= MaximumShapes)
+            return;
+        var size = w.Random.Number(.5f, 4);
+        Vector3[] corners = [w.Random.Vector(size), w.Random.Vector(size), w.Random.Vector(size), w.Random.Vector(size)];
+        var mesh = new Mesh(corners, [0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0], Scale(w), w.Pool);
+        try
+        {
+            mesh.Solid = true;
+        }
+        catch
+        {
+            mesh.Dispose(w.Pool);
+            throw;
+        }
         Own(w, mesh);
     }
 
