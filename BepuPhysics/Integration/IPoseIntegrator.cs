@@ -25,8 +25,14 @@ public interface IPoseIntegrator
     /// <summary>Tells the callbacks about a time over which velocities will be integrated. Called on the thread that steps.</summary>
     internal void Prepare(float dt);
 
+    /// <summary>Whether bodies without constraints take the substeps of the others, too.</summary>
+    internal bool SubstepsFreeBodies { get; }
+
     /// <summary>Integrates some bundles of the active bodies. Called on worker threads.</summary>
-    internal void Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex);
+    internal void Integrate(IntegrationStage stage, float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex);
+
+    /// <summary>Integrates the free bodies of some bundles, which <see cref="Integrate"/> leaves out, over a whole step. Called on worker threads.</summary>
+    internal void IntegrateFree(float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex);
 
     /// <summary>Velocities that a bundle of bodies will have after a time, for the prediction of bounds.</summary>
     /// <param name="bundle">The bundle.</param>

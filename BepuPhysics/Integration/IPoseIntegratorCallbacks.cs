@@ -46,7 +46,12 @@ public interface IPoseIntegratorCallbacks
     /// <summary>Whether <see cref="IntegrateVelocity"/> is called for kinematic bodies too.</summary>
     bool IntegrateVelocityForKinematics { get; }
 
-    /// <summary>Kept for callers; bodies without constraints are integrated in substeps like all others.</summary>
+    /// <summary>
+    /// Whether bodies without constraints take the substeps of the others. If not, they are integrated once, over the whole step, after its substeps:
+    /// <see cref="PrepareForIntegration"/> and <see cref="IntegrateVelocity"/> are called for that with the time of the step. It takes a fourth of
+    /// the time with four substeps. They move by the mean of the velocities before and after, so gravity alone makes an exact parabola; forces that
+    /// change within a step are resolved less well, and events between substeps find them where the step began.
+    /// </summary>
     bool AllowSubstepsForUnconstrainedBodies { get; }
 
     /// <summary>How orientations and angular velocities are advanced. A value that is none ends the step before it begins.</summary>

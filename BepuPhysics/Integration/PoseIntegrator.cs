@@ -54,7 +54,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Callbacks.PrepareForIntegration(dt);
     }
 
-    void IPoseIntegrator.Integrate(IntegrationStage stage, float dt, int startBundle, int endBundle, int workerIndex)
+    bool IPoseIntegrator.SubstepsFreeBodies => Callbacks.AllowSubstepsForUnconstrainedBodies;
+
+    void IPoseIntegrator.Integrate(
+        IntegrationStage stage, float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex)
     {
         ref var set = ref bodies.Awake;
         var motions = (float*)set.MotionStates.Memory;
@@ -67,6 +70,13 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         for (int bundle = startBundle; bundle < endBundle; ++bundle)
         {
             var indices = Indices(bundle, set.Count, out var exists);
+            if (freeBodies.Exist)
+            {
+                if (stage == IntegrationStage.First)
+                    freeBodies.Find(bundle, set);
+                if (!freeBodies.TryRemove(bundle, ref indices, ref exists))
+                    continue;
+            }
             var rows = new RowOffsets(indices);
             ReadBodies(motions, localInertias, rows, out var pose, out var velocity, out var localInertia);
             var kinematic = IsKinematic(localInertia);
@@ -75,7 +85,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             if (stage == IntegrationStage.First)
                 Begin(origins, displacements, rows, pose.Position, velocity.Linear);
             else if (stage != IntegrationStage.Velocities)
-                MovePoses(motions, origins, displacements, set.PrincipalFrames.Memory, indices, rows, wideDt, localInertia, ref pose, ref velocity);
+                MovePoses(motions, origins, displacements, indices, rows, wideDt, localInertia, velocity.Linear, ref pose, ref velocity);
             if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
@@ -108,6 +118,48 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             }
             WriteVelocity(motions, rows, velocity);
             WriteWorldInertia(worldInertias, rows, worldInertia, localInertia.InverseMass);
+        }
+    }
+
+    // The mean of the velocities at both ends is that of the whole time where the acceleration is the same all along: a parabola, whatever dt is.
+    void IPoseIntegrator.IntegrateFree(float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex)
+    {
+        ref var set = ref bodies.Awake;
+        var motions = (float*)set.MotionStates.Memory;
+        var localInertias = (float*)set.LocalInertias.Memory;
+        var displacements = (float*)set.Displacements.Memory;
+        var origins = (float*)set.Origins.Memory;
+        var wideDt = new Vector<float>(dt);
+        for (int bundle = startBundle; bundle < endBundle; ++bundle)
+        {
+            var indices = Indices(bundle, set.Count, out var exists);
+            if (!freeBodies.TryKeep(bundle, ref indices, ref exists))
+                continue;
+            var rows = new RowOffsets(indices);
+            ReadBodies(motions, localInertias, rows, out var pose, out var velocity, out var localInertia);
+            if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
+                StopAndRead(unsound, indices, ref pose, ref velocity);
+            Begin(origins, displacements, rows, pose.Position, velocity.Linear);
+            var before = velocity.Linear;
+            IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, wideDt, ref velocity);
+            var fast = IsFast(before, velocity.Linear);
+            if (Vector.EqualsAny(fast, new Vector<int>(-1)))
+                KeepLostVelocity(origins, rows, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
+            if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+            {
+                // Where they are now is where they stay.
+                quarantine.Stop(unsound, indices);
+                indices |= unsound;
+                exists = Vector.AndNot(exists, unsound);
+                rows = new RowOffsets(indices);
+            }
+            var mean = (before + velocity.Linear) * new Vector<float>(0.5f);
+            MovePoses(motions, origins, displacements, indices, rows, wideDt, localInertia, mean, ref pose, ref velocity);
+            if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+                StopAndRead(unsound, indices, ref pose, ref velocity);
+            WriteVelocity(motions, rows, velocity);
+            if (keepsLostVelocity)
+                RememberVelocity(origins, rows, velocity.Linear);
         }
     }
 
@@ -243,11 +295,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void MovePoses(
-        float* motions, float* origins, float* displacements, PrincipalFrame* frames, Vector<int> indices, in RowOffsets rows, Vector<float> dt,
-        in BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+        float* motions, float* origins, float* displacements, Vector<int> indices, in RowOffsets rows, Vector<float> dt,
+        in BodyInertiaWide localInertia, in Vector3Wide meanLinear, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, rows);
-        var translation = new Vector3Wide(row.R0, row.R1, row.R2) + velocity.Linear * dt;
+        var translation = new Vector3Wide(row.R0, row.R1, row.R2) + meanLinear * dt;
         var rotation = new Vector3Wide(row.R4, row.R5, row.R6) + velocity.Angular * dt;
         row.R0 = translation.X;
         row.R1 = translation.Y;
@@ -267,7 +319,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 FreeRotation.TurnKeepingMomentum(inverseInertia, dt, ref pose.Orientation, ref velocity.Angular);
                 break;
             case AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque:
-                FreeRotation.Tumble(inverseInertia, frames, indices, dt, ref pose.Orientation, ref velocity.Angular);
+                FreeRotation.Tumble(inverseInertia, bodies.Awake.PrincipalFrames.Memory, indices, dt, ref pose.Orientation, ref velocity.Angular);
                 break;
             default:
                 pose.Orientation = FreeRotation.Turn(pose.Orientation, velocity.Angular, dt);

@@ -13,6 +13,8 @@ namespace BepuPhysics;
 //   for each substep:  integrate bodies;  for each batch: warm start;  for each iteration, for each batch: solve
 //   at the end:        integrate poses
 //
+// Bodies without constraints are moved after that, over the whole step, where the callbacks leave them out of the substeps (Solver.FreeBodies.cs).
+//
 // With relaxation, poses are integrated after the iterations of each substep, and for each relaxation, for each batch: solve, without
 // correction of positions.
 //
@@ -96,10 +98,13 @@ public sealed unsafe partial class Solver
         try
         {
             work.Bodies = new SolverBodies(set);
+            if (!integrator.SubstepsFreeBodies)
+                work.FreeBodies = TakeFreeBodies();
             BuildBlocks(ref work);
             BuildStages(ref work);
             integrator.Prepare(substepDt);
             StagedWork.Run(ref work, dispatcher);
+            MoveFreeBodies(work, dt, dispatcher);
             ReadError();
             BreakOverloaded();
         }
@@ -146,6 +151,7 @@ public sealed unsafe partial class Solver
         if (work.Order.Span.Allocated)
             work.Order.Dispose(pool);
         work.Split.Dispose(pool);
+        work.FreeBodies.Dispose(pool);
     }
 
     void BuildStages(ref SolveWork work)
@@ -273,6 +279,7 @@ public sealed unsafe partial class Solver
         public int Iterations;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
+        public FreeBodies FreeBodies;
         public FallbackParts Split;
         public QuickList<Stage> Stages;
         public QuickList<Block> Blocks;
@@ -299,7 +306,7 @@ public sealed unsafe partial class Solver
                     }
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.Awake.Count);
                     var start = blockIndex * BodyBundlesPerBlock;
-                    Integrator.Integrate(stage.Integration, SubstepDt, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
+                    Integrator.Integrate(stage.Integration, SubstepDt, FreeBodies, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
                     break;
                 case StageKind.WarmStart:
                 case StageKind.Solve:

@@ -9,7 +9,7 @@ readonly struct FuzzPoseIntegratorCallbacks(FuzzPlan plan, AngularIntegrationMod
 {
     public AngularIntegrationMode AngularIntegrationMode => mode;
 
-    public bool AllowSubstepsForUnconstrainedBodies => true;
+    public bool AllowSubstepsForUnconstrainedBodies => mode != AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
     public bool IntegrateVelocityForKinematics => false;
 
