@@ -263,7 +263,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        worker.Statics.Add(tested, convex, material, isOfGame: !BytesOf.AreEqual(shown, manifold), worker.Pool);
+        var isOfGame = !BytesOf.AreEqual(shown, manifold);
+        worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
+        if (isOfGame)
+            AgreedPairs.NoteChange(tested.Pair.A);
+        else
+            AgreedPairs.Note(tested, Key(tested.Pair), convex, Simulation.Bodies, workerIndex, worker.Statics.Pairs.Count - 1);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

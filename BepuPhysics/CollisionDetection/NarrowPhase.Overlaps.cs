@@ -44,6 +44,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             {
                 ReleaseWorkers();
                 ForgetContacts();
+                AgreedPairs.Clear();
                 crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Simulation.Layers, Pool, dispatcher);
                 TryTestPairs(count, dt, dispatcher);
             }
@@ -58,6 +59,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             // Callbacks are the game's and may throw: the step is lost, the memory is not.
             Release(ref order, Pool);
             ReleaseWorkers();
+            AgreedPairs.Clear();
             throw;
         }
         finally

@@ -1,5 +1,5 @@
-using System;
 using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -28,86 +28,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void RememberNothing(in AgreeingBody body)
     {
         for (int i = body.First; i < body.End; ++i)
-            AgreedPairs.Now[i] = new() { Key = order[i].Key };
-    }
-
-    /// <summary>Leaves the pairs of a body what they agreed on a while ago, if all of them have found the same again.</summary>
-    bool TryAgreeAsBefore(in AgreeingBody body)
-    {
-        var before = AgreedBefore(body);
-        if (before.Length == 0 || !HoldsAll(body, before))
-            return false;
-        var next = 0;
-        for (int i = body.First; i < body.End; ++i)
-        {
-            if (!Waiting(i).IsTouching)
-                continue;
-            next = NextWithContacts(before, next);
-            before[next].Apply(ref ResultOf(i, Waiting(i).FirstResult).Manifold);
-            AgreedPairs.Now[i] = before[next++];
-            --AgreedPairs.Now[i].Remaining;
-        }
-        return true;
-    }
-
-    bool HoldsAll(in AgreeingBody body, Span<AgreedPair> before)
-    {
-        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out var shape);
-        var reach = ReachOf(shape);
-        var next = 0;
-        for (int i = body.First; i < body.End; ++i)
-        {
-            if (!Waiting(i).IsTouching)
-                continue;
-            next = NextWithContacts(before, next);
-            if (next == before.Length || before[next].Key != order[i].Key ||
-                !before[next++].Holds(ResultOf(i, Waiting(i).FirstResult).Manifold, pose.Orientation, reach))
-            {
-                return false;
-            }
-        }
-        // Nothing that was touched is missing.
-        return NextWithContacts(before, next) == before.Length;
-    }
-
-    static int NextWithContacts(Span<AgreedPair> pairs, int index)
-    {
-        while (index < pairs.Length && pairs[index].Count == 0)
-            ++index;
-        return index;
-    }
-
-    // The pairs that a body had in the last step.
-    Span<AgreedPair> AgreedBefore(in AgreeingBody body)
-    {
-        var before = AgreedPairs.Before;
-        var handle = BodyOf(body.First);
-        var key = new NoteKey { Key = (ulong)handle << 32 };
-        var comparer = new ByKey();
-        var (first, high) = (0, before.Length);
-        while (first < high)
-        {
-            var middle = (first + high) >>> 1;
-            var other = new NoteKey { Key = before[middle].Key };
-            if (comparer.Compare(ref other, ref key) < 0)
-                first = middle + 1;
-            else
-                high = middle;
-        }
-        var end = first;
-        while (end < before.Length && (uint)(before[end].Key >> 32) == handle)
-            ++end;
-        return before[first..end];
+            AgreedPairs.Pairs[i] = default;
     }
 
     /// <summary>Takes down what the pairs of a body have found, before they agree.</summary>
     void NoteFound(in AgreeingBody body)
     {
-        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out _);
+        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out var shape);
+        var reach = ReachOf(shape);
         for (int i = body.First; i < body.End; ++i)
         {
-            if (Waiting(i).IsTouching)
-                AgreedPairs.Now[i].Find(ResultOf(i, Waiting(i).FirstResult).Manifold, pose.Orientation);
+            ref var pair = ref Waiting(i);
+            if (!pair.IsTouching && !pair.IsOfChildren)
+                continue;
+            ref var agreed = ref AgreedPairs.Pairs[i];
+            agreed.Key = order[i].Key;
+            agreed.Remaining = RetestBound.Lifetime;
+            if (pair.IsTouching)
+                agreed.Find(ResultOf(i, pair.FirstResult).Manifold, pose.Orientation, reach);
         }
     }
 
@@ -116,10 +54,39 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         for (int i = body.First; i < body.End; ++i)
         {
-            if (AgreedPairs.Now[i].Count == 0 || AgreedPairs.Now[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold))
+            if (AgreedPairs.Pairs[i].Count == 0 || AgreedPairs.Pairs[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold))
                 continue;
             RememberNothing(body);
             return;
         }
     }
+
+    /// <summary>Leaves the pairs of bodies what they agreed on a while ago, as all of them have found the same again.</summary>
+    void AgreeAsBefore(ref Worker worker, int first, int end)
+    {
+        ref var statics = ref worker.Statics;
+        while (first < end)
+        {
+            var body = new AgreeingBody { First = first, End = first + AgreedPairs.Pairs[first].PairCount, TouchCount = 2 };
+            statics.Old.Count = 0;
+            for (int i = body.First; i < body.End; ++i)
+            {
+                ref var pair = ref Waiting(i);
+                if (AgreedPairs.Pairs[i].Count > 0)
+                    AgreedPairs.Pairs[i].Apply(ref ResultOf(i, pair.FirstResult).Manifold);
+                if (pair.Tested.ConstraintTypeId >= 0)
+                    ListOldPatch(ref statics, pair.Tested, worker.Pool);
+            }
+            body.OldCount = statics.Old.Count;
+            Complete(ref worker, body);
+            first = body.End;
+        }
+    }
+
+    // All that is asked of it: its contacts are where they were.
+    static void ListOldPatch(ref StaticPairs statics, in TestedPair tested, BufferPool pool) => statics.Old.Add(new()
+    {
+        Constraint = tested.Constraint,
+        ContactCount = Constraints.ConstraintTypeIds.ContactCount(tested.ConstraintTypeId),
+    }, pool);
 }

@@ -12,6 +12,8 @@ struct AgreedPair
 {
     /// <summary>The pair, as a key by which pairs are in order.</summary>
     public ulong Key;
+    /// <summary>Distance from the centre of the body to its farthest point, m.</summary>
+    public float Reach;
     /// <summary>Position of B less that of A, m.</summary>
     public Vector3 OffsetB;
     /// <summary>Orientation of the body.</summary>
@@ -20,19 +22,31 @@ struct AgreedPair
     public Vector3 Normal;
     /// <summary>Features of the contacts.</summary>
     public FeatureIds Features;
-    /// <summary>Number of the contacts that the pair had; zero for one without.</summary>
+    /// <summary>Number of the contacts that the pair had; zero for shapes of children that were near.</summary>
     public byte Count;
     /// <summary>A bit for each of the contacts that is left.</summary>
     public byte Left;
     /// <summary>Steps until the body agrees anew, come what may; zero where nothing is remembered.</summary>
     public short Remaining;
+    /// <summary>Of the first pair of a body: the number of its pairs, which follow one another.</summary>
+    public int PairCount;
+    /// <summary>Of the first pair of a body: how many of its pairs have found the same again in this step.</summary>
+    public int HeldCount;
+    /// <summary>Of the first pair of a body: whether a pair has found anything else in this step.</summary>
+    public bool HasChanged;
+    /// <summary>Where the pair waits in this step: the worker, and its place among those of the worker.</summary>
+    public int Worker, Index;
 
     // Part of the body's reach by which it may have moved: a tenth of what it may be deeper than a child that it yields to.
     const float Tolerance = ChildAgreement.Tolerance * 0.1f;
 
     /// <summary>Takes down what a pair has found.</summary>
-    public void Find(in ConvexContactManifold manifold, in Quaternion orientation)
+    /// <param name="manifold">What it has found.</param>
+    /// <param name="orientation">Orientation of the body.</param>
+    /// <param name="reach">Distance from the centre of the body to its farthest point, m.</param>
+    public void Find(in ConvexContactManifold manifold, in Quaternion orientation, float reach)
     {
+        Reach = reach;
         OffsetB = manifold.OffsetB;
         Orientation = orientation;
         Normal = manifold.Normal;
@@ -64,8 +78,7 @@ struct AgreedPair
     /// <summary>Whether a pair has found the same again, with its body where it was.</summary>
     /// <param name="manifold">What it has found.</param>
     /// <param name="orientation">Orientation of the body.</param>
-    /// <param name="reach">Distance from the centre of the body to its farthest point, m.</param>
-    public readonly bool Holds(in ConvexContactManifold manifold, in Quaternion orientation, float reach)
+    public readonly bool Holds(in ConvexContactManifold manifold, in Quaternion orientation)
     {
         if (Remaining == 0 || manifold.Count != Count)
             return false;
@@ -74,9 +87,12 @@ struct AgreedPair
             if (manifold.GetFeatureId(i) != Features[i])
                 return false;
         }
+        // What is only near may be anywhere there.
+        if (Count == 0)
+            return true;
         var turn = orientation - Orientation;
         // A point at a distance of one moves by no more than twice the difference of the orientations.
-        return Exact.DistanceSquared(manifold.OffsetB, OffsetB) <= Tolerance * Tolerance * reach * reach &&
+        return Exact.DistanceSquared(manifold.OffsetB, OffsetB) <= Tolerance * Tolerance * Reach * Reach &&
             Exact.DistanceSquared(manifold.Normal, Normal) <= Tolerance * Tolerance &&
             turn.X * turn.X + turn.Y * turn.Y + turn.Z * turn.Z + turn.W * turn.W <= Tolerance * Tolerance / 4;
     }

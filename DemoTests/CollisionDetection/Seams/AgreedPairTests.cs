@@ -30,7 +30,7 @@ public class AgreedPairTests
     {
         var pair = default(AgreedPair);
         var manifold = Find();
-        pair.Find(manifold, Orientation);
+        pair.Find(manifold, Orientation, Reach);
         for (int i = 0; i < left.Length; ++i)
             ConvexContactManifold.GetConvexContactReference(ref manifold, i) = ConvexContactManifold.GetConvexContactReference(ref manifold, left[i]);
         manifold.Count = left.Length;
@@ -45,7 +45,7 @@ public class AgreedPairTests
         var manifold = Find();
         for (int i = 0; i < 4; ++i)
             ConvexContactManifold.GetConvexContactReference(ref manifold, i).Depth += .5f;
-        Assert.True(pair.Holds(manifold, Orientation, Reach));
+        Assert.True(pair.Holds(manifold, Orientation));
         pair.Apply(ref manifold);
         Assert.Equal(left.Length, manifold.Count);
         for (int i = 0; i < left.Length; ++i)
@@ -60,7 +60,7 @@ public class AgreedPairTests
     {
         var pair = default(AgreedPair);
         var manifold = Find();
-        pair.Find(manifold, Orientation);
+        pair.Find(manifold, Orientation, Reach);
         manifold.Contact1.FeatureId = 99;
         Assert.False(pair.Leave(manifold));
         manifold = Find();
@@ -72,23 +72,23 @@ public class AgreedPairTests
     public void What_has_moved_or_is_touched_otherwise_agrees_anew()
     {
         var pair = Remember(1, 2);
-        Assert.True(pair.Holds(Find(), Orientation, Reach));
-        Assert.False(default(AgreedPair).Holds(default, Orientation, Reach));
+        Assert.True(pair.Holds(Find(), Orientation));
+        Assert.False(default(AgreedPair).Holds(default, Orientation));
         var manifold = Find();
         manifold.OffsetB.Z += 1e-3f * Reach;
-        Assert.False(pair.Holds(manifold, Orientation, Reach));
+        Assert.False(pair.Holds(manifold, Orientation));
         manifold = Find();
         manifold.Count = 3;
-        Assert.False(pair.Holds(manifold, Orientation, Reach));
+        Assert.False(pair.Holds(manifold, Orientation));
         manifold = Find();
         manifold.Contact3.FeatureId = 14;
-        Assert.False(pair.Holds(manifold, Orientation, Reach));
+        Assert.False(pair.Holds(manifold, Orientation));
         manifold = Find();
         manifold.Normal = Vector3.Normalize(new Vector3(1e-3f, 1, 0));
-        Assert.False(pair.Holds(manifold, Orientation, Reach));
-        Assert.False(pair.Holds(Find(), Quaternion.Concatenate(Orientation, Quaternion.CreateFromAxisAngle(Vector3.UnitX, 1e-3f)), Reach));
+        Assert.False(pair.Holds(manifold, Orientation));
+        Assert.False(pair.Holds(Find(), Quaternion.Concatenate(Orientation, Quaternion.CreateFromAxisAngle(Vector3.UnitX, 1e-3f))));
         pair.Remaining = 0;
-        Assert.False(pair.Holds(Find(), Orientation, Reach));
+        Assert.False(pair.Holds(Find(), Orientation));
     }
 
     // Four boxes that meet at the origin.
@@ -171,7 +171,7 @@ public class AgreedPairTests
     static int CountRemembered(ClusterWorld world)
     {
         var count = 0;
-        foreach (ref var pair in world.Simulation.NarrowPhase.AgreedPairs.Now)
+        foreach (ref var pair in world.Simulation.NarrowPhase.AgreedPairs.Pairs)
             count += pair.Remaining is > 0 and < RetestBound.Lifetime ? 1 : 0;
         return count;
     }
