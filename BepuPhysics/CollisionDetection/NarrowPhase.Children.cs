@@ -151,7 +151,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (isTouching)
             AgreedPairs.NoteChange(tested.Pair.A);
         else
-            AgreedPairs.Note(tested, Key(tested.Pair), default, Simulation.Bodies, workerIndex, worker.Statics.Pairs.Count - 1);
+            NoteFoundAgain(workerIndex, tested.Pair, default, worker.Statics.Pairs.Count - 1);
     }
 
     // What is carried along are patches alone: the children keep their histories.

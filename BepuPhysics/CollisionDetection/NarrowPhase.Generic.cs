@@ -248,27 +248,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Note(ref worker.Pending, pending, worker.Pool, worker.Room);
     }
 
-    // As what does not wait, but for what becomes of the contacts.
+    // As what does not wait, but for what becomes of the contacts. They are kept as the game is shown them, which tells whether it changes them.
     [MethodImpl(MethodImplOptions.NoInlining)]
     void CompleteLater<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        var shown = manifold;
+        ref var worker = ref workers[workerIndex];
+        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
+        var index = worker.Statics.Add(tested, convex, worker.Pool);
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
+            worker.Statics.TakeBack(index);
             if (tested.KeepsHistory)
                 CompleteWithoutContacts(workerIndex, tested);
             return;
         }
-        ref var worker = ref workers[workerIndex];
-        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        var isOfGame = !BytesOf.AreEqual(shown, manifold);
-        worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
-        if (isOfGame)
+        if (worker.Statics.Configure(index, convex, material))
             AgreedPairs.NoteChange(tested.Pair.A);
         else
-            AgreedPairs.Note(tested, Key(tested.Pair), convex, Simulation.Bodies, workerIndex, worker.Statics.Pairs.Count - 1);
+            NoteFoundAgain(workerIndex, tested.Pair, convex, index);
+    }
+
+    void NoteFoundAgain(int workerIndex, in CollidablePair pair, in ConvexContactManifold manifold, int index)
+    {
+        ref var location = ref Simulation.Bodies.Locations[pair.A.Slot];
+        AgreedPairs.Note(pair, manifold, Simulation.Bodies.SetOf(location).MotionStates[location.Index].Pose.Orientation, workerIndex, index);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -75,7 +75,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
         var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
-            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, room);
+            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, workerCount, room);
         FindOverlaps(dispatcher);
         for (int i = 0; i < workerCount; ++i)
             crowd.AddRest(workers[i].PairsLeft);
@@ -99,7 +99,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
     }
 
-    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher, int room)
+    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher, int workerCount, int room)
     {
         worker.Queue.Clear();
         worker.Pool = dispatcher is null ? Pool : dispatcher.WorkerPools[index];
@@ -110,7 +110,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts.Clear();
         worker.Room = room;
-        worker.Statics.Room = room;
+        // What is remembered waits again.
+        worker.Statics.Room = Math.Max(room, AgreedPairs.Pairs.Length / workerCount);
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }

@@ -1,3 +1,4 @@
+using System;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
@@ -28,24 +29,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void RememberNothing(in AgreeingBody body)
     {
         for (int i = body.First; i < body.End; ++i)
-            AgreedPairs.Pairs[i] = default;
+            AgreedPairs.Pairs[i].IsRemembered = false;
     }
 
     /// <summary>Takes down what the pairs of a body have found, before they agree.</summary>
     void NoteFound(in AgreeingBody body)
     {
-        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out var shape);
-        var reach = ReachOf(shape);
         for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
-            if (!pair.IsTouching && !pair.IsOfChildren)
-                continue;
             ref var agreed = ref AgreedPairs.Pairs[i];
-            agreed.Key = order[i].Key;
-            agreed.Remaining = RetestBound.Lifetime;
+            agreed = new() { B = pair.Tested.Pair.B, IsRemembered = pair.IsTouching || pair.IsOfChildren };
             if (pair.IsTouching)
-                agreed.Find(ResultOf(i, pair.FirstResult).Manifold, pose.Orientation, reach);
+                agreed.Find(ResultOf(i, pair.FirstResult).Manifold);
         }
     }
 
@@ -61,27 +57,67 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
+    /// <summary>Remembers the bodies that have agreed anew.</summary>
+    void RememberAgreed()
+    {
+        var count = heldCount;
+        for (int first = heldCount, end; first < order.Count; first = end)
+        {
+            var isRemembered = AgreedPairs.Pairs[first].IsRemembered;
+            for (end = first + 1; end < order.Count && BodyOf(end) == BodyOf(first); ++end)
+                isRemembered |= AgreedPairs.Pairs[end].IsRemembered;
+            if (!isRemembered)
+                continue;
+            var body = PairOf(order[first].Key).A;
+            AgreedPairs.EnsureSlots(Simulation.Bodies.Locations.Length, Pool);
+            Simulation.GetPoseAndShape(body, out var pose, out var shape);
+            AgreedPairs.Add(new() { Body = body, Orientation = pose.Orientation, Reach = ReachOf(shape) }, first, end, ref count, Pool);
+        }
+        AgreedPairs.End(count, Pool);
+    }
+
     /// <summary>Leaves the pairs of bodies what they agreed on a while ago, as all of them have found the same again.</summary>
+    /// <param name="worker">The worker.</param>
+    /// <param name="first">The first of the bodies that are remembered.</param>
+    /// <param name="end">The one after the last.</param>
     void AgreeAsBefore(ref Worker worker, int first, int end)
     {
         ref var statics = ref worker.Statics;
-        while (first < end)
+        for (int i = first; i < end; ++i)
         {
-            var body = new AgreeingBody { First = first, End = first + AgreedPairs.Pairs[first].PairCount, TouchCount = 2 };
+            ref var agreed = ref AgreedPairs.Bodies[i];
+            var body = new AgreeingBody { First = agreed.First, End = agreed.First + agreed.Count, TouchCount = agreed.Count };
             statics.Old.Count = 0;
-            for (int i = body.First; i < body.End; ++i)
+            for (int j = body.First; j < body.End; ++j)
             {
-                ref var pair = ref Waiting(i);
-                if (AgreedPairs.Pairs[i].Count > 0)
-                    AgreedPairs.Pairs[i].Apply(ref ResultOf(i, pair.FirstResult).Manifold);
+                PrefetchWaiting(j + PrefetchDistance);
+                ref var pair = ref Waiting(j);
+                ref var left = ref AgreedPairs.Pairs[j];
+                if (left.Count > 0)
+                    left.Apply(ref ResultOf(j, pair.FirstResult).Manifold);
                 if (pair.Tested.ConstraintTypeId >= 0)
                     ListOldPatch(ref statics, pair.Tested, worker.Pool);
             }
             body.OldCount = statics.Old.Count;
             Complete(ref worker, body);
-            first = body.End;
         }
     }
+
+    // Of convex shapes the results are in the order of the pairs, and about as many.
+    void PrefetchWaiting(int place)
+    {
+        if (place >= heldCount)
+            return;
+        ref var note = ref order[place];
+        ref var statics = ref workers[note.Worker].Statics;
+        Prefetch.Read(statics.Pairs.Span.Memory + note.Index);
+        var result = (byte*)(statics.Results.Span.Memory + Math.Min(note.Index, statics.Results.Count));
+        Prefetch.Read(result);
+        Prefetch.Read(result + 64);
+    }
+
+    // Pairs between the one that is asked for and the one that is completed.
+    const int PrefetchDistance = 16;
 
     // All that is asked of it: its contacts are where they were.
     static void ListOldPatch(ref StaticPairs statics, in TestedPair tested, BufferPool pool) => statics.Old.Add(new()

@@ -52,7 +52,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         AgreedPairs.Begin(order.Count - heldCount, Pool);
         var work = new SeamWork { NarrowPhase = this, BlockCount = workerCount };
         StagedWork.Run(ref work, dispatcher);
-        AgreedPairs.End(heldCount, Simulation.Bodies.Locations.Length, Pool);
+        RememberAgreed();
     }
 
     // Pairs of bodies for which all is as it was, in the order in which they are remembered; then the others, in the order of pairs.
@@ -65,8 +65,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (count == 0)
             return;
         MakeRoom(ref order, count, Pool);
-        foreach (ref var agreed in AgreedPairs.Pairs)
-            order.AddUnsafely(new() { Key = agreed.Key, Worker = agreed.Worker, Index = agreed.Index });
+        foreach (ref var body in AgreedPairs.Bodies)
+        {
+            foreach (ref var pair in AgreedPairs.Pairs.Slice(body.First, body.Count))
+                order.AddUnsafely(new() { Key = Key(new(body.Body, pair.B)), Worker = pair.Worker, Index = pair.Index });
+        }
         for (int i = 0; i < workerCount && order.Count < count; ++i)
         {
             var pairs = workers[i].Statics.Pairs.AsSpan();
@@ -80,10 +83,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // All pairs of a body are in one block.
-    int FirstOfBlock(int block, int blockCount, int start, int end)
+    int FirstOfBlock(int block, int blockCount)
     {
-        var first = start + (int)((long)(end - start) * block / blockCount);
-        while (first > start && first < end && BodyOf(first) == BodyOf(first - 1))
+        var first = heldCount + (int)((long)(order.Count - heldCount) * block / blockCount);
+        while (first > heldCount && first < order.Count && BodyOf(first) == BodyOf(first - 1))
             ++first;
         return first;
     }
@@ -95,9 +98,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var worker = ref workers[block];
         ref var statics = ref worker.Statics;
         statics.PrepareAgreement(worker.Pool);
-        AgreeAsBefore(ref worker, FirstOfBlock(block, blockCount, 0, heldCount), FirstOfBlock(block + 1, blockCount, 0, heldCount));
-        var first = FirstOfBlock(block, blockCount, heldCount, order.Count);
-        var end = FirstOfBlock(block + 1, blockCount, heldCount, order.Count);
+        var bodyCount = (long)AgreedPairs.Bodies.Length;
+        AgreeAsBefore(ref worker, (int)(bodyCount * block / blockCount), (int)(bodyCount * (block + 1) / blockCount));
+        var first = FirstOfBlock(block, blockCount);
+        var end = FirstOfBlock(block + 1, blockCount);
         while (first < end)
         {
             statics.Bodies.Count = statics.Old.Count = 0;

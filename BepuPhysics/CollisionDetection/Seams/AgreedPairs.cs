@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Threading;
 using BepuPhysics.Collidables;
@@ -7,7 +8,7 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What the pairs of bodies that lie across statics have agreed on, from step to step: the pairs of each body one after the other.</summary>
+/// <summary>What the pairs of bodies that lie across statics have agreed on, from step to step.</summary>
 /// <remarks>
 /// While pairs are tested, each notes whether it has found the same again. The pairs of bodies of which all have are the first ones from then on, and where they
 /// are among them is where they are among the pairs that agree in this step; behind them is room for those of the others. So of a body at rest nothing is
@@ -15,90 +16,101 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 struct AgreedPairs
 {
+    // What is known by the slot of a body.
+    struct Entry
+    {
+        // Its index. Of a body that is not remembered it says nothing: who is there tells.
+        public int Index;
+        // For how long its next agreement holds; zero for as long as any first one.
+        public int Lifetime;
+    }
+
     QuickList<AgreedPair> pairs;
-    // Place of the first pair of a body, by the body's slot. Of others it says nothing: what is there tells.
-    Buffer<int> places;
+    QuickList<AgreedBody> bodies;
+    Buffer<Entry> entries;
 
     // Pairs that there is room for without a need; and how many times those that there are.
     const int LeastRoom = 64, MostRoom = 4;
     const int Nowhere = -1;
 
-    /// <summary>The pairs: between two agreements those that are remembered, and in between all.</summary>
+    /// <summary>The pairs: between two agreements those that are remembered, and meanwhile all that agree.</summary>
     public readonly Span<AgreedPair> Pairs => pairs.AsSpan();
 
-    /// <summary>Whether the pairs of a body are remembered.</summary>
-    public readonly bool Has(CollidableReference body) => PlaceOf(body) != Nowhere;
+    /// <summary>The bodies that are remembered; in the order of their pairs.</summary>
+    public readonly Span<AgreedBody> Bodies => bodies.AsSpan();
+
+    /// <summary>Whether a body is remembered.</summary>
+    public readonly bool Has(CollidableReference body) => IndexOf(body) != Nowhere;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly int PlaceOf(CollidableReference body)
+    readonly int IndexOf(CollidableReference body)
     {
-        if ((uint)body.Slot >= (uint)places.Length)
+        if (body.Slot >= entries.Length)
             return Nowhere;
-        var place = places[body.Slot];
-        return place < pairs.Count && pairs[place].PairCount > 0 && (uint)(pairs[place].Key >> 32) == body.Packed ? place : Nowhere;
+        var index = entries[body.Slot].Index;
+        return index < bodies.Count && bodies[index].Body.Packed == body.Packed ? index : Nowhere;
     }
 
     /// <summary>Takes down what a pair has found that waits for the others of its body, if those are remembered. By any worker.</summary>
     /// <param name="pair">The pair.</param>
-    /// <param name="key">Its key.</param>
     /// <param name="manifold">What it has found: nothing for shapes of children that are near.</param>
-    /// <param name="bodies">Where the body is.</param>
+    /// <param name="orientation">Orientation of the body.</param>
     /// <param name="worker">The worker that it waits with.</param>
     /// <param name="index">Its place among those that wait there.</param>
-    public readonly void Note(in TestedPair pair, ulong key, in ConvexContactManifold manifold, Bodies bodies, int worker, int index)
+    public readonly void Note(in CollidablePair pair, in ConvexContactManifold manifold, in Quaternion orientation, int worker, int index)
     {
-        var place = PlaceOf(pair.Pair.A);
+        var place = IndexOf(pair.A);
         if (place == Nowhere)
             return;
-        ref var location = ref bodies.Locations[pair.Pair.A.Slot];
-        ref var orientation = ref bodies.SetOf(location).MotionStates[location.Index].Pose.Orientation;
-        ref var first = ref pairs[place];
-        for (int i = place; i < place + first.PairCount; ++i)
+        ref var body = ref bodies[place];
+        for (int i = body.First; i < body.First + body.Count; ++i)
         {
             ref var agreed = ref pairs[i];
-            if (agreed.Key != key)
+            if (agreed.B.Packed != pair.B.Packed)
                 continue;
-            if (!agreed.Holds(manifold, orientation))
+            if (!agreed.Holds(manifold, orientation, body))
                 break;
             agreed.Worker = worker;
             agreed.Index = index;
-            Interlocked.Increment(ref first.HeldCount);
+            Interlocked.Increment(ref body.HeldCount);
             return;
         }
-        first.HasChanged = true;
+        body.HasChanged = true;
     }
 
-    /// <summary>Takes down that a pair which waits has found what is not remembered.</summary>
+    /// <summary>Takes down that a pair which waits has found what is never remembered.</summary>
     public readonly void NoteChange(CollidableReference body)
     {
-        var place = PlaceOf(body);
-        if (place != Nowhere)
-            pairs[place].HasChanged = true;
+        var index = IndexOf(body);
+        if (index != Nowhere)
+            bodies[index].HasChanged = true;
     }
 
-    /// <summary>Forgets the pairs of all bodies of which one has not found the same again.</summary>
+    /// <summary>Forgets all bodies of which a pair has not found the same again, and those that are to agree anew.</summary>
     public void KeepHeld()
     {
-        var count = 0;
-        for (int i = 0; i < pairs.Count;)
+        var (bodyCount, pairCount) = (0, 0);
+        for (int i = 0; i < bodies.Count; ++i)
         {
-            ref var first = ref pairs[i];
-            var pairCount = first.PairCount;
-            if (!first.HasChanged && first.HeldCount == pairCount)
+            var body = bodies[i];
+            ref var entry = ref entries[body.Body.Slot];
+            var holds = body.Holds;
+            if (!holds || body.Remaining == 0)
             {
-                first.HeldCount = 0;
-                for (int j = 0; j < pairCount; ++j)
-                {
-                    --pairs[i + j].Remaining;
-                    if (i != count)
-                        pairs[count + j] = pairs[i + j];
-                }
-                places[SlotOf(count)] = count;
-                count += pairCount;
+                entry.Lifetime = holds ? body.NextLifetime : 0;
+                continue;
             }
-            i += pairCount;
+            if (body.First != pairCount)
+                pairs.AsSpan().Slice(body.First, body.Count).CopyTo(pairs.AsSpan()[pairCount..]);
+            body.First = pairCount;
+            body.HeldCount = 0;
+            --body.Remaining;
+            bodies[bodyCount] = body;
+            entry.Index = bodyCount++;
+            pairCount += body.Count;
         }
-        pairs.Count = count;
+        bodies.Count = bodyCount;
+        pairs.Count = pairCount;
     }
 
     /// <summary>Makes room behind the pairs that are kept. Takes no memory before the first pair.</summary>
@@ -114,39 +126,51 @@ struct AgreedPairs
         pairs.Count += count;
     }
 
-    /// <summary>Leaves out of those that have agreed anew what is not to be remembered.</summary>
-    /// <param name="kept">Number of those that were kept.</param>
-    /// <param name="slotCount">Number of slots that bodies have.</param>
+    /// <summary>Remembers a body whose pairs have agreed anew, with those of them that are to be.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="first">Place of its first pair.</param>
+    /// <param name="end">Place after its last pair.</param>
+    /// <param name="count">Number of all pairs that are remembered so far.</param>
     /// <param name="pool">Source of memory.</param>
-    public void End(int kept, int slotCount, BufferPool pool)
+    public void Add(AgreedBody body, int first, int end, ref int count, BufferPool pool)
     {
-        if (!pairs.Span.Allocated)
-            return;
-        var total = pairs.Count;
-        pairs.Count = kept;
-        var first = Nowhere;
-        for (int i = kept; i < total; ++i)
+        body.First = count;
+        for (int i = first; i < end; ++i)
         {
-            if (pairs[i].Remaining == 0)
-                continue;
-            var place = pairs.Count++;
-            pairs[place] = pairs[i];
-            if (first != Nowhere && pairs[first].Key >> 32 == pairs[place].Key >> 32)
-            {
-                ++pairs[first].PairCount;
-                continue;
-            }
-            first = place;
-            pairs[place].PairCount = 1;
-            if (SlotOf(place) >= places.Length)
-                Grow(slotCount, pool);
-            places[SlotOf(place)] = place;
+            if (pairs[i].IsRemembered)
+                pairs[count++] = pairs[i];
         }
+        body.Count = count - body.First;
+        ref var entry = ref entries[body.Body.Slot];
+        body.Lifetime = body.Remaining = (short)Math.Max(entry.Lifetime, AgreedBody.FirstLifetime);
+        entry.Index = bodies.Count;
+        if (!bodies.Span.Allocated)
+            bodies = new(LeastRoom, pool);
+        bodies.Add(body, pool);
+    }
+
+    /// <summary>Makes room for bodies, by the number of slots that they have.</summary>
+    public void EnsureSlots(int count, BufferPool pool)
+    {
+        if (count <= entries.Length)
+            return;
+        var previous = entries.Length;
+        pool.ResizeToAtLeast(ref entries, count, previous);
+        entries.Clear(previous, entries.Length - previous);
+    }
+
+    /// <summary>Ends the agreement: what is not remembered is gone.</summary>
+    /// <param name="count">Number of pairs that are remembered.</param>
+    /// <param name="pool">Source of memory.</param>
+    public void End(int count, BufferPool pool)
+    {
+        var total = pairs.Count;
+        pairs.Count = count;
         // In its first step each pair waits; of what lies on one ground, no later one.
         if (pairs.Span.Length <= Math.Max(LeastRoom, MostRoom * total))
             return;
-        if (pairs.Count > 0)
-            pairs.Resize(pairs.Count, pool);
+        if (count > 0)
+            pairs.Resize(count, pool);
         else
         {
             pairs.Dispose(pool);
@@ -154,25 +178,23 @@ struct AgreedPairs
         }
     }
 
-    readonly int SlotOf(int place) => (int)(pairs[place].Key >> 32) & BodyHandle.SlotMask;
-
-    void Grow(int slotCount, BufferPool pool)
-    {
-        var previous = places.Length;
-        pool.ResizeToAtLeast(ref places, slotCount, previous);
-        places.Clear(previous, places.Length - previous);
-    }
-
     /// <summary>Forgets everything.</summary>
-    public void Clear() => pairs.Count = 0;
+    public void Clear()
+    {
+        pairs.Count = bodies.Count = 0;
+        if (entries.Allocated)
+            entries.Clear(0, entries.Length);
+    }
 
     /// <summary>Returns all memory.</summary>
     public void Dispose(BufferPool pool)
     {
         if (pairs.Span.Allocated)
             pairs.Dispose(pool);
-        if (places.Allocated)
-            pool.Return(ref places);
+        if (bodies.Span.Allocated)
+            bodies.Dispose(pool);
+        if (entries.Allocated)
+            pool.Return(ref entries);
         this = default;
     }
 }
