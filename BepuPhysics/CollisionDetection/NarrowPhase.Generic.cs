@@ -137,6 +137,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.IsSensor = isSensor;
         tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
+        if (tested.IsAtSeam)
+            AgreedPairs.Prefetch(a);
         if (task.Expands)
         {
             tested.MayCarry = tested.IsCarried = false;
@@ -248,23 +250,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Note(ref worker.Pending, pending, worker.Pool, worker.Room);
     }
 
-    // As what does not wait, but for what becomes of the contacts. They are kept as the game is shown them, which tells whether it changes them.
+    // As what does not wait, but for what becomes of the contacts.
     [MethodImpl(MethodImplOptions.NoInlining)]
     void CompleteLater<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        ref var worker = ref workers[workerIndex];
-        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        var index = worker.Statics.Add(tested, convex, worker.Pool);
+        // Not in the list, whose memory is not there yet: to compare with it would wait for that.
+        var shown = manifold;
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
-            worker.Statics.TakeBack(index);
             if (tested.KeepsHistory)
                 CompleteWithoutContacts(workerIndex, tested);
             return;
         }
+        ref var worker = ref workers[workerIndex];
+        ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        if (worker.Statics.Configure(index, convex, material))
+        var isOfGame = !BytesOf.AreEqual(shown, manifold);
+        var index = worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
+        if (isOfGame)
             AgreedPairs.NoteChange(tested.Pair.A);
         else
             NoteFoundAgain(workerIndex, tested.Pair, convex, index);

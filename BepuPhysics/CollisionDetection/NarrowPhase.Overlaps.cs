@@ -110,8 +110,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts.Clear();
         worker.Room = room;
-        // What is remembered waits again.
-        worker.Statics.Room = Math.Max(room, AgreedPairs.Pairs.Length / workerCount);
+        // What is remembered waits again, with whichever worker finds it.
+        worker.Statics.Room = Math.Max(room, Math.Min(AgreedPairs.Pairs.Length, 2 * AgreedPairs.Pairs.Length / workerCount));
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }
@@ -149,7 +149,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var worker = ref workers[workerIndex];
         if (leafB >= 0 && !Admits(ref worker, leafA, leafB))
             return;
-        worker.Queue.Add(Pairs, Simulation.Bodies, new(a, b));
+        worker.Queue.Add(Pairs, Simulation.Bodies, Simulation.Statics, new(a, b));
         if (worker.Queue.TryTake(out var pair, out var guess))
             TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
     }

@@ -51,6 +51,15 @@ struct AgreedPairs
         return index < bodies.Count && bodies[index].Body.Packed == body.Packed ? index : Nowhere;
     }
 
+    /// <summary>Asks the processor to load what is remembered of a body. Changes no result.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly unsafe void Prefetch(CollidableReference body)
+    {
+        var index = IndexOf(body);
+        if (index != Nowhere)
+            BepuUtilities.Memory.Prefetch.Read(pairs.Span.Memory + bodies[index].First);
+    }
+
     /// <summary>Takes down what a pair has found that waits for the others of its body, if those are remembered. By any worker.</summary>
     /// <param name="pair">The pair.</param>
     /// <param name="manifold">What it has found: nothing for shapes of children that are near.</param>

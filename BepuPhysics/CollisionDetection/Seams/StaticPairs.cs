@@ -163,44 +163,27 @@ struct StaticPairs
     /// <summary>The constraints that a body had.</summary>
     public readonly Span<OldPatch> OldOf(in AgreeingBody body) => Old.AsSpan().Slice(body.FirstOld, body.OldCount);
 
-    /// <summary>Adds a pair of convex shapes, as it is shown to the game.</summary>
+    /// <summary>Adds a pair of convex shapes.</summary>
     /// <returns>Its index.</returns>
-    public int Add(in TestedPair tested, in ConvexContactManifold manifold, BufferPool pool)
+    public int Add(in TestedPair tested, in ConvexContactManifold manifold, in PairMaterialProperties material, bool isOfGame, BufferPool pool)
     {
         Prepare(pool);
+        // Field by field: what is made elsewhere first is copied as a whole.
         ref var pair = ref Pairs.Allocate(pool);
         pair.Tested = tested;
+        pair.Material = material;
         pair.FirstResult = Results.Count;
         pair.PatchCount = 0;
         pair.ResultCount = 1;
         pair.FirstChild = pair.ChildCount = 0;
         pair.IsOfChildren = false;
+        pair.IsOfGame = isOfGame;
         ref var result = ref Results.Allocate(pool);
         result.Children = ChildIds.None;
         result.KeepsHistory = tested.KeepsHistory;
         result.OffsetA = default;
         result.Manifold = manifold;
         return Pairs.Count - 1;
-    }
-
-    /// <summary>Takes back the last pair that was added.</summary>
-    public void TakeBack(int index)
-    {
-        Results.Count = Pairs[index].FirstResult;
-        Pairs.Count = index;
-    }
-
-    /// <summary>Takes over what a game has made of a pair that was added.</summary>
-    /// <returns>Whether it has changed the contacts.</returns>
-    public readonly bool Configure(int index, in ConvexContactManifold manifold, in PairMaterialProperties material)
-    {
-        ref var pair = ref Pairs[index];
-        pair.Material = material;
-        ref var shown = ref Results[pair.FirstResult].Manifold;
-        pair.IsOfGame = !BytesOf.AreEqual(shown, manifold);
-        if (pair.IsOfGame)
-            shown = manifold;
-        return pair.IsOfGame;
     }
 
     /// <summary>Notes a pair of convex shapes that had contacts, has none any more, and was completed.</summary>
