@@ -97,7 +97,15 @@ unsafe readonly struct ContactConstraint
         WriteImpulses(old, manifold, frictionCenter, ref features);
     }
 
-    bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
+    /// <summary>Takes back what a contact that is alone holds against turning, but for one that shares the friction of several: it has no lever.</summary>
+    internal void ForgetTwistWithoutLever()
+    {
+        if (contactCount == 1 && (hasTwoBodies || Read(prestep, ContactPrestepLayout.OffsetB(contactCount)) == default))
+            impulses[(ContactPrestepLayout.FrictionImpulse(contactCount) + 3) * Vector<float>.Count] = 0;
+    }
+
+    /// <summary>Whether the load path held the patch in the last step.</summary>
+    internal bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
 
     // Contacts stay in the order in which they are: the order in which they are solved makes a difference that can be seen.
     void Keep(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold, ref FeatureIds features)

@@ -230,12 +230,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         notes.EnsureCapacity(count, pool);
     }
 
-    void SortByKey()
+    void SortByKey(int first = 0)
     {
-        if (order.Count < 2)
+        if (order.Count - first < 2)
             return;
         var comparer = new ByKey();
-        QuickSort.Sort(order.Span, order.Count, ref comparer);
+        QuickSort.Sort(order.AsSpan()[first..], ref comparer);
     }
 
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>

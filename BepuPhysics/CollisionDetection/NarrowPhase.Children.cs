@@ -134,17 +134,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var waits = Waits(tested);
         if (waits)
             worker.Statics.Show(results);
-        if (!Configure(workerIndex, tested.Pair, offsetB, results, out var material))
+        var isTouching = Configure(workerIndex, tested.Pair, offsetB, results, out var material);
+        if (!isTouching)
         {
             foreach (ref var result in results)
                 result.Manifold.Count = 0;
             // What is near a body may be touched in the next step.
             waits = tested.Pair.B.Mobility != CollidableMobility.Dynamic;
         }
-        if (waits)
-            worker.Statics.Add(tested, results, worker.Batcher.KeptChildren, material, worker.Pool);
-        else
+        if (!waits)
+        {
             CompleteChildren(ref worker, tested, results, material);
+            return;
+        }
+        worker.Statics.Add(tested, results, worker.Batcher.KeptChildren, material, worker.Pool);
+        if (isTouching)
+            AgreedPairs.NoteChange(tested.Pair.A);
+        else
+            NoteFoundAgain(workerIndex, tested.Pair, default, worker.Statics.Pairs.Count - 1);
     }
 
     // What is carried along are patches alone: the children keep their histories.

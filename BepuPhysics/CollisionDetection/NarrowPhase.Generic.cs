@@ -137,6 +137,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.IsSensor = isSensor;
         tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
+        if (tested.IsAtSeam)
+            AgreedPairs.Prefetch(a);
         if (task.Expands)
         {
             tested.MayCarry = tested.IsCarried = false;
@@ -252,6 +254,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     [MethodImpl(MethodImplOptions.NoInlining)]
     void CompleteLater<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
+        // Not in the list, whose memory is not there yet: to compare with it would wait for that.
         var shown = manifold;
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out var material) || manifold.Count == 0)
         {
@@ -263,7 +266,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested.Pair, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        worker.Statics.Add(tested, convex, material, isOfGame: !BytesOf.AreEqual(shown, manifold), worker.Pool);
+        var isOfGame = !BytesOf.AreEqual(shown, manifold);
+        var index = worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
+        if (isOfGame)
+            AgreedPairs.NoteChange(tested.Pair.A);
+        else
+            NoteFoundAgain(workerIndex, tested.Pair, convex, index);
+    }
+
+    void NoteFoundAgain(int workerIndex, in CollidablePair pair, in ConvexContactManifold manifold, int index)
+    {
+        ref var location = ref Simulation.Bodies.Locations[pair.A.Slot];
+        AgreedPairs.Note(pair, manifold, Simulation.Bodies.SetOf(location).MotionStates[location.Index].Pose.Orientation, workerIndex, index);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -44,6 +44,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             {
                 ReleaseWorkers();
                 ForgetContacts();
+                AgreedPairs.Clear();
                 crowd.Count(Simulation.Bodies, Simulation.BroadPhase, Simulation.Layers, Pool, dispatcher);
                 TryTestPairs(count, dt, dispatcher);
             }
@@ -58,6 +59,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             // Callbacks are the game's and may throw: the step is lost, the memory is not.
             Release(ref order, Pool);
             ReleaseWorkers();
+            AgreedPairs.Clear();
             throw;
         }
         finally
@@ -73,7 +75,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
         var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
-            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, room);
+            Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, workerCount, room);
         FindOverlaps(dispatcher);
         for (int i = 0; i < workerCount; ++i)
             crowd.AddRest(workers[i].PairsLeft);
@@ -97,7 +99,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Simulation.BroadPhase.FindOverlapsOfLeaves(ref handler, dispatcher);
     }
 
-    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher, int room)
+    void Begin(ref Worker worker, int index, float dt, IThreadDispatcher? dispatcher, int workerCount, int room)
     {
         worker.Queue.Clear();
         worker.Pool = dispatcher is null ? Pool : dispatcher.WorkerPools[index];
@@ -108,7 +110,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
         worker.Contacts.Clear();
         worker.Room = room;
-        worker.Statics.Room = room;
+        // What is remembered waits again, with whichever worker finds it.
+        worker.Statics.Room = Math.Max(room, Math.Min(AgreedPairs.Pairs.Length, 2 * AgreedPairs.Pairs.Length / workerCount));
         worker.PairsLeft = Crowd.PairsPerReport;
         worker.SkippedPairCount = 0;
     }
@@ -146,7 +149,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var worker = ref workers[workerIndex];
         if (leafB >= 0 && !Admits(ref worker, leafA, leafB))
             return;
-        worker.Queue.Add(Pairs, Simulation.Bodies, new(a, b));
+        worker.Queue.Add(Pairs, Simulation.Bodies, Simulation.Statics, new(a, b));
         if (worker.Queue.TryTake(out var pair, out var guess))
             TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
     }

@@ -17,7 +17,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         var wasHeld = false;
         foreach (ref var old in statics.OldOf(body))
-            wasHeld |= Rows(old).IsHeld;
+            wasHeld |= Column(old).WasHeld;
         for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
@@ -31,12 +31,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // What a contact holds that was alone is of before it was.
         foreach (ref var old in statics.OldOf(body))
         {
-            if (statics.FrictionCenters.Count > 0 && !Rows(old).HasTwist)
-                Rows(old).Twist = 0;
+            if (statics.FrictionCenters.Count > 0)
+                Column(old).ForgetTwistWithoutLever();
         }
     }
 
-    ContactRows Rows(in OldPatch old) => new(Simulation.Solver, Simulation.Bodies, old.Constraint, old.ContactCount);
+    ContactConstraint Column(in OldPatch old) => new(Simulation.Solver, old.Constraint, old.ContactCount);
 
     // All manifolds that have the normal of one, and come after it.
     void JoinFriction(ref StaticPairs statics, int place, int index, int end, bool wasHeld, BufferPool pool)

@@ -1,5 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -28,86 +29,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void RememberNothing(in AgreeingBody body)
     {
         for (int i = body.First; i < body.End; ++i)
-            AgreedPairs.Now[i] = new() { Key = order[i].Key };
-    }
-
-    /// <summary>Leaves the pairs of a body what they agreed on a while ago, if all of them have found the same again.</summary>
-    bool TryAgreeAsBefore(in AgreeingBody body)
-    {
-        var before = AgreedBefore(body);
-        if (before.Length == 0 || !HoldsAll(body, before))
-            return false;
-        var next = 0;
-        for (int i = body.First; i < body.End; ++i)
-        {
-            if (!Waiting(i).IsTouching)
-                continue;
-            next = NextWithContacts(before, next);
-            before[next].Apply(ref ResultOf(i, Waiting(i).FirstResult).Manifold);
-            AgreedPairs.Now[i] = before[next++];
-            --AgreedPairs.Now[i].Remaining;
-        }
-        return true;
-    }
-
-    bool HoldsAll(in AgreeingBody body, Span<AgreedPair> before)
-    {
-        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out var shape);
-        var reach = ReachOf(shape);
-        var next = 0;
-        for (int i = body.First; i < body.End; ++i)
-        {
-            if (!Waiting(i).IsTouching)
-                continue;
-            next = NextWithContacts(before, next);
-            if (next == before.Length || before[next].Key != order[i].Key ||
-                !before[next++].Holds(ResultOf(i, Waiting(i).FirstResult).Manifold, pose.Orientation, reach))
-            {
-                return false;
-            }
-        }
-        // Nothing that was touched is missing.
-        return NextWithContacts(before, next) == before.Length;
-    }
-
-    static int NextWithContacts(Span<AgreedPair> pairs, int index)
-    {
-        while (index < pairs.Length && pairs[index].Count == 0)
-            ++index;
-        return index;
-    }
-
-    // The pairs that a body had in the last step.
-    Span<AgreedPair> AgreedBefore(in AgreeingBody body)
-    {
-        var before = AgreedPairs.Before;
-        var handle = BodyOf(body.First);
-        var key = new NoteKey { Key = (ulong)handle << 32 };
-        var comparer = new ByKey();
-        var (first, high) = (0, before.Length);
-        while (first < high)
-        {
-            var middle = (first + high) >>> 1;
-            var other = new NoteKey { Key = before[middle].Key };
-            if (comparer.Compare(ref other, ref key) < 0)
-                first = middle + 1;
-            else
-                high = middle;
-        }
-        var end = first;
-        while (end < before.Length && (uint)(before[end].Key >> 32) == handle)
-            ++end;
-        return before[first..end];
+            AgreedPairs.Pairs[i].IsRemembered = false;
     }
 
     /// <summary>Takes down what the pairs of a body have found, before they agree.</summary>
     void NoteFound(in AgreeingBody body)
     {
-        Simulation.GetPoseAndShape(Waiting(body.First).Tested.Pair.A, out var pose, out _);
         for (int i = body.First; i < body.End; ++i)
         {
-            if (Waiting(i).IsTouching)
-                AgreedPairs.Now[i].Find(ResultOf(i, Waiting(i).FirstResult).Manifold, pose.Orientation);
+            ref var pair = ref Waiting(i);
+            ref var agreed = ref AgreedPairs.Pairs[i];
+            agreed = new() { B = pair.Tested.Pair.B, IsRemembered = pair.IsTouching || pair.IsOfChildren };
+            if (pair.IsTouching)
+                agreed.Find(ResultOf(i, pair.FirstResult).Manifold);
         }
     }
 
@@ -116,10 +50,79 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         for (int i = body.First; i < body.End; ++i)
         {
-            if (AgreedPairs.Now[i].Count == 0 || AgreedPairs.Now[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold))
+            if (AgreedPairs.Pairs[i].Count == 0 || AgreedPairs.Pairs[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold))
                 continue;
             RememberNothing(body);
             return;
         }
     }
+
+    /// <summary>Remembers the bodies that have agreed anew.</summary>
+    void RememberAgreed()
+    {
+        var count = heldCount;
+        for (int first = heldCount, end; first < order.Count; first = end)
+        {
+            var isRemembered = AgreedPairs.Pairs[first].IsRemembered;
+            for (end = first + 1; end < order.Count && BodyOf(end) == BodyOf(first); ++end)
+                isRemembered |= AgreedPairs.Pairs[end].IsRemembered;
+            if (!isRemembered)
+                continue;
+            var body = PairOf(order[first].Key).A;
+            AgreedPairs.EnsureSlots(Simulation.Bodies.Locations.Length, Pool);
+            Simulation.GetPoseAndShape(body, out var pose, out var shape);
+            AgreedPairs.Add(new() { Body = body, Orientation = pose.Orientation, Reach = ReachOf(shape) }, first, end, ref count, Pool);
+        }
+        AgreedPairs.End(count, Pool);
+    }
+
+    /// <summary>Leaves the pairs of bodies what they agreed on a while ago, as all of them have found the same again.</summary>
+    /// <param name="worker">The worker.</param>
+    /// <param name="first">The first of the bodies that are remembered.</param>
+    /// <param name="end">The one after the last.</param>
+    void AgreeAsBefore(ref Worker worker, int first, int end)
+    {
+        ref var statics = ref worker.Statics;
+        for (int i = first; i < end; ++i)
+        {
+            ref var agreed = ref AgreedPairs.Bodies[i];
+            var body = new AgreeingBody { First = agreed.First, End = agreed.First + agreed.Count, TouchCount = agreed.Count };
+            statics.Old.Count = 0;
+            for (int j = body.First; j < body.End; ++j)
+            {
+                PrefetchWaiting(j + PrefetchDistance);
+                ref var pair = ref Waiting(j);
+                ref var left = ref AgreedPairs.Pairs[j];
+                if (left.Count > 0)
+                    left.Apply(ref ResultOf(j, pair.FirstResult).Manifold);
+                if (pair.Tested.ConstraintTypeId >= 0)
+                    ListOldPatch(ref statics, pair.Tested, worker.Pool);
+            }
+            body.OldCount = statics.Old.Count;
+            Complete(ref worker, body);
+        }
+    }
+
+    // Of convex shapes the results are in the order of the pairs, and about as many.
+    void PrefetchWaiting(int place)
+    {
+        if (place >= heldCount)
+            return;
+        ref var note = ref order[place];
+        ref var statics = ref workers[note.Worker].Statics;
+        Prefetch.Read(statics.Pairs.Span.Memory + note.Index);
+        var result = (byte*)(statics.Results.Span.Memory + Math.Min(note.Index, statics.Results.Count));
+        Prefetch.Read(result);
+        Prefetch.Read(result + 64);
+    }
+
+    // Pairs between the one that is asked for and the one that is completed.
+    const int PrefetchDistance = 16;
+
+    // All that is asked of it: its contacts are where they were.
+    static void ListOldPatch(ref StaticPairs statics, in TestedPair tested, BufferPool pool) => statics.Old.Add(new()
+    {
+        Constraint = tested.Constraint,
+        ContactCount = Constraints.ConstraintTypeIds.ContactCount(tested.ConstraintTypeId),
+    }, pool);
 }

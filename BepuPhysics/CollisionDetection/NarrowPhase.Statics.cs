@@ -19,6 +19,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Part of the mover's inner radius: a contact that is nearer to one of the last step is that one.
     const float SamePlace = 0.05f;
 
+    // How many of the pairs that wait are of bodies for which all is as it was. They are the first ones.
+    int heldCount;
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool Waits(in TestedPair tested) =>
         tested.Pair.B.Mobility != CollidableMobility.Dynamic && (tested.IsAtSeam || tested.ConstraintTypeId == CachedManifold.NoConstraint);
@@ -34,48 +37,71 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public readonly void Execute(int stage, int block, int workerIndex)
         {
             NarrowPhase.World.MarkWorker();
-            NarrowPhase.AgreeInBlock(block, NarrowPhase.FirstOfBlock(block, BlockCount), NarrowPhase.FirstOfBlock(block + 1, BlockCount));
+            NarrowPhase.AgreeInBlock(block, BlockCount);
         }
     }
 
     /// <summary>Makes the pairs of each body that wait agree, and hands them on.</summary>
     void AgreeAtSeams(int workerCount, IThreadDispatcher? dispatcher)
     {
-        order.Count = 0;
-        for (int i = 0; i < workerCount; ++i)
-        {
-            ref var statics = ref workers[i].Statics;
-            if (statics.Pairs.Count > 0)
-                MakeRoom(ref order, order.Count + statics.Pairs.Count, Pool);
-            for (int j = 0; j < statics.Pairs.Count; ++j)
-                Note(ref order, new() { Key = Key(statics.Pairs[j].Tested.Pair), Worker = i, Index = j }, Pool);
-        }
-        AgreedPairs.BeginStep(order.Count, Pool);
+        AgreedPairs.KeepHeld();
+        heldCount = AgreedPairs.Pairs.Length;
+        ListWaiting(workerCount);
         if (order.Count == 0)
             return;
-        SortByKey();
+        AgreedPairs.Begin(order.Count - heldCount, Pool);
         var work = new SeamWork { NarrowPhase = this, BlockCount = workerCount };
         StagedWork.Run(ref work, dispatcher);
+        RememberAgreed();
+    }
+
+    // Pairs of bodies for which all is as it was, in the order in which they are remembered; then the others, in the order of pairs.
+    void ListWaiting(int workerCount)
+    {
+        var count = 0;
+        for (int i = 0; i < workerCount; ++i)
+            count += workers[i].Statics.Pairs.Count;
+        order.Count = 0;
+        if (count == 0)
+            return;
+        MakeRoom(ref order, count, Pool);
+        foreach (ref var body in AgreedPairs.Bodies)
+        {
+            foreach (ref var pair in AgreedPairs.Pairs.Slice(body.First, body.Count))
+                order.AddUnsafely(new() { Key = Key(new(body.Body, pair.B)), Worker = pair.Worker, Index = pair.Index });
+        }
+        for (int i = 0; i < workerCount && order.Count < count; ++i)
+        {
+            var pairs = workers[i].Statics.Pairs.AsSpan();
+            for (int j = 0; j < pairs.Length; ++j)
+            {
+                if (heldCount == 0 || !AgreedPairs.Has(pairs[j].Tested.Pair.A))
+                    order.AddUnsafely(new() { Key = Key(pairs[j].Tested.Pair), Worker = i, Index = j });
+            }
+        }
+        SortByKey(heldCount);
     }
 
     // All pairs of a body are in one block.
     int FirstOfBlock(int block, int blockCount)
     {
-        var first = (int)((long)order.Count * block / blockCount);
-        while (first > 0 && first < order.Count && BodyOf(first) == BodyOf(first - 1))
+        var first = heldCount + (int)((long)(order.Count - heldCount) * block / blockCount);
+        while (first > heldCount && first < order.Count && BodyOf(first) == BodyOf(first - 1))
             ++first;
         return first;
     }
 
     uint BodyOf(int index) => (uint)(order[index].Key >> 32);
 
-    void AgreeInBlock(int block, int first, int end)
+    void AgreeInBlock(int block, int blockCount)
     {
-        if (first == end)
-            return;
         ref var worker = ref workers[block];
         ref var statics = ref worker.Statics;
         statics.PrepareAgreement(worker.Pool);
+        var bodyCount = (long)AgreedPairs.Bodies.Length;
+        AgreeAsBefore(ref worker, (int)(bodyCount * block / blockCount), (int)(bodyCount * (block + 1) / blockCount));
+        var first = FirstOfBlock(block, blockCount);
+        var end = FirstOfBlock(block + 1, blockCount);
         while (first < end)
         {
             statics.Bodies.Count = statics.Old.Count = 0;
@@ -120,8 +146,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (activity.IsAtSeam && body.TouchCount > 1)
         {
             body.MayRemember = MayRemember(statics, body);
-            if (!body.MayRemember || !TryAgreeAsBefore(body))
-                AddToAgreement(ref statics, ref body, pool);
+            AddToAgreement(ref statics, ref body, pool);
         }
         statics.Bodies.Add(body, pool);
     }
@@ -138,6 +163,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         if (JoinsStatics)
             HandOver(ref statics, body, worker.Pool);
+        Complete(ref worker, body);
+    }
+
+    void Complete(ref Worker worker, in AgreeingBody body)
+    {
+        ref var statics = ref worker.Statics;
         statics.FrictionCenters.Count = 0;
         if (body.TouchCount > 1 && JoinsStatics)
             JoinFriction(ref statics, body, worker.Pool);

@@ -37,7 +37,7 @@ unsafe struct PairQueue
     public void Clear() => added = taken = 0;
 
     /// <summary>Adds a pair. There must be room: <see cref="TryTake"/> after each.</summary>
-    public void Add(in PairCache cache, Bodies bodies, CollidablePair pair)
+    public void Add(in PairCache cache, Bodies bodies, Statics statics, CollidablePair pair)
     {
         pairs[added % Length] = pair;
         cache.Pairs.PrefetchSlot(pair);
@@ -46,8 +46,8 @@ unsafe struct PairQueue
         {
             ref var pairInTable = ref pairs[second % Length];
             elements[second % Length] = cache.Pairs.PrefetchElement(pairInTable);
-            PrefetchBody(bodies, pairInTable.A);
-            PrefetchBody(bodies, pairInTable.B);
+            PrefetchPose(bodies, statics, pairInTable.A);
+            PrefetchPose(bodies, statics, pairInTable.B);
         }
         var third = second - StageLength;
         if (third >= taken && elements[third % Length] >= 0)
@@ -69,10 +69,13 @@ unsafe struct PairQueue
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void PrefetchBody(Bodies bodies, CollidableReference collidable)
+    static void PrefetchPose(Bodies bodies, Statics statics, CollidableReference collidable)
     {
         if (collidable.Mobility == CollidableMobility.Static)
+        {
+            Prefetch.Read(statics.StaticsBuffer.Memory + statics.Indices[collidable.Slot]);
             return;
+        }
         ref var location = ref bodies.Locations[collidable.Slot];
         ref var set = ref bodies.SetOf(location);
         Prefetch.Read(set.MotionStates.Memory + location.Index);

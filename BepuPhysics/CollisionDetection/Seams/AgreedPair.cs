@@ -1,4 +1,6 @@
 using System.Numerics;
+using System.Runtime.InteropServices;
+using BepuPhysics.Collidables;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -8,38 +10,43 @@ namespace BepuPhysics.CollisionDetection;
 /// A body that lies across statics agrees on the same in each step. As long as it hardly moves and its pairs find what they found, what they agreed on is
 /// remembered: which contacts are left. The contacts themselves are those of the step.
 /// </remarks>
+// A cache line.
+[StructLayout(LayoutKind.Sequential, Size = 64)]
 struct AgreedPair
 {
-    /// <summary>The pair, as a key by which pairs are in order.</summary>
-    public ulong Key;
+    /// <summary>What the body lies on.</summary>
+    public CollidableReference B;
     /// <summary>Position of B less that of A, m.</summary>
     public Vector3 OffsetB;
-    /// <summary>Orientation of the body.</summary>
-    public Quaternion Orientation;
     /// <summary>Unit normal that the contacts had.</summary>
     public Vector3 Normal;
+    /// <summary>Depth of the deepest contact, m.</summary>
+    public float Depth;
     /// <summary>Features of the contacts.</summary>
     public FeatureIds Features;
-    /// <summary>Number of the contacts that the pair had; zero for one without.</summary>
+    /// <summary>Number of the contacts that the pair had; zero for shapes of children that were near.</summary>
     public byte Count;
     /// <summary>A bit for each of the contacts that is left.</summary>
     public byte Left;
-    /// <summary>Steps until the body agrees anew, come what may; zero where nothing is remembered.</summary>
-    public short Remaining;
+    /// <summary>Whether the pair is to be remembered.</summary>
+    public bool IsRemembered;
+    /// <summary>Where the pair waits in this step: the worker, and its place among those of the worker.</summary>
+    public int Worker, Index;
 
     // Part of the body's reach by which it may have moved: a tenth of what it may be deeper than a child that it yields to.
     const float Tolerance = ChildAgreement.Tolerance * 0.1f;
+    // Times as much for depths. No move that is allowed changes these by more: another shape in the place of one does.
+    const float DepthShare = 4;
 
     /// <summary>Takes down what a pair has found.</summary>
-    public void Find(in ConvexContactManifold manifold, in Quaternion orientation)
+    public void Find(in ConvexContactManifold manifold)
     {
         OffsetB = manifold.OffsetB;
-        Orientation = orientation;
         Normal = manifold.Normal;
+        Depth = DeepestOf(manifold);
         Count = (byte)manifold.Count;
         for (int i = 0; i < manifold.Count; ++i)
             Features[i] = manifold.GetFeatureId(i);
-        Remaining = RetestBound.Lifetime;
     }
 
     /// <summary>Takes down what is left of it.</summary>
@@ -64,21 +71,33 @@ struct AgreedPair
     /// <summary>Whether a pair has found the same again, with its body where it was.</summary>
     /// <param name="manifold">What it has found.</param>
     /// <param name="orientation">Orientation of the body.</param>
-    /// <param name="reach">Distance from the centre of the body to its farthest point, m.</param>
-    public readonly bool Holds(in ConvexContactManifold manifold, in Quaternion orientation, float reach)
+    /// <param name="body">The body, as it was.</param>
+    public readonly bool Holds(in ConvexContactManifold manifold, in Quaternion orientation, in AgreedBody body)
     {
-        if (Remaining == 0 || manifold.Count != Count)
+        if (manifold.Count != Count)
             return false;
         for (int i = 0; i < Count; ++i)
         {
             if (manifold.GetFeatureId(i) != Features[i])
                 return false;
         }
-        var turn = orientation - Orientation;
+        // What is only near may be anywhere there.
+        if (Count == 0)
+            return true;
+        var turn = orientation - body.Orientation;
         // A point at a distance of one moves by no more than twice the difference of the orientations.
-        return Exact.DistanceSquared(manifold.OffsetB, OffsetB) <= Tolerance * Tolerance * reach * reach &&
+        return Exact.DistanceSquared(manifold.OffsetB, OffsetB) <= Tolerance * Tolerance * body.Reach * body.Reach &&
             Exact.DistanceSquared(manifold.Normal, Normal) <= Tolerance * Tolerance &&
-            turn.X * turn.X + turn.Y * turn.Y + turn.Z * turn.Z + turn.W * turn.W <= Tolerance * Tolerance / 4;
+            turn.X * turn.X + turn.Y * turn.Y + turn.Z * turn.Z + turn.W * turn.W <= Tolerance * Tolerance / 4 &&
+            System.MathF.Abs(DeepestOf(manifold) - Depth) <= DepthShare * Tolerance * body.Reach;
+    }
+
+    static float DeepestOf(in ConvexContactManifold manifold)
+    {
+        var depth = manifold.Contact0.Depth;
+        for (int i = 1; i < manifold.Count; ++i)
+            depth = MathHelper.Max(depth, manifold.GetDepth(i));
+        return depth;
     }
 
     /// <summary>Leaves what was left.</summary>

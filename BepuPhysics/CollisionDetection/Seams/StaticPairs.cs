@@ -164,11 +164,26 @@ struct StaticPairs
     public readonly Span<OldPatch> OldOf(in AgreeingBody body) => Old.AsSpan().Slice(body.FirstOld, body.OldCount);
 
     /// <summary>Adds a pair of convex shapes.</summary>
-    public void Add(in TestedPair tested, in ConvexContactManifold manifold, in PairMaterialProperties material, bool isOfGame, BufferPool pool)
+    /// <returns>Its index.</returns>
+    public int Add(in TestedPair tested, in ConvexContactManifold manifold, in PairMaterialProperties material, bool isOfGame, BufferPool pool)
     {
         Prepare(pool);
-        Pairs.Add(new() { Tested = tested, Material = material, FirstResult = Results.Count, ResultCount = 1, IsOfGame = isOfGame }, pool);
-        Results.Add(new() { Children = ChildIds.None, KeepsHistory = tested.KeepsHistory, Manifold = manifold }, pool);
+        // Field by field: what is made elsewhere first is copied as a whole.
+        ref var pair = ref Pairs.Allocate(pool);
+        pair.Tested = tested;
+        pair.Material = material;
+        pair.FirstResult = Results.Count;
+        pair.PatchCount = 0;
+        pair.ResultCount = 1;
+        pair.FirstChild = pair.ChildCount = 0;
+        pair.IsOfChildren = false;
+        pair.IsOfGame = isOfGame;
+        ref var result = ref Results.Allocate(pool);
+        result.Children = ChildIds.None;
+        result.KeepsHistory = tested.KeepsHistory;
+        result.OffsetA = default;
+        result.Manifold = manifold;
+        return Pairs.Count - 1;
     }
 
     /// <summary>Notes a pair of convex shapes that had contacts, has none any more, and was completed.</summary>
