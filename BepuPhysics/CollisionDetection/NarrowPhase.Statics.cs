@@ -88,7 +88,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 Begin(ref statics, first, next, worker.Pool);
                 first = next;
             }
-            statics.Agreement.Run(worker.Pool);
+            statics.Agreement.Run(CollisionTaskRegistry, worker.Pool);
             foreach (ref var body in statics.Bodies.AsSpan())
                 Finish(ref worker, body);
         }
@@ -347,7 +347,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OrientationA = poseA.Orientation,
             OrientationB = poseB.Orientation,
         };
-        child.Placed.Write(shapes, moverIsB: false, pair.Tested.SpeculativeMargin);
+        var dt = workers[0].Batcher.Dt;
+        var motion = new ChildMotion(VelocityOf(pair.Tested.Pair.A), VelocityOf(pair.Tested.Pair.B), default, shapes.OffsetB, dt);
+        child.Placed.Write(shapes, motion, moverIsB: false, pair.Tested.SpeculativeMargin);
     }
 
     void HandOn(ref Worker worker, int place)
