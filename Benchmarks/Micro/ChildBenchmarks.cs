@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using BenchmarkDotNet.Attributes;
+using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
@@ -15,6 +16,7 @@ public unsafe class ChildBenchmarks : IDisposable
     // Where patches are put, before the children.
     const int Room = PatchSet.Capacity;
 
+    static readonly CollisionTaskRegistry Registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
     readonly BufferPool pool = new();
     SeamMemory memory;
     ChildResult[] found = [], results = [];
@@ -72,7 +74,7 @@ public unsafe class ChildBenchmarks : IDisposable
                 OrientationB = Quaternion.Identity,
                 ConeB = Of == Kind.Boxes ? default : new TriangleCone { Cosines = Vector3.One },
             };
-            placed[i].Write(shapes, moverIsB: false, Margin);
+            placed[i].Write(shapes, default, moverIsB: false, Margin);
             // The first is none, and the deepest. What the others are a little less deep along leans by two degrees, anywhere.
             var isSuspect = i > 0 && random.Next(100) < SuspectPercent;
             var (sine, cosine) = MathF.SinCos(random.NextSingle() * MathF.Tau);
@@ -112,7 +114,7 @@ public unsafe class ChildBenchmarks : IDisposable
         fixed (PlacedChildren* places = placed)
         {
             memory.Add(first, places, Children, owner: 0, pool);
-            SeamRounds.Run(ref memory, pool);
+            SeamRounds.Run(ref memory, Registry, pool);
         }
         memory.Rank(memory.TouchingOf(memory.Sets[0]), pool);
         PatchCount = PatchSet.Build(ref memory, children, placed, default, results.AsSpan(0, Room), pool);

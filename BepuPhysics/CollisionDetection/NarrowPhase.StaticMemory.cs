@@ -46,15 +46,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     /// <summary>Takes down what is left to the pairs of a body, if all of that is a part of what they had found.</summary>
-    void NoteLeft(in AgreeingBody body)
+    void NoteLeft(in StaticPairs statics, in AgreeingBody body)
     {
-        for (int i = body.First; i < body.End; ++i)
-        {
-            if (AgreedPairs.Pairs[i].Count == 0 || AgreedPairs.Pairs[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold))
-                continue;
+        var isRemembered = statics.Agreement.MayRemember(body.Number);
+        for (int i = body.First; isRemembered && i < body.End; ++i)
+            isRemembered = AgreedPairs.Pairs[i].Count == 0 || AgreedPairs.Pairs[i].Leave(ResultOf(i, Waiting(i).FirstResult).Manifold);
+        if (!isRemembered)
             RememberNothing(body);
-            return;
-        }
     }
 
     /// <summary>Remembers the bodies that have agreed anew.</summary>

@@ -114,7 +114,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 Begin(ref statics, first, next, worker.Pool);
                 first = next;
             }
-            statics.Agreement.Run(worker.Pool);
+            statics.Agreement.Run(CollisionTaskRegistry, worker.Pool);
             foreach (ref var body in statics.Bodies.AsSpan())
                 Finish(ref worker, body);
         }
@@ -159,7 +159,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (statics.Agreement.Finish(body.Number, worker.Pool))
                 TakeAgreement(ref worker, body);
             if (body.MayRemember)
-                NoteLeft(body);
+                NoteLeft(statics, body);
         }
         if (JoinsStatics)
             HandOver(ref statics, body, worker.Pool);
@@ -378,7 +378,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OrientationA = poseA.Orientation,
             OrientationB = poseB.Orientation,
         };
-        child.Placed.Write(shapes, moverIsB: false, pair.Tested.SpeculativeMargin);
+        var dt = workers[0].Batcher.Dt;
+        var motion = new ChildMotion(VelocityOf(pair.Tested.Pair.A), VelocityOf(pair.Tested.Pair.B), default, shapes.OffsetB, dt);
+        child.Placed.Write(shapes, motion, moverIsB: false, pair.Tested.SpeculativeMargin);
     }
 
     void HandOn(ref Worker worker, int place)

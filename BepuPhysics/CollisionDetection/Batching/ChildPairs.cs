@@ -73,6 +73,8 @@ unsafe struct ChildPairs(BufferPool pool)
         // Where the children are; only of parents that are joined.
         public Buffer<PlacedChildren> Placed;
         public Vector3 OffsetB;
+        public PairMotion Motion;
+        public float Dt;
         public float SpeculativeMargin;
         public bool MoverIsB;
         public bool HasRound;
@@ -94,11 +96,13 @@ unsafe struct ChildPairs(BufferPool pool)
     }
 
     /// <summary>Opens a parent with room for a number of children. It stays open until <see cref="Release"/> has said that it is complete.</summary>
-    public int Open(in ParentPair pair, int capacity, bool joins, BufferPool pool)
+    public int Open(in ParentPair pair, int capacity, bool joins, float dt, BufferPool pool)
     {
         var parent = new OpenParent
         {
             OffsetB = pair.OffsetB,
+            Motion = pair.Motion,
+            Dt = dt,
             SpeculativeMargin = pair.SpeculativeMargin,
             // The shape of the lower type: a convex one before a container. Of two of one type it is the caller's A, the body where B is a static.
             MoverIsB = pair.Flipped,
@@ -122,7 +126,10 @@ unsafe struct ChildPairs(BufferPool pool)
         result.KeepsHistory = keepsHistory;
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
-            target.Placed[target.SlotCount].Write(shapes, target.MoverIsB, target.SpeculativeMargin);
+        {
+            var motion = new ChildMotion(target.Motion.A, target.Motion.B, shapes.OffsetA, target.OffsetB, target.Dt);
+            target.Placed[target.SlotCount].Write(shapes, motion, target.MoverIsB, target.SpeculativeMargin);
+        }
         ++target.WaitCount;
         return new(parent, target.SlotCount++);
     }

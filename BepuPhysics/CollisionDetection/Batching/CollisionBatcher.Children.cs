@@ -51,7 +51,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     void Expand(ExpandingTask task, in PairBatch batch, int index, int start, int end)
     {
         ref var pair = ref task.Parent(batch, index);
-        var parent = Children->Open(pair, end - start, task.JoinsChildren, Pool);
+        var parent = Children->Open(pair, end - start, task.JoinsChildren, Dt, Pool);
         TCallbacks.BeginChildren(ref Callbacks, pair.PairId);
         for (int i = start; i < end; ++i)
         {
@@ -147,7 +147,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     void JoinWaiting()
     {
         ref var seams = ref Children->Seams;
-        SeamRounds.Run(ref seams, Pool);
+        SeamRounds.Run(ref seams, registry, Pool);
         var sets = seams.Sets.AsSpan();
         // Where a callback throws, what is left is lost.
         seams.Sets.Count = 0;

@@ -74,14 +74,16 @@ unsafe struct BodyAgreement(BufferPool pool)
     }
 
     /// <summary>Makes what was added agree, body by body.</summary>
-    public void Run(BufferPool pool)
+    /// <param name="registry">The tasks that test pairs.</param>
+    /// <param name="pool">Source of memory.</param>
+    public void Run(CollisionTaskRegistry registry, BufferPool pool)
     {
         foreach (ref var set in memory.Sets.AsSpan())
         {
             set.Results = results.Span.Memory + set.First;
             set.Placed = placed.Span.Memory + set.First;
         }
-        SeamRounds.Run(ref memory, pool);
+        SeamRounds.Run(ref memory, registry, pool);
     }
 
     /// <summary>Leaves a body those contacts that it needs.</summary>
@@ -101,7 +103,7 @@ unsafe struct BodyAgreement(BufferPool pool)
         set.Count = memory.Ranked.Count;
         for (int i = 0; i < set.Count; ++i)
         {
-            changes |= memory.Ranked[i].HasYielded;
+            changes |= memory.Ranked[i].HasChanged;
             children[i] = memory.Ranked[i];
         }
         return changes;
@@ -135,12 +137,15 @@ unsafe struct BodyAgreement(BufferPool pool)
         return true;
     }
 
+    /// <summary>Whether what is left of a body may be that for more than this step.</summary>
+    public readonly bool MayRemember(int body) => !memory.Sets[body].HasForeseen;
+
     /// <summary>Whether a child of a pair of a body has changed.</summary>
     public readonly bool HasChanged(int body, int pair)
     {
         foreach (ref var child in memory.TouchingOf(memory.Sets[body]))
         {
-            if (child.Pair == pair && child.HasYielded)
+            if (child.Pair == pair && child.HasChanged)
                 return true;
         }
         return false;

@@ -25,6 +25,10 @@ struct RankedChild
     public int Slot;
     /// <summary>Whether it has taken the normal of another.</summary>
     public bool HasYielded;
+    /// <summary>Whether it has another normal than the test has found, as it will have that when it touches.</summary>
+    public bool IsTurned;
+    /// <summary>Whether it is not as the test has found it.</summary>
+    public readonly bool HasChanged => HasYielded || IsTurned;
     /// <summary>Of a leader, whose normal others may take: the one that was accepted before it; negative for the first.</summary>
     public int PreviousLeader;
     /// <summary>Patch that its contacts are in; -1 where there is none.</summary>
@@ -112,6 +116,9 @@ static class ChildAgreement
             case SeamStage.Next:
                 FindNext(ref tests, view, pool);
                 break;
+            case SeamStage.Prepared:
+                Prepare(ref tests, view, pool);
+                break;
             case SeamStage.Measured:
                 TakeOverlaps(tests, view);
                 AddRivals(ref tests, view, pool);
@@ -152,7 +159,19 @@ static class ChildAgreement
             }
         }
         while (ranked[set.Index].HasYielded || HasLeader(view, set.Index));
-        if (view.Placed(ranked[set.Index]).AreKnown && HasFollower(view, set.Index, ofClass: true))
+        if (ForeseenContacts.Begin(view))
+        {
+            set.HasForeseen = true;
+            set.Stage = SeamStage.Foreseen;
+        }
+        else
+            Prepare(ref tests, view, pool);
+    }
+
+    static void Prepare(ref DirectedTests tests, SeamView view, BufferPool pool)
+    {
+        ref var set = ref view.Set;
+        if (view.Placed(view.Ranked[set.Index]).AreKnown && HasFollower(view, set.Index, ofClass: true))
         {
             AddOverlaps(ref tests, view, pool);
             set.Stage = SeamStage.Measured;

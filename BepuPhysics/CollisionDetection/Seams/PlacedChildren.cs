@@ -51,6 +51,9 @@ unsafe struct PlacedChildren
     /// <summary>Greatest distance at which a contact exists, m.</summary>
     public float SpeculativeMargin;
 
+    /// <summary>How A moves relative to B within the step; not at all where nobody has said.</summary>
+    public ChildMotion Motion;
+
     /// <summary>Whether the mover is B: what touches the others, and tells how high a lip is that does not stop it.</summary>
     public bool MoverIsB;
 
@@ -66,8 +69,9 @@ unsafe struct PlacedChildren
     public static bool IsRound(int typeId) => typeId == Sphere.Id || typeId == Capsule.Id || typeId == Cylinder.Id;
 
     /// <summary>Keeps what a task has said of two children.</summary>
-    public void Write(in ChildShapes children, bool moverIsB, float speculativeMargin)
+    public void Write(in ChildShapes children, in ChildMotion motion, bool moverIsB, float speculativeMargin)
     {
+        Motion = motion;
         SpeculativeMargin = speculativeMargin;
         MoverIsB = moverIsB;
         TypeA = Keep(children.TypeA, children.ShapeA, ref ShapeA);

@@ -10,6 +10,8 @@ struct SeamMemory(BufferPool pool)
 {
     /// <summary>Looks along directions.</summary>
     public DirectedTests Tests = new(pool);
+    /// <summary>Looks where contacts that are foreseen will be.</summary>
+    public MovedTests Moved;
     /// <summary>The sets that agree at once, so that bundles of tests are full.</summary>
     public QuickList<SeamSet> Sets = new(SetCapacity, pool);
     /// <summary>The children that touch, of all sets.</summary>
@@ -104,6 +106,7 @@ struct SeamMemory(BufferPool pool)
     public void Dispose(BufferPool pool)
     {
         Tests.Dispose(pool);
+        Moved.Dispose(pool);
         Sets.Dispose(pool);
         Touching.Dispose(pool);
         Ranked.Dispose(pool);

@@ -7,30 +7,40 @@ namespace BepuPhysics.CollisionDetection;
 static class SeamRounds
 {
     /// <summary>Works on all sets until each is done.</summary>
-    public static void Run(ref SeamMemory memory, BufferPool pool)
+    /// <param name="memory">The sets.</param>
+    /// <param name="registry">The tasks that test pairs.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static unsafe void Run(ref SeamMemory memory, CollisionTaskRegistry registry, BufferPool pool)
     {
         while (true)
         {
             for (int i = 0; i < memory.Sets.Count; ++i)
-                Advance(ref memory, ref memory.Sets[i], pool);
-            if (memory.Tests.Count == 0)
+                Advance(ref memory, i, registry, pool);
+            if (memory.Tests.Count + memory.Moved.Count == 0)
                 return;
             memory.Tests.Execute();
+            memory.Moved.Execute(memory.Sets.Span.Memory, registry);
         }
     }
 
-    static void Advance(ref SeamMemory memory, ref SeamSet set, BufferPool pool)
+    static void Advance(ref SeamMemory memory, int number, CollisionTaskRegistry registry, BufferPool pool)
     {
-        var first = memory.Tests.Count;
-        while (set.Stage != SeamStage.Done && memory.Tests.Count == first)
+        ref var set = ref memory.Sets[number];
+        var (first, firstMoved) = (memory.Tests.Count, memory.Moved.Count);
+        while (set.Stage != SeamStage.Done && memory.Tests.Count == first && memory.Moved.Count == firstMoved)
         {
-            Advance(ref memory, ref set, new SeamView(ref set, memory.Touching.AsSpan()), pool);
+            var view = new SeamView(ref set, memory.Touching.AsSpan());
+            if (set.Stage == SeamStage.Foreseen)
+                ForeseenContacts.Advance(ref memory.Moved, view, number, registry, pool);
+            else
+                Advance(ref memory, view, pool);
             set.Tests = new(first, memory.Tests.Count - first);
         }
     }
 
-    static void Advance(ref SeamMemory memory, ref SeamSet set, SeamView view, BufferPool pool)
+    static void Advance(ref SeamMemory memory, SeamView view, BufferPool pool)
     {
+        ref var set = ref view.Set;
         switch (set.Stage)
         {
             case SeamStage.DirectionsOfB or SeamStage.DirectionsOfA:

@@ -13,6 +13,8 @@ enum SeamStage
     Order,
     /// <summary>Finds the next child that may be accepted.</summary>
     Next,
+    /// <summary>Follows a contact that is foreseen to where it touches; then knows how it is there.</summary>
+    Foreseen, Prepared,
     /// <summary>Knows how deep that is, and what might come before it; then whether it yields to one of these.</summary>
     Measured, Rivals,
     /// <summary>Knows how deep an accepted child is; then who yields to it.</summary>
@@ -40,6 +42,10 @@ unsafe struct SeamSet
     public bool HasOneA, HasOneB;
     /// <summary>Its tests of the last round.</summary>
     public SeamTests Tests;
+    /// <summary>The contact that is foreseen, of the child that is looked at.</summary>
+    public Foresight Foresight;
+    /// <summary>Whether a contact was foreseen: what became of it is of this step alone.</summary>
+    public bool HasForeseen;
     /// <summary>What the set is of.</summary>
     public int Owner;
 }

@@ -119,6 +119,12 @@ static class TriangleNeighbours
         }
     }
 
+    /// <summary>Whether what touches along a normal touches a neighbour of one of two children.</summary>
+    public static bool Has(in PlacedChildren placed, in Vector3 normal) => IsBeyond(placed, normal, isA: true) || IsBeyond(placed, normal, isA: false);
+
+    static bool IsBeyond(in PlacedChildren placed, in Vector3 normal, bool isA) =>
+        IsSurface(placed, isA) && Create(placed, isA).Violated(isA ? -normal : normal) != default;
+
     // Nothing is next to what is no triangle of a surface.
     static bool IsSurface(in PlacedChildren placed, bool isA) =>
         placed.AreKnown && (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;

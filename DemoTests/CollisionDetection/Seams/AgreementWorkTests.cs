@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using System.Numerics;
+using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
@@ -13,6 +14,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
 {
     const float Cell = .1f, Depth = 5e-3f, Margin = 1e-2f;
 
+    static readonly CollisionTaskRegistry Registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
     readonly BufferPool pool = new();
 
     public void Dispose()
@@ -35,7 +37,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
         fixed (PlacedChildren* places = placed)
         {
             memory.Add(first, places, count, owner: 0, pool);
-            SeamRounds.Run(ref memory, pool);
+            SeamRounds.Run(ref memory, Registry, pool);
         }
         ref var set = ref memory.Sets[0];
         Assert.Equal(1, set.LeaderCount);
@@ -68,7 +70,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
                 OffsetB = offset,
                 OrientationA = Quaternion.Identity,
                 OrientationB = Quaternion.Identity,
-            }, moverIsB: false, Margin);
+            }, default, moverIsB: false, Margin);
             // The first is none, and the deepest.
             var isSuspect = i > 0 && i * 7 % 10 * 10 < percent;
             suspectCount += isSuspect ? 1 : 0;

@@ -53,9 +53,11 @@ public class LipTests(ITestOutputHelper output)
         foreach (var lip in new[] { 0, 1e-6f, 1e-5f, 1e-4f })
         {
             var (slowest, _, highest) = Run(floor, mover, lip);
-            if (lip == 1e-4f && IsBeyond(floor, mover))
+            if (lip == 1e-4f && IsFelt(floor, mover))
             {
-                Assert.InRange(slowest, .1f * Speed, Speed);
+                // Eight are met at most. Each takes .2 % of the speed of a ball, which goes up with a twentieth of it, and so by 2.5 mm and what it sinks.
+                Assert.InRange(slowest, (1 - (mover == SeamMover.Compound ? .9f : 8 * 2e-3f)) * Speed, Speed);
+                Assert.InRange(highest, 0, mover == SeamMover.Compound ? .2f : 4e-3f);
                 continue;
             }
             Assert.InRange(slowest, Speed * (1 - 1e-3f), Speed);
@@ -63,10 +65,9 @@ public class LipTests(ITestOutputHelper output)
         }
     }
 
-    // What is not yet as it should be. A lip is felt that is a thousandth of the inner radius of what it stops, as .1 mm is of a ball of .1 m. But it is felt
-    // as if it were high: a contact that is foreseen at the next box's edge, 8 cm ahead, stops half of the way, where a bump would be .2 m/s upwards. And a
-    // ball of 2 m goes up by .31 mm over a lip of .1 mm, where .2 may be.
-    static bool IsBeyond(SeparateFloor floor, SeamMover mover) =>
+    // A lip is felt that is a thousandth of the inner radius of what it stops, as .1 mm is of a ball of .1 m, and of the boxes of the compound. These have
+    // corners, to which it is a wall: they stumble. And a ball of 2 m goes up by .31 mm over a lip of .1 mm, where .2 may be.
+    static bool IsFelt(SeparateFloor floor, SeamMover mover) =>
         floor is (SeparateFloor.Boxes or SeparateFloor.Voxels) && mover is (SeamMover.SmallSphere or SeamMover.Compound);
 
     [Theory, MemberData(nameof(Cases))]
