@@ -40,7 +40,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 if (TContainer.IsList)
                     List(entry, shapes, ref list, ref listed, pool);
                 entry.B.FindOverlaps(
-                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), list.Memory, ref children, pool);
+                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), shapes, list.Memory, ref children, pool);
                 for (int j = 0; j < children.Count; ++j)
                     found.Add(new(start + i, entry.Pair.Flipped ? new(children[j], 0) : new(0, children[j])), pool);
             }
@@ -57,8 +57,8 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         if (name.Exists && name.Packed == listed.Packed)
             return;
         listed = name;
-        if (list.Length < entry.B.MaximumFanOut)
-            pool.ResizeToAtLeast(ref list, entry.B.MaximumFanOut, 0);
+        if (list.Length < entry.B.FanOut(0, shapes))
+            pool.ResizeToAtLeast(ref list, entry.B.FanOut(0, shapes), 0);
         entry.B.Open(0, shapes, list.Memory);
     }
 
