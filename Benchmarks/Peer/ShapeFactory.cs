@@ -21,6 +21,9 @@ sealed class ShapeFactory(Simulation simulation)
 
     public static bool Supports(SceneShapeKind kind) => Enum.IsDefined(kind);
 
+    /// <summary>Whether a shape may be a part of a body that is made of several: there, convex ones alone.</summary>
+    public static bool SupportsAsPart(SceneShapeKind kind) => kind is not (SceneShapeKind.Mesh or SceneShapeKind.Field);
+
     /// <summary>Adds a shape.</summary>
     /// <param name="shape">The scene's shape.</param>
     /// <param name="solid">Whether a body of this shape has mass; matters to a mesh, which then is taken as closed.</param>

@@ -242,8 +242,8 @@ public sealed unsafe partial class Bodies
         if (!shape.Exists)
             return;
         shapes.CheckExists(shape, nameof(shape));
-        if (shapes.GetBatch(shape.Type).IsForStaticsOnly)
-            throw new ArgumentException($"{shape} is for statics: no body can have it.", nameof(shape));
+        if (shapes.GetBatch(shape.Type).IsForStaticsOnly(shape.Index))
+            throw new ArgumentException($"{shape} is for statics, or a child of it is: no body can have it.", nameof(shape));
     }
 
     void Validate(in BodyDescription description)

@@ -115,5 +115,5 @@ public struct HalfSpaceWide : IShapeWide<HalfSpace>
 /// <summary>Half-spaces.</summary>
 sealed class HalfSpaceShapeBatch(BufferPool pool, int initialCapacity) : ConvexShapeBatch<HalfSpace, HalfSpaceWide>(pool, initialCapacity)
 {
-    internal override bool IsForStaticsOnly => true;
+    internal override bool IsForStaticsOnly(int shapeIndex) => true;
 }

@@ -35,6 +35,7 @@ struct WayOut
 /// <remarks>
 /// Children are found by boxes in the container's own frame. Everything that is found may be wider than it need be, never narrower. It must
 /// depend on nothing but container and box: not on the width of vectors, nor on how often or by whom it was asked.
+/// What is made of containers itself shows the children of these as its own (<see cref="ContainerChildren"/>): nobody else knows of it.
 /// </remarks>
 unsafe interface IContainer : IShape
 {
@@ -44,8 +45,16 @@ unsafe interface IContainer : IShape
     /// <summary>Whether the children are in a list. Their boxes are then measured once for all that may touch it, one after the other.</summary>
     static abstract bool IsList { get; }
 
-    /// <summary>Greatest number of nodes that <see cref="Open"/> writes.</summary>
-    int MaximumFanOut { get; }
+    /// <summary>Number of children: their numbers are below it.</summary>
+    int ChildCount { get; }
+
+    /// <summary>Number of nodes: their indices are below it.</summary>
+    int NodeCount { get; }
+
+    /// <summary>Greatest number of nodes that <see cref="Open"/> writes for a node.</summary>
+    /// <param name="node">Index of the node.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    int FanOut(int node, Shapes shapes);
 
     /// <summary>Writes the nodes below a node. Number 0 is the root, whether there is a tree or not: a list has all children below it.</summary>
     /// <param name="node">Index of the node.</param>
@@ -60,10 +69,11 @@ unsafe interface IContainer : IShape
     /// <summary>Finds the children whose boxes overlap or touch a box, each once, in any fixed order.</summary>
     /// <param name="min">Lower corner in the container's frame, m.</param>
     /// <param name="max">Upper corner, nowhere below the lower.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
     /// <param name="list">Of a list, what <see cref="Open"/> writes for its root.</param>
     /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
     /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
-    void FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool);
+    void FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool);
 
     /// <summary>Whether the children are triangles of a surface, not bodies with a middle.</summary>
     static abstract bool IsSurface { get; }

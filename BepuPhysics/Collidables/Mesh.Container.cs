@@ -9,7 +9,9 @@ namespace BepuPhysics.Collidables;
 // A mesh as a container of triangles, which are made when they are asked for.
 public unsafe partial struct Mesh : IContainer
 {
-    readonly int IContainer.MaximumFanOut => MeshNode.Width * MeshNode.LeafSize;
+    readonly int IContainer.NodeCount => Header->NodeCount;
+
+    readonly int IContainer.FanOut(int node, Shapes shapes) => MeshNode.Width * MeshNode.LeafSize;
 
     // A leaf is opened together with its node: below a node there are nodes and triangles.
     readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
@@ -47,7 +49,7 @@ public unsafe partial struct Mesh : IContainer
 
     static bool IContainer.IsSurface => true;
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
         FindLocalOverlaps(min, max, ref found, pool);
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)

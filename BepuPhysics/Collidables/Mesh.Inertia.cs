@@ -38,9 +38,16 @@ public unsafe partial struct Mesh
     /// <exception cref="ArgumentException">The triangles enclose nothing or are inside out, or the mass is out of range.</exception>
     public BodyInertia ComputeClosedInertia(float mass, out Vector3 center)
     {
+        var inertia = ComputeCenteredInertia(mass, out center);
+        Recenter(center);
+        return inertia;
+    }
+
+    /// <summary>As <see cref="ComputeClosedInertia(float, out Vector3)"/>, with the mesh where it is.</summary>
+    internal readonly BodyInertia ComputeCenteredInertia(float mass, out Vector3 center)
+    {
         var inertia = Integrate(isClosed: true, out var volume).Invert(mass, volume.Size, aroundCenter: true);
         center = volume.Center;
-        Recenter(center);
         return inertia;
     }
 

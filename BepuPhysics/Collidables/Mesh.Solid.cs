@@ -14,6 +14,7 @@ public unsafe partial struct Mesh
     /// triangles, and leaves at the speed at which its material recovers from overlaps. Triangles of other meshes and of height fields have no such
     /// middle: two meshes touch with their skins.</para>
     /// <para>It costs a search for the nearest triangle, each time that a pair is tested whose other shape has its origin in the bounds of the mesh.</para>
+    /// <para>As a child of a compound a mesh is a skin, solid or not.</para>
     /// <para>It belongs to each copy, as <see cref="Scale"/> does.</para>
     /// </remarks>
     /// <exception cref="InvalidOperationException">The mesh is not closed, see <see cref="MeshReport.IsClosed"/>.</exception>

@@ -131,7 +131,8 @@ public unsafe partial struct Mesh : IDisposableShape
     public static int TypeId => Id;
 
     /// <inheritdoc/>
-    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) => new MeshShapeBatch(pool, initialCapacity);
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        new MeshShapeBatch(pool, initialCapacity, shapes);
 
     // Two corners change places, so that the front of a mirror image is the image of the front.
     internal readonly bool IsMirrored => scale.X < 0 ^ scale.Y < 0 ^ scale.Z < 0;

@@ -8,10 +8,9 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.Collidables;
 
 /// <summary>Meshes; removes their memory together with them when asked to.</summary>
-sealed class MeshShapeBatch(BufferPool pool, int initialCapacity) : ShapeBatch<Mesh>(pool, initialCapacity)
+sealed class MeshShapeBatch(BufferPool pool, int initialCapacity, Shapes collection)
+    : ContainerShapeBatch<Mesh>(pool, initialCapacity, collection)
 {
-    public override bool Compound => true;
-
     public override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max) =>
         this[shapeIndex].ComputeBounds(orientation, out min, out max);
 

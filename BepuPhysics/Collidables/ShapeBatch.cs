@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using System.Threading;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Diagnostics;
@@ -15,7 +14,7 @@ namespace BepuPhysics.Collidables;
 /// slot is taken is recorded, so that an index that outlived its shape is refused and not read.
 /// Any number of threads may read at once; adding, removing and resizing needs the batch alone.
 /// </remarks>
-public abstract unsafe class ShapeBatch
+public abstract unsafe partial class ShapeBatch
 {
     private protected readonly BufferPool pool;
     IdPool ids;
@@ -24,10 +23,6 @@ public abstract unsafe class ShapeBatch
     // What number each slot's shape has among all that were ever added.
     Buffer<int> generations;
     int lastGeneration;
-    // Number of bodies and statics of each slot's shape.
-    Buffer<int> uses;
-    // Number of children of compounds that are each slot's shape.
-    Buffer<int> parts;
     // The collection that the batch belongs to; null for one that stands alone.
     Shapes? owner;
 
@@ -48,8 +43,11 @@ public abstract unsafe class ShapeBatch
     /// <summary>Whether the shapes are made of children.</summary>
     public virtual bool Compound => false;
 
-    /// <summary>Whether the shapes are for statics, and no body has one.</summary>
-    internal virtual bool IsForStaticsOnly => false;
+    /// <summary>Whether a shape is for statics, and no body has it.</summary>
+    internal virtual bool IsForStaticsOnly(int shapeIndex) => false;
+
+    /// <summary>Whether a shape has a child that is made of children itself.</summary>
+    internal virtual bool HasContainer(int shapeIndex) => false;
 
     /// <summary>Number of shapes that fit without taking more memory.</summary>
     public abstract int Capacity { get; }
@@ -267,60 +265,6 @@ public abstract unsafe class ShapeBatch
 
     /// <summary>Begins a change of the batch, and of the collection that it belongs to.</summary>
     private protected Shapes.ChangeScope BeginChange(string operation) => owner is null ? default : owner.Change(operation);
-
-    // Bodies of several simulations, on a thread each, may share the shapes.
-    internal void BeginUse(int shapeIndex) => Interlocked.Increment(ref uses[shapeIndex]);
-
-    internal void EndUse(int shapeIndex)
-    {
-        var left = Interlocked.Decrement(ref uses[shapeIndex]);
-        Check.That(left >= 0);
-    }
-
-    /// <summary>Counts a child of a compound that is this shape. Only while the collection changes.</summary>
-    internal void BeginPart(int shapeIndex) => ++parts[shapeIndex];
-
-    internal void EndPart(int shapeIndex)
-    {
-        --parts[shapeIndex];
-        Check.That(parts[shapeIndex] >= 0);
-    }
-
-    /// <summary>Refuses a shape that does not exist, or that something uses.</summary>
-    internal void CheckUnused(int shapeIndex)
-    {
-        CheckExists(shapeIndex);
-        CheckNoUser(shapeIndex);
-        CheckNoPart(shapeIndex);
-    }
-
-    void CheckNoUser(int shapeIndex)
-    {
-        if (uses[shapeIndex] != 0)
-            throw new InvalidOperationException(
-                $"Shape {shapeIndex} of type {TypeId} is in use by {uses[shapeIndex]} bodies and statics: remove these first, or give them another shape.");
-    }
-
-    void CheckNoPart(int shapeIndex)
-    {
-        if (parts[shapeIndex] != 0)
-            throw new InvalidOperationException(
-                $"Shape {shapeIndex} of type {TypeId} is a child of a compound, {parts[shapeIndex]} times: remove the compound first.");
-    }
-
-    /// <summary>Refuses if anything uses one of the shapes.</summary>
-    /// <param name="andNoParts">Whether compounds count too, because they stay.</param>
-    internal void CheckAllUnused(bool andNoParts)
-    {
-        for (int i = 0; i < UsedSlotCount; ++i)
-        {
-            if (!Exists(i))
-                continue;
-            CheckNoUser(i);
-            if (andNoParts)
-                CheckNoPart(i);
-        }
-    }
 
     /// <summary>Called when a shape was added.</summary>
     private protected virtual void OnAdded(int shapeIndex) { }

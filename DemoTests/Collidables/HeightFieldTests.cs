@@ -104,7 +104,7 @@ public sealed unsafe class HeightFieldTests : IDisposable
                 center = new(random.Next(field.SampleCountX) * field.CellWidth, 0, random.Next(field.SampleCountZ) * field.CellLength);
             var half = i % 7 == 0 ? new Vector3(1e6f) : i % 3 == 0 ? new(0, 2, 0) : new Vector3(Next(0, 2), Next(0, 1), Next(0, 2));
             found.Count = 0;
-            ((IContainer)field).FindOverlaps(center - half, center + half, null, ref found, pool);
+            ((IContainer)field).FindOverlaps(center - half, center + half, null!, null, ref found, pool);
             Vector3 min = center - half, max = center + half;
             var expected = children.Where((_, j) => Meets(all[j], min, max)).ToArray();
             // A triangle has half a cell, and is found with the whole of it.
@@ -122,14 +122,14 @@ public sealed unsafe class HeightFieldTests : IDisposable
     {
         var field = Create(countX, countZ);
         var container = (IContainer)field;
-        pool.Take<NodeChild>(container.MaximumFanOut, out var below);
+        pool.Take<NodeChild>(container.FanOut(0, null!), out var below);
         var seen = new List<int>();
         var open = new Queue<NodeChild>();
         open.Enqueue(new NodeChild { Min = new(float.MinValue), Max = new(float.MaxValue) });
         while (open.TryDequeue(out var node))
         {
             var count = container.Open(node.Index, null!, below.Memory);
-            Assert.InRange(count, 0, container.MaximumFanOut);
+            Assert.InRange(count, 0, container.FanOut(0, null!));
             for (int i = 0; i < count; ++i)
             {
                 Assert.Equal(Vector3.Max(node.Min, below[i].Min), below[i].Min);

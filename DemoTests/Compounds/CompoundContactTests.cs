@@ -50,22 +50,22 @@ public class CompoundContactTests
         var alone = new Dictionary<(int, int, int), ConvexContactManifold>();
         var tester = new CollisionBatcher<Callbacks>(workshop.Pool, workshop.Shapes, registry, 1 / 60f, new(alone));
         var expected = new List<(int Pair, int A, int B, Vector3 OffsetA)>();
-        var (childrenA, childrenB) = (workshop.ChildrenOf(a), workshop.ChildrenOf(b));
+        var (childrenA, childrenB) = (workshop.PiecesOf(a), workshop.PiecesOf(b));
         for (int pair = 0; pair < count; ++pair)
         {
             var offset = workshop.NextVector(spread);
             var turnA = isTurned ? workshop.NextTurn() : Quaternion.Identity;
             var turnB = isTurned ? workshop.NextTurn() : Quaternion.Identity;
             batcher.Add(a, b, offset, turnA, turnB, default, velocityB, Margin, 1, new(pair));
-            for (int i = 0; i < childrenA.Length; ++i)
+            foreach (var pieceA in childrenA)
             {
-                for (int j = 0; j < childrenB.Length; ++j)
+                foreach (var pieceB in childrenB)
                 {
-                    var placeA = CompoundWorkshop.IsContainer(a) ? CompoundWorkshop.Place(childrenA[i], turnA) : new(default, turnA);
-                    var placeB = CompoundWorkshop.IsContainer(b) ? CompoundWorkshop.Place(childrenB[j], turnB) : new(default, turnB);
-                    tester.Add(childrenA[i].ShapeIndex, childrenB[j].ShapeIndex, offset + placeB.Position - placeA.Position, placeA.Orientation,
+                    var placeA = CompoundWorkshop.IsContainer(a) ? pieceA.Place(turnA) : new(default, turnA);
+                    var placeB = CompoundWorkshop.IsContainer(b) ? pieceB.Place(turnB) : new(default, turnB);
+                    tester.Add(pieceA.Shape, pieceB.Shape, offset + placeB.Position - placeA.Position, placeA.Orientation,
                         placeB.Orientation, Margin, new(expected.Count));
-                    expected.Add((pair, i, j, placeA.Position));
+                    expected.Add((pair, pieceA.Number, pieceB.Number, placeA.Position));
                 }
             }
         }
@@ -89,7 +89,7 @@ public class CompoundContactTests
         Assert.InRange(touching, count / 20, int.MaxValue);
         var foundChildren = found.Keys.Count(key => key.Item2 >= 0);
         // A box is wider than what is in it; but not all children are near, unless to what has no end.
-        if (a.Type != HalfSpace.Id && b.Type != HalfSpace.Id && childrenA.Length * childrenB.Length > 8)
+        if (a.Type != HalfSpace.Id && b.Type != HalfSpace.Id && childrenA.Count * childrenB.Count > 8)
             Assert.InRange(foundChildren, touching, expected.Count / 2);
     }
 
@@ -150,6 +150,50 @@ public class CompoundContactTests
             var a = workshop.AddCompound(countA, countA < 4 ? .3f : 3, isBigA, 1);
             var b = workshop.AddCompound(countB, countB < 4 ? .3f : 3, isBigB, 2);
             Compare(workshop, a, b, 3, isTurned, 40);
+        }
+    }
+
+    [Theory, MemberData(nameof(ConvexAndCompound))]
+    public void A_convex_shape_meets_each_piece_of_children_as_if_alone(int type, bool isBig, bool compoundIsA)
+    {
+        using var workshop = new CompoundWorkshop(type * 4 + (isBig ? 2 : 0) + (compoundIsA ? 1 : 0));
+        foreach (var isTurned in (bool[])[false, true])
+        {
+            var shape = workshop.AddShape(type);
+            var compound = workshop.AddNested(isBig);
+            Compare(workshop, compoundIsA ? compound : shape, compoundIsA ? shape : compound, 2, isTurned, 20);
+        }
+    }
+
+    public enum Partner
+    {
+        Compound,
+        BigCompound,
+        Nested,
+        Mesh,
+        Hills,
+        Plane,
+    }
+
+    [Theory]
+    [InlineData(Partner.Compound), InlineData(Partner.BigCompound), InlineData(Partner.Nested)]
+    [InlineData(Partner.Mesh), InlineData(Partner.Hills), InlineData(Partner.Plane)]
+    public void What_is_made_of_children_meets_each_piece_of_children_as_if_alone(Partner partner)
+    {
+        using var workshop = new CompoundWorkshop(50 + (int)partner);
+        for (int i = 0; i < 4; ++i)
+        {
+            var compound = workshop.AddNested(isBig: i % 2 == 0, isForBodies: partner is Partner.Hills or Partner.Plane);
+            var other = partner switch
+            {
+                Partner.Compound => workshop.AddCompound(4, 1, isBig: false),
+                Partner.BigCompound => workshop.AddCompound(5, 1, isBig: true, 3),
+                Partner.Nested => workshop.AddNested(i < 2, isForBodies: true),
+                Partner.Mesh => workshop.AddMesh(),
+                Partner.Hills => workshop.AddHills(4, 4),
+                _ => workshop.Shapes.Add(new HalfSpace(workshop.NextVector(1))),
+            };
+            Compare(workshop, i < 2 ? compound : other, i < 2 ? other : compound, 1.5f, isTurned: i > 0, 2);
         }
     }
 

@@ -221,7 +221,7 @@ public sealed class CompoundShapeTests : IDisposable
         NoChildren,
         MissingShape,
         NoShape,
-        CompoundInside,
+        NestedTwice,
         HalfSpace,
         NaNPosition,
         FarPosition,
@@ -232,7 +232,7 @@ public sealed class CompoundShapeTests : IDisposable
     [InlineData(Fault.NoChildren)]
     [InlineData(Fault.MissingShape)]
     [InlineData(Fault.NoShape)]
-    [InlineData(Fault.CompoundInside)]
+    [InlineData(Fault.NestedTwice)]
     [InlineData(Fault.HalfSpace)]
     [InlineData(Fault.NaNPosition)]
     [InlineData(Fault.FarPosition)]
@@ -240,14 +240,14 @@ public sealed class CompoundShapeTests : IDisposable
     public void What_is_no_compound_is_refused(Fault fault)
     {
         var sphere = Shapes.Add(new Sphere(1));
-        var good = fault == Fault.CompoundInside ? workshop.Add(Children(sphere), isBig: false) : default;
+        var good = fault == Fault.NestedTwice ? workshop.Add(Children(workshop.Add(Children(sphere), isBig: false)), isBig: false) : default;
         var children = Children(sphere, sphere);
         ref var child = ref children[1];
         switch (fault)
         {
             case Fault.MissingShape: child.ShapeIndex = new(Box.Id, 3); break;
             case Fault.NoShape: child.ShapeIndex = default; break;
-            case Fault.CompoundInside: child.ShapeIndex = good; break;
+            case Fault.NestedTwice: child.ShapeIndex = good; break;
             case Fault.HalfSpace: child.ShapeIndex = Shapes.Add(new HalfSpace(Vector3.UnitY)); break;
             case Fault.NaNPosition: child.LocalPosition.Y = float.NaN; break;
             case Fault.FarPosition: child.LocalPosition.Z = 2e7f; break;
@@ -259,7 +259,7 @@ public sealed class CompoundShapeTests : IDisposable
         Assert.ThrowsAny<ArgumentException>(() => new BigCompound(given, Shapes, workshop.Pool));
         Assert.ThrowsAny<ArgumentException>(() => Shapes.Add(new BigCompound { Children = given }));
         Assert.Equal(before, workshop.Pool.GetTotalAllocatedByteCount());
-        Assert.Equal(fault == Fault.CompoundInside ? 1 : 0, Shapes.RegisteredTypeSpan > Compound.Id ? Shapes[Compound.Id]?.Count ?? 0 : 0);
+        Assert.Equal(fault == Fault.NestedTwice ? 2 : 0, Shapes.RegisteredTypeSpan > Compound.Id ? Shapes[Compound.Id]?.Count ?? 0 : 0);
         workshop.Pool.Return(ref children);
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -7,6 +8,14 @@ using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
 
 namespace DemoTests.Compounds;
+
+/// <summary>A convex piece of a shape: its number, and where it is in the frame of the shape.</summary>
+readonly record struct Piece(int Number, RigidPose Pose, TypedIndex Shape)
+{
+    /// <summary>Where it is while the shape is turned and at the origin.</summary>
+    public RigidPose Place(Quaternion orientation) =>
+        new(Exact.Rotate(Pose.Position, orientation), Exact.Concatenate(Pose.Orientation, orientation));
+}
 
 /// <summary>Makes compounds; its pool must be empty in the end.</summary>
 sealed class CompoundWorkshop : IDisposable
@@ -80,6 +89,65 @@ sealed class CompoundWorkshop : IDisposable
         _ => [new(RigidPose.Identity, name)],
     };
 
+    /// <summary>Convex pieces of a shape, with the numbers that callbacks know them by: of children that are made of children, the pieces of these.</summary>
+    public List<Piece> PiecesOf(TypedIndex name)
+    {
+        var pieces = new List<Piece>();
+        var children = name.Type switch
+        {
+            Compound.Id => Shapes.GetShape<Compound>(name.Index).Children,
+            BigCompound.Id => Shapes.GetShape<BigCompound>(name.Index).Children,
+            _ => default,
+        };
+        if (!children.Allocated)
+        {
+            foreach (var child in ChildrenOf(name))
+                pieces.Add(new(pieces.Count, new(child.LocalPosition, child.LocalOrientation), child.ShapeIndex));
+            return pieces;
+        }
+        for (int i = 0; i < children.Length; ++i)
+        {
+            var (place, turn) = (children[i].LocalPosition, children[i].LocalOrientation);
+            foreach (var inner in IsContainer(children[i].ShapeIndex) ? PiecesOf(children[i].ShapeIndex) : [new(0, RigidPose.Identity, children[i].ShapeIndex)])
+            {
+                var pose = IsContainer(children[i].ShapeIndex)
+                    ? new RigidPose(place + Exact.Rotate(inner.Pose.Position, turn), Exact.Concatenate(inner.Pose.Orientation, turn))
+                    : new RigidPose(place, turn);
+                pieces.Add(new(new Compound(children).GetPieceIndex(i, inner.Number), pose, inner.Shape));
+            }
+        }
+        return pieces;
+    }
+
+    /// <summary>
+    /// Adds a compound of a mesh, a mirrored mesh, ground with hills, the two kinds of compounds and convex shapes, turned and elsewhere; one more mesh where
+    /// it is to be for bodies.
+    /// </summary>
+    public TypedIndex AddNested(bool isBig, bool isForBodies = false)
+    {
+        Pool.Take(9, out Buffer<CompoundChild> children);
+        for (int i = 0; i < children.Length; ++i)
+        {
+            var shape = i switch
+            {
+                1 => AddRing(new(1, Next(.7f, 1.3f), 1)),
+                2 => AddRing(new(-1, Next(.7f, 1.3f), 1)),
+                4 => AddCompound(5, .8f, isBig: true, 2),
+                5 => AddCompound(3, .5f, isBig: false, 4),
+                7 => isForBodies ? AddRing(new(-1.2f)) : AddHills(5, 4),
+                _ => AddShape(ConvexTypes[i % ConvexTypes.Length]),
+            };
+            children[i] = new(new RigidPose(NextVector(2), NextTurn()), shape);
+        }
+        return Add(children, isBig);
+    }
+
+    TypedIndex AddRing(Vector3 scale)
+    {
+        var torus = MeshSample.Torus(.7f, .3f, 5, 4);
+        return Shapes.Add(new Mesh(torus.Vertices, torus.Indices, scale, Pool));
+    }
+
     unsafe CompoundChild[] CopyTriangles<TContainer>(TContainer container, int count) where TContainer : unmanaged, IContainer
     {
         var copy = new CompoundChild[count];
@@ -100,12 +168,12 @@ sealed class CompoundWorkshop : IDisposable
     }
 
     /// <summary>Adds ground with hills, about the origin.</summary>
-    public TypedIndex AddHills()
+    public TypedIndex AddHills(int countX = 13, int countZ = 11)
     {
-        var heights = new float[13 * 11];
+        var heights = new float[countX * countZ];
         foreach (ref var height in heights.AsSpan())
             height = Next(-.4f, .4f);
-        return Shapes.Add(new HeightField(13, 11, .7f, .9f, heights, Pool));
+        return Shapes.Add(new HeightField(countX, countZ, .7f, .9f, heights, Pool));
     }
 
     static CompoundChild[] Copy(Buffer<CompoundChild> children)
@@ -120,17 +188,26 @@ sealed class CompoundWorkshop : IDisposable
     public static RigidPose Place(in CompoundChild child, Quaternion orientation) =>
         new(Exact.Rotate(child.LocalPosition, orientation), Exact.Concatenate(child.LocalOrientation, orientation));
 
+    /// <summary>Removes all shapes and what they own: what is made of shapes that are made of others first.</summary>
+    public static void RemoveAll(Shapes shapes, BufferPool pool)
+    {
+        for (int pass = 0; pass < 3; ++pass)
+        {
+            for (int type = 0; type < shapes.RegisteredTypeSpan; ++type)
+            {
+                for (int i = 0; shapes[type] is { } batch && i < batch.Capacity; ++i)
+                {
+                    if (batch.Exists(i) && (pass == 2 || (pass == 1 && type is Compound.Id or BigCompound.Id) || batch.HasContainer(i)))
+                        shapes.RecursivelyRemoveAndDispose(new TypedIndex(type, i), pool);
+                }
+            }
+        }
+    }
+
     /// <summary>Removes all shapes and what they own.</summary>
     public void Dispose()
     {
-        for (int type = Shapes.RegisteredTypeSpan - 1; type >= 0; --type)
-        {
-            for (int i = 0; Shapes[type] is { } batch && i < batch.Capacity; ++i)
-            {
-                if (batch.Exists(i))
-                    Shapes.RecursivelyRemoveAndDispose(new TypedIndex(type, i), Pool);
-            }
-        }
+        RemoveAll(Shapes, Pool);
         Shapes.Dispose();
         Pool.AssertEmpty();
         Pool.Clear();

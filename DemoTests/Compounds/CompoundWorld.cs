@@ -63,14 +63,7 @@ sealed class CompoundWorld : IDisposable
     {
         Simulation.Bodies.Clear();
         Simulation.Statics.Clear();
-        foreach (var type in (int[])[HeightField.Id, Mesh.Id, BigCompound.Id, Compound.Id])
-        {
-            for (int i = 0; type < Simulation.Shapes.RegisteredTypeSpan && Simulation.Shapes[type] is { } batch && i < batch.Capacity; ++i)
-            {
-                if (batch.Exists(i))
-                    Simulation.Shapes.RecursivelyRemoveAndDispose(new TypedIndex(type, i), Pool);
-            }
-        }
+        CompoundWorkshop.RemoveAll(Simulation.Shapes, Pool);
         Simulation.Dispose();
         dispatcher?.Dispose();
         Pool.AssertEmpty();

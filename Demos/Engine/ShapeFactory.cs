@@ -17,6 +17,9 @@ sealed class ShapeFactory(Simulation simulation)
 
     public static bool Supports(SceneShapeKind kind) => Enum.IsDefined(kind);
 
+    /// <summary>Whether a shape may be a part of a body that is made of several.</summary>
+    public static bool SupportsAsPart(SceneShapeKind kind) => Supports(kind);
+
     /// <summary>Adds a shape.</summary>
     /// <param name="shape">The scene's shape.</param>
     /// <param name="solid">Whether a body of this shape has mass; matters to a mesh, which then is taken as closed.</param>
@@ -47,7 +50,10 @@ sealed class ShapeFactory(Simulation simulation)
         foreach ((BuiltShape shape, SceneChild child) in children)
         {
             var pose = new RigidPose(child.Position + SceneMath.Rotate(shape.Center, child.Orientation), child.Orientation);
-            builder.Add(shape.Index, pose, shape.Inertia((float)(shape.Volume / volume)));
+            if (solid)
+                builder.Add(shape.Index, pose, shape.Inertia((float)(shape.Volume / volume)));
+            else
+                builder.AddForKinematic(shape.Index, pose, 1);
         }
         Buffer<CompoundChild> parts;
         Vector3 center = default;

@@ -129,7 +129,7 @@ sealed class SceneBuilder
         if (body.Children.Length == 0)
             return null;
         bool solid = body.Kind == SceneBodyKind.Dynamic;
-        if (solid && scene.Shapes[body.Children[0].Shape].Kind == SceneShapeKind.Field)
+        if (solid && Array.Exists(body.Children, child => scene.Shapes[child.Shape].Kind == SceneShapeKind.Field))
             throw new SceneException(body.Line, "field", "a field has no mass: its body must be static or kinematic");
         if (!body.IsCompound)
             return Shape(body.Children[0].Shape, solid);
@@ -138,9 +138,9 @@ sealed class SceneBuilder
         {
             SceneChild child = body.Children[i];
             SceneShape part = scene.Shapes[child.Shape];
-            if (part.Kind is SceneShapeKind.Mesh or SceneShapeKind.Field)
+            if (!ShapeFactory.SupportsAsPart(part.Kind))
                 throw new SceneException(body.Line, part.Word, $"a {part.Word} cannot be a part of a compound body");
-            children[i] = (Shape(child.Shape, true), child);
+            children[i] = (Shape(child.Shape, solid), child);
         }
         return shapeFactory.BuildCompound(children, solid);
     }

@@ -7,10 +7,11 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
 
-/// <summary>A shape made of many convex shapes, with a tree over them.</summary>
+/// <summary>A shape made of many shapes, with a tree over them.</summary>
 /// <remarks>
-/// <inheritdoc cref="Compound" path="/remarks"/> Leaves of the tree have the numbers of the children; whoever changes a child's shape or pose
-/// gives its leaf new bounds.
+/// <inheritdoc cref="Compound" path="/remarks/para"/>
+/// <para>Leaves of the tree have the numbers of the children; whoever changes a child's shape or pose
+/// gives its leaf new bounds.</para>
 /// </remarks>
 public unsafe struct BigCompound : ICompoundShape, IContainer
 {
@@ -27,7 +28,7 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
     /// <param name="shapes">Shapes that the children refer to.</param>
     /// <param name="pool">Source of the tree's memory.</param>
     /// <param name="dispatcher">Not used: the tree is built by the calling thread. Kept for callers.</param>
-    /// <exception cref="ArgumentException">A child's shape does not exist or is not convex, or a pose is not valid.</exception>
+    /// <exception cref="ArgumentException">A child's shape does not exist or cannot be a child, or a pose is not valid.</exception>
     public BigCompound(Buffer<CompoundChild> children, Shapes shapes, BufferPool pool, IThreadDispatcher? dispatcher = null)
     {
         ArgumentNullException.ThrowIfNull(shapes);
@@ -60,6 +61,13 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
     /// <exception cref="ArgumentOutOfRangeException">There is no such child.</exception>
     public readonly ref CompoundChild GetChild(int compoundChildIndex) => ref CompoundChildren.Get(Children, compoundChildIndex);
 
+    /// <inheritdoc cref="Compound.FindPiece"/>
+    public readonly void FindPiece(int pieceIndex, out int childIndex, out int innerIndex) =>
+        CompoundChildren.FindPiece(Children, pieceIndex, out childIndex, out innerIndex);
+
+    /// <inheritdoc cref="Compound.GetPieceIndex"/>
+    public readonly int GetPieceIndex(int childIndex, int innerIndex = 0) => CompoundChildren.GetPieceIndex(Children, childIndex, innerIndex);
+
     /// <inheritdoc/>
     public readonly void Validate()
     {
@@ -72,12 +80,12 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
     /// <param name="child">The child.</param>
     /// <param name="pool">Pool that the compound's memory was taken from.</param>
     /// <param name="shapes">Shapes that the children refer to.</param>
-    /// <exception cref="ArgumentException">The child's shape does not exist or is not convex, or its pose is not valid.</exception>
+    /// <exception cref="ArgumentException">The child's shape does not exist or cannot be a child, or its pose is not valid.</exception>
     public void Add(CompoundChild child, BufferPool pool, Shapes shapes)
     {
         ArgumentNullException.ThrowIfNull(shapes);
         CompoundChildren.Validate(child, Children.Length);
-        CompoundChildren.CheckShape(child, Children.Length, shapes);
+        CompoundChildren.CheckShape(child, Children.Length, shapes, Children.Length + 1);
         CompoundChildren.Add(ref Children, child, pool);
         shapes.UpdateBounds(child.AsPose(), child.ShapeIndex, out var bounds);
         Tree.Add(bounds, pool);
@@ -131,14 +139,23 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         Tree.Dispose(pool);
     }
 
-    readonly int IContainer.MaximumFanOut => 2;
+    readonly int IContainer.NodeCount => Tree.NodeCount;
+
+    readonly int IContainer.FanOut(int node, Shapes shapes) =>
+        node < Tree.NodeCount ? 2 : ContainerChildren.FanOut(Children, Tree.NodeCount, node, shapes);
 
     readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
     {
+        if (node >= Tree.NodeCount)
+            return ContainerChildren.Open(Children, Tree.NodeCount, node, shapes, below);
         // The second side of a tree with a single leaf is nothing.
         var count = Math.Min(2, Tree.LeafCount);
         for (int i = 0; i < count; ++i)
+        {
             below[i] = Tree.Children[2 * node + i];
+            if (below[i].Index < 0)
+                ContainerChildren.Mark(Children, Tree.NodeCount, shapes, ref below[i]);
+        }
         return count;
     }
 
@@ -154,15 +171,25 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         return false;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
+        int first = found.Count;
         var collector = new Collector { Found = found, Pool = pool };
         Tree.GetOverlaps(min, max, pool, ref collector);
         found = collector.Found;
+        // From the last on, so that what is added behind is not looked at.
+        for (int i = found.Count - 1; i >= first; --i)
+        {
+            var child = found[i];
+            if (!ContainerChildren.IsContainer(Children[child]))
+                continue;
+            found[i] = found[--found.Count];
+            ContainerChildren.FindOverlaps(Children, child, min, max, shapes, ref found, pool);
+        }
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
-        CompoundChildren.Get(Children, index, shapes, out child);
+        CompoundChildren.Get(Children, index, shapes, scratch, out child);
 
     struct Collector : IBreakableForEach<int>
     {

@@ -5,7 +5,7 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
 
-/// <summary>Tests a ray against children of a compound, and tells the compound's handler about the hits with the number of the child.</summary>
+/// <summary>Tests a ray against children of a compound, and tells the compound's handler about the hits with the number of the piece.</summary>
 unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in RigidPose pose, in RayData ray, Shapes shapes, in TRayHitHandler handler)
     : IRayLeafTester where TRayHitHandler : struct, IShapeRayHitHandler
 {
@@ -19,26 +19,31 @@ unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in 
 
     public void Test(int index, ref float maximumT, BufferPool pool)
     {
-        if (!hits.Handler.AllowTest(index))
-            return;
         ref var child = ref children[index];
+        // What is made of children asks for each of them.
+        if (ContainerChildren.IsContainer(child))
+            hits.FirstPiece = ContainerChildren.Pieces(children).Of(index, 0);
+        else if (hits.Handler.AllowTest(index))
+            hits.FirstPiece = index;
+        else
+            return;
         var place = new RigidPose(
             pose.Position + Exact.Rotate(child.LocalPosition, pose.Orientation), Exact.Concatenate(child.LocalOrientation, pose.Orientation));
-        hits.Child = index;
         shapes.GetBatch(child.ShapeIndex.Type).RayTest(child.ShapeIndex.Index, place, ray, ref maximumT, pool, ref hits);
     }
 
     // The tree's ray is the same one in the frame of the compound.
     void IRayLeafTester.TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) => Test(leafIndex, ref *maximumT, pool);
 
+    // A convex shape is its own child of number zero.
     struct ChildHits : IShapeRayHitHandler
     {
         public TRayHitHandler Handler;
-        public int Child;
+        public int FirstPiece;
 
-        public bool AllowTest(int childIndex) => true;
+        public bool AllowTest(int childIndex) => Handler.AllowTest(FirstPiece + childIndex);
 
         public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, int childIndex) =>
-            Handler.OnRayHit(ray, ref maximumT, t, normal, Child);
+            Handler.OnRayHit(ray, ref maximumT, t, normal, FirstPiece + childIndex);
     }
 }

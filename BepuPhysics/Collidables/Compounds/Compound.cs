@@ -7,11 +7,15 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
 
-/// <summary>A shape made of a few convex shapes in a list. For more than about ten <see cref="BigCompound"/> is faster.</summary>
+/// <summary>A shape made of a few shapes in a list. For more than about ten <see cref="BigCompound"/> is faster.</summary>
 /// <remarks>
-/// Any convex shapes may be children, the same one in several places too; a compound or a mesh may not. A body turns around the origin of the
+/// <para>Any shapes but half-spaces may be children, the same one in several places too: convex ones, meshes, height fields (then the compound is for
+/// statics, as they are), and compounds whose own children are convex. A body turns around the origin of the
 /// compound, which must be its centre of mass: <see cref="CompoundBuilder"/> sees to that. While the compound is among the
-/// <see cref="Shapes"/>, the shapes that its children had when it was added cannot be removed.
+/// <see cref="Shapes"/>, the shapes that its children had when it was added cannot be removed.</para>
+/// <para>What touches, and what a ray hits, is a convex piece. A convex child is one, and its number is that of the child. A child that is a mesh, a
+/// height field or a compound consists of many, whose numbers follow those of all children: <see cref="FindPiece"/> says which child a
+/// piece belongs to, and which triangle or child of that it is. Callbacks and ray handlers are given numbers of pieces.</para>
 /// </remarks>
 public unsafe struct Compound : ICompoundShape, IContainer
 {
@@ -38,6 +42,22 @@ public unsafe struct Compound : ICompoundShape, IContainer
     /// <inheritdoc/>
     /// <exception cref="ArgumentOutOfRangeException">There is no such child.</exception>
     public readonly ref CompoundChild GetChild(int compoundChildIndex) => ref CompoundChildren.Get(Children, compoundChildIndex);
+
+    /// <summary>Which child a piece belongs to. Pieces are what callbacks and ray handlers are told of.</summary>
+    /// <param name="pieceIndex">Number of the piece; below <see cref="ChildCount"/> that of a convex child.</param>
+    /// <param name="childIndex">Number of the child.</param>
+    /// <param name="innerIndex">
+    /// Number of the piece in that child: of a triangle of a mesh or height field, or of a child of a compound. Zero for a convex child.
+    /// </param>
+    /// <exception cref="ArgumentOutOfRangeException">No piece has this number.</exception>
+    public readonly void FindPiece(int pieceIndex, out int childIndex, out int innerIndex) =>
+        CompoundChildren.FindPiece(Children, pieceIndex, out childIndex, out innerIndex);
+
+    /// <summary>Number of a piece, as callbacks and ray handlers are told it. It changes when children are added or removed.</summary>
+    /// <param name="childIndex">Number of the child.</param>
+    /// <param name="innerIndex">Number of the triangle or child in that child, which is not looked up; zero for a convex child.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such child, or it has no such piece.</exception>
+    public readonly int GetPieceIndex(int childIndex, int innerIndex = 0) => CompoundChildren.GetPieceIndex(Children, childIndex, innerIndex);
 
     /// <inheritdoc/>
     public readonly void Validate() => CompoundChildren.Validate(Children);
@@ -88,11 +108,20 @@ public unsafe struct Compound : ICompoundShape, IContainer
     /// <inheritdoc/>
     public void Dispose(BufferPool pool) => CompoundChildren.Dispose(ref Children, pool);
 
-    readonly int IContainer.MaximumFanOut => Children.Length;
+    const int OwnNodeCount = 1;
+
+    readonly int IContainer.NodeCount => OwnNodeCount;
+
+    readonly int IContainer.FanOut(int node, Shapes shapes) =>
+        node < OwnNodeCount ? Children.Length : ContainerChildren.FanOut(Children, OwnNodeCount, node, shapes);
 
     readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
     {
+        if (node >= OwnNodeCount)
+            return ContainerChildren.Open(Children, OwnNodeCount, node, shapes, below);
         CompoundChildren.WriteBoxes(Children, shapes, below);
+        for (int i = 0; i < Children.Length; ++i)
+            ContainerChildren.Mark(Children, OwnNodeCount, shapes, ref below[i]);
         return Children.Length;
     }
 
@@ -108,15 +137,19 @@ public unsafe struct Compound : ICompoundShape, IContainer
         return false;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         for (int i = 0; i < Children.Length; ++i)
         {
-            if (BoundingBox.IntersectsUnsafe(min, max, list[i].Min, list[i].Max))
+            if (!BoundingBox.IntersectsUnsafe(min, max, list[i].Min, list[i].Max))
+                continue;
+            if (list[i].Index < 0)
                 found.Add(i, pool);
+            else
+                ContainerChildren.FindOverlaps(Children, i, min, max, shapes, ref found, pool);
         }
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
-        CompoundChildren.Get(Children, index, shapes, out child);
+        CompoundChildren.Get(Children, index, shapes, scratch, out child);
 }

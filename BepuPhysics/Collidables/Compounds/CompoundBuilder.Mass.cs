@@ -98,37 +98,71 @@ public partial struct CompoundBuilder
         Span<CompoundChild> children, Span<Symmetric3x3> inverseLocalInertias, Span<float> childMasses, out Vector3 centerOfMass) =>
         ComputeInverseInertia(Poses(children), inverseLocalInertias, childMasses, out centerOfMass);
 
-    /// <summary>Inverse mass and inertia of convex children around the origin of their compound, each filled uniformly.</summary>
+    /// <summary>Inverse mass and inertia of children around the origin of their compound, each filled uniformly.</summary>
+    /// <remarks>
+    /// A mesh is what it encloses, whose centre of mass may be anywhere in its frame. How the mass of a compound is spread over its children is not
+    /// known, and a height field encloses nothing: these are refused.
+    /// </remarks>
     /// <param name="children">The children.</param>
     /// <param name="childMasses">Masses of the children, kg; more than zero.</param>
     /// <param name="shapes">Shapes that the children refer to.</param>
-    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist, or floats cannot
-    /// hold the inverse inertia.</exception>
+    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist or is neither convex
+    /// nor a closed mesh, or floats cannot hold the inverse inertia.</exception>
     public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes) =>
-        ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses);
+        SumUp(FilledParts(children, childMasses, shapes, out var inertias), inertias, childMasses, default);
 
-    /// <summary>Inverse mass and inertia of convex children around their centre of mass, which becomes the origin of their poses.</summary>
+    /// <summary>Inverse mass and inertia of children around their centre of mass, which becomes the origin of their poses.</summary>
+    /// <remarks><inheritdoc cref="ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)" path="/remarks"/></remarks>
     /// <param name="children">The children.</param>
     /// <param name="childMasses">Masses of the children, kg; more than zero.</param>
     /// <param name="shapes">Shapes that the children refer to.</param>
     /// <param name="centerOfMass">Centre of mass in the frame that the children were in.</param>
-    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist, or floats cannot
-    /// hold the inverse inertia.</exception>
-    public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass) =>
-        ComputeInverseInertia(children, LocalInertias(children, childMasses, shapes), childMasses, out centerOfMass);
+    /// <exception cref="ArgumentException">There are not as many masses as children, a mass is out of range, a shape does not exist or is neither convex
+    /// nor a closed mesh, or floats cannot hold the inverse inertia.</exception>
+    public static BodyInertia ComputeInertia(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes, out Vector3 centerOfMass)
+    {
+        var parts = FilledParts(children, childMasses, shapes, out var inertias);
+        var inertia = ComputeInverseInertia(parts, inertias, childMasses, out centerOfMass);
+        foreach (ref var child in children)
+            child.LocalPosition -= centerOfMass;
+        return inertia;
+    }
 
-    static Symmetric3x3[] LocalInertias(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes)
+    // Where the centres of mass of the children are, and their inertias around these.
+    static RigidPose[] FilledParts(Span<CompoundChild> children, Span<float> childMasses, Shapes shapes, out Symmetric3x3[] inertias)
     {
         ArgumentNullException.ThrowIfNull(shapes);
         CheckMasses(children.Length, childMasses);
-        var inertias = new Symmetric3x3[children.Length];
+        var poses = Poses(children).ToArray();
+        inertias = new Symmetric3x3[children.Length];
         for (int i = 0; i < children.Length; ++i)
         {
             var name = children[i].ShapeIndex;
-            CompoundChildren.CheckShape(children[i], i, shapes);
-            inertias[i] = ((IConvexShapeBatch)shapes.GetBatch(name.Type)).ComputeInertia(name.Index, childMasses[i]).InverseInertiaTensor;
+            CompoundChildren.CheckShape(children[i], i, shapes, children.Length);
+            inertias[i] = shapes.GetBatch(name.Type) switch
+            {
+                IConvexShapeBatch convex => convex.ComputeInertia(name.Index, childMasses[i]).InverseInertiaTensor,
+                MeshShapeBatch meshes => FilledMesh(meshes.Get(name.Index), childMasses[i], i, ref poses[i]),
+                _ => throw new ArgumentException($"Child {i} is {name}, whose inertia does not follow from a mass alone: give it with the child, by " +
+                    $"{nameof(CompoundBuilder)}.{nameof(Add)}, or add its children instead.", nameof(children)),
+            };
         }
-        return inertias;
+        return poses;
+    }
+
+    static Symmetric3x3 FilledMesh(in Mesh mesh, float mass, int child, ref RigidPose pose)
+    {
+        try
+        {
+            var inertia = mesh.ComputeCenteredInertia(mass, out var center);
+            pose.Position += Exact.Rotate(center, pose.Orientation);
+            return inertia.InverseInertiaTensor;
+        }
+        catch (ArgumentException exception)
+        {
+            throw new ArgumentException($"Child {child} is a mesh that is not filled with mass: {exception.Message} Give its inertia with the child, by " +
+                $"{nameof(CompoundBuilder)}.{nameof(Add)}: {nameof(Mesh.ComputeOpenInertia)} gives that of its triangles as sheets.", exception);
+        }
     }
 
     // A child begins with its pose.

@@ -35,26 +35,26 @@ public partial struct CompoundBuilder(BufferPool pool, Shapes shapes, int initia
     public QuickList<Child> Children = new(Math.Max(1, initialBuilderCapacity), pool);
 
     /// <summary>Adds a child.</summary>
-    /// <param name="shape">Name of the child's shape; convex.</param>
+    /// <param name="shape">Name of the child's shape; its centre of mass is its origin, see <see cref="Mesh.Recenter"/>.</param>
     /// <param name="localPose">Pose of the child.</param>
     /// <param name="localInverseInertia">Inverse inertia of the child, in its own frame.</param>
     /// <param name="weight">Mass of the child, kg; zero or more.</param>
-    /// <exception cref="ArgumentException">The shape does not exist or is not convex, or a number is not finite or out of range.</exception>
+    /// <exception cref="ArgumentException">The shape does not exist or cannot be a child, or a number is not finite or out of range.</exception>
     public void Add(TypedIndex shape, in RigidPose localPose, in Symmetric3x3 localInverseInertia, float weight)
     {
         var child = new CompoundChild(localPose, shape);
         CompoundChildren.Validate(child, Children.Count);
-        CompoundChildren.CheckShape(child, Children.Count, Shapes);
+        CompoundChildren.CheckShape(child, Children.Count, Shapes, Children.Count + 1);
         CheckWeight(weight);
         CheckInertia(localInverseInertia);
         Children.Add(new() { LocalPose = localPose, ShapeIndex = shape, Weight = weight, LocalInverseInertia = localInverseInertia }, Pool);
     }
 
     /// <summary>Adds a child.</summary>
-    /// <param name="shape">Name of the child's shape; convex.</param>
+    /// <param name="shape">Name of the child's shape; its centre of mass is its origin, see <see cref="Mesh.Recenter"/>.</param>
     /// <param name="localPose">Pose of the child.</param>
     /// <param name="childInertia">Inverse mass, not zero, and inverse inertia of the child, in its own frame.</param>
-    /// <exception cref="ArgumentException">The shape does not exist or is not convex, or a number is not finite or out of range.</exception>
+    /// <exception cref="ArgumentException">The shape does not exist or cannot be a child, or a number is not finite or out of range.</exception>
     public void Add(TypedIndex shape, in RigidPose localPose, in BodyInertia childInertia)
     {
         if (!(childInertia.InverseMass > 0))
@@ -78,10 +78,10 @@ public partial struct CompoundBuilder(BufferPool pool, Shapes shapes, int initia
     }
 
     /// <summary>Adds a child of a compound that nothing moves.</summary>
-    /// <param name="shape">Name of the child's shape; convex.</param>
+    /// <param name="shape">Name of the child's shape; its centre of mass is its origin, see <see cref="Mesh.Recenter"/>.</param>
     /// <param name="localPose">Pose of the child.</param>
     /// <param name="weight">What the child counts for the centre; zero or more.</param>
-    /// <exception cref="ArgumentException">The shape does not exist or is not convex, or a number is not finite or out of range.</exception>
+    /// <exception cref="ArgumentException">The shape does not exist or cannot be a child, or a number is not finite or out of range.</exception>
     public void AddForKinematic(TypedIndex shape, in RigidPose localPose, float weight) => Add(shape, localPose, default(Symmetric3x3), weight);
 
     /// <summary>Adds a shape, and a child of a compound that nothing moves that is this shape.</summary>

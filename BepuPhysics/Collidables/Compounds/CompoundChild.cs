@@ -16,7 +16,7 @@ public struct CompoundChild(in RigidPose pose, TypedIndex shapeIndex)
     public Quaternion LocalOrientation = Normalized(pose.Orientation);
     /// <summary>Position of the child's centre in the frame of the compound, m; each coordinate up to 1e7.</summary>
     public Vector3 LocalPosition = pose.Position;
-    /// <summary>Name of the child's shape, which is convex.</summary>
+    /// <summary>Name of the child's shape. What may be a child says <see cref="Compound"/>.</summary>
     public TypedIndex ShapeIndex = shapeIndex;
 
     // What is no rotation stays what it is, to be refused by name.

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -10,6 +11,10 @@ namespace BepuPhysics.Collidables;
 static unsafe class CompoundChildren
 {
     public static Span<CompoundChild> Span(Buffer<CompoundChild> children) => new(children.Memory, children.Length);
+
+    /// <summary>Children of a compound, in its memory.</summary>
+    public static Buffer<CompoundChild> Of<TCompound>(ref TCompound compound) where TCompound : unmanaged, ICompoundShape =>
+        compound.ChildCount == 0 ? default : new(Unsafe.AsPointer(ref compound.GetChild(0)), compound.ChildCount);
 
     public static ref CompoundChild Get(Buffer<CompoundChild> children, int index)
     {
@@ -37,31 +42,95 @@ static unsafe class CompoundChildren
             throw new ArgumentException($"The orientation of child {index} must be of unit length, not {child.LocalOrientation}.", nameof(child));
     }
 
-    /// <summary>Refuses children whose shapes do not exist, or are not convex.</summary>
+    /// <summary>Refuses children whose shapes do not exist, or cannot be children.</summary>
     public static void CheckShapes(Buffer<CompoundChild> children, Shapes shapes)
     {
         for (int i = 0; i < children.Length; ++i)
-            CheckShape(children[i], i, shapes);
+            CheckShape(children[i], i, shapes, children.Length);
     }
 
     /// <inheritdoc cref="CheckShapes(Buffer{CompoundChild}, Shapes)"/>
     public static void CheckShapes(ICompoundShape compound, Shapes shapes)
     {
         for (int i = 0; i < compound.ChildCount; ++i)
-            CheckShape(compound.GetChild(i), i, shapes);
+            CheckShape(compound.GetChild(i), i, shapes, compound.ChildCount);
     }
 
-    public static void CheckShape(in CompoundChild child, int index, Shapes shapes)
+    /// <summary>Refuses a child whose shape does not exist, or cannot be a child.</summary>
+    /// <param name="child">The child.</param>
+    /// <param name="index">Its number.</param>
+    /// <param name="shapes">Shapes that there are.</param>
+    /// <param name="childCount">How many children the compound has: the more, the fewer pieces each of them may have.</param>
+    public static void CheckShape(in CompoundChild child, int index, Shapes shapes, int childCount)
     {
         if (!shapes.Exists(child.ShapeIndex))
             throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which does not exist.", nameof(child));
-        if (shapes.GetBatch(child.ShapeIndex.Type) is not IConvexShapeBatch)
+        var batch = shapes.GetBatch(child.ShapeIndex.Type);
+        if (batch is IContainerBatch containers)
         {
-            throw new ArgumentException(
-                $"Child {index} is {child.ShapeIndex}, which is itself made of children: a child must be convex. Add its children instead.", nameof(child));
+            if (batch.HasContainer(child.ShapeIndex.Index))
+            {
+                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, of which a child is itself made of children: children of a child must be " +
+                    "convex. Add its children instead.", nameof(child));
+            }
+            var limit = new PieceNumbers(childCount, childCount).PerChild;
+            if (containers.ChildCount(child.ShapeIndex.Index) is var count && count > limit)
+            {
+                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is made of {count}: in a compound of {childCount} children each may be " +
+                    $"made of up to {limit}. Make it a shape of its own, or divide it.", nameof(child));
+            }
+            return;
         }
-        if (shapes.GetBatch(child.ShapeIndex.Type).IsForStaticsOnly)
-            throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is for statics: a child must have an end.", nameof(child));
+        if (batch is not IConvexShapeBatch)
+            throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is neither convex nor made of convex children.", nameof(child));
+        if (batch.IsForStaticsOnly(child.ShapeIndex.Index))
+            throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which has no end: a child must have one.", nameof(child));
+    }
+
+    /// <summary>Whether a child is made of children.</summary>
+    public static bool HasContainer(Buffer<CompoundChild> children)
+    {
+        foreach (ref var child in Span(children))
+        {
+            if (ContainerChildren.IsContainer(child))
+                return true;
+        }
+        return false;
+    }
+
+    /// <summary>Whether a child is for statics.</summary>
+    public static bool IsForStaticsOnly(Buffer<CompoundChild> children, Shapes shapes)
+    {
+        foreach (ref var child in Span(children))
+        {
+            if (shapes.GetBatch(child.ShapeIndex.Type).IsForStaticsOnly(child.ShapeIndex.Index))
+                return true;
+        }
+        return false;
+    }
+
+    public static void FindPiece(Buffer<CompoundChild> children, int piece, out int child, out int inner)
+    {
+        (child, inner) = (piece, 0);
+        var isContainer = piece >= children.Length && children.Length > 0;
+        if (isContainer)
+            (child, inner) = ContainerChildren.Pieces(children).Find(piece);
+        if ((uint)child >= (uint)children.Length || ContainerChildren.IsContainer(children[child]) != isContainer)
+            throw new ArgumentOutOfRangeException(nameof(piece), piece, $"The compound of {children.Length} children has no such piece.");
+    }
+
+    public static int GetPieceIndex(Buffer<CompoundChild> children, int child, int inner)
+    {
+        if (!ContainerChildren.IsContainer(Get(children, child)))
+        {
+            return inner == 0
+                ? child
+                : throw new ArgumentOutOfRangeException(nameof(inner), inner, $"Child {child} is convex: its one piece has the number 0.");
+        }
+        var pieces = ContainerChildren.Pieces(children);
+        if ((uint)inner >= (uint)pieces.PerChild)
+            throw new ArgumentOutOfRangeException(nameof(inner), inner, $"A child of this compound has {pieces.PerChild} pieces at most.");
+        return pieces.Of(child, inner);
     }
 
     public static void Add(ref Buffer<CompoundChild> children, in CompoundChild child, BufferPool pool)
@@ -95,8 +164,13 @@ static unsafe class CompoundChildren
         children = default;
     }
 
-    public static void Get(Buffer<CompoundChild> children, int index, Shapes shapes, out ContainerChild result)
+    public static void Get(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
     {
+        if (index >= children.Length)
+        {
+            ContainerChildren.GetPiece(children, index, shapes, scratch, out result);
+            return;
+        }
         ref var child = ref children[index];
         result.TypeId = child.ShapeIndex.Type;
         result.Shape = shapes.GetBatch(child.ShapeIndex.Type).GetPointer(child.ShapeIndex.Index);

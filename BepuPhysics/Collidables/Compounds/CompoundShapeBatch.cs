@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -9,13 +8,11 @@ namespace BepuPhysics.Collidables;
 
 /// <summary>Compounds of one kind. It notes which shapes the children of each had when it was added: these cannot be removed meanwhile.</summary>
 /// <remarks>What is noted does not change with a compound that is changed in place, so that what was counted is what is counted back.</remarks>
-sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initialCapacity, Shapes all) : ShapeBatch<TCompound>(source, initialCapacity)
-    where TCompound : unmanaged, ICompoundShape
+sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initialCapacity, Shapes collection)
+    : ContainerShapeBatch<TCompound>(source, initialCapacity, collection) where TCompound : unmanaged, ICompoundShape, IContainer
 {
     // By slot; none for a slot without a shape.
     Buffer<Buffer<TypedIndex>> childNames;
-
-    public override bool Compound => true;
 
     public override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max) =>
         this[shapeIndex].ComputeBounds(orientation, all, out min, out max);
@@ -29,11 +26,8 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
     CompoundExtent Measure(int shapeIndex, in Quaternion orientation)
     {
         ref var compound = ref Get(shapeIndex);
-        return CompoundChildren.Measure(ChildrenOf(ref compound), orientation, all);
+        return CompoundChildren.Measure(CompoundChildren.Of(ref compound), orientation, all);
     }
-
-    static Buffer<CompoundChild> ChildrenOf(ref TCompound compound) =>
-        compound.ChildCount == 0 ? default : new(Unsafe.AsPointer(ref compound.GetChild(0)), compound.ChildCount);
 
     internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
         out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
@@ -53,10 +47,14 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
         }
     }
 
+    internal override bool IsForStaticsOnly(int shapeIndex) => CompoundChildren.IsForStaticsOnly(CompoundChildren.Of(ref Get(shapeIndex)), all);
+
+    internal override bool HasContainer(int shapeIndex) => CompoundChildren.HasContainer(CompoundChildren.Of(ref Get(shapeIndex)));
+
     private protected override void CheckParts(in TCompound shape)
     {
         var copy = shape;
-        CompoundChildren.CheckShapes(ChildrenOf(ref copy), all);
+        CompoundChildren.CheckShapes(CompoundChildren.Of(ref copy), all);
     }
 
     private protected override void OnAdded(int shapeIndex)
@@ -67,7 +65,7 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
             pool.ResizeToAtLeast(ref childNames, Capacity, known);
             childNames.Clear(known, childNames.Length - known);
         }
-        var children = ChildrenOf(ref Get(shapeIndex));
+        var children = CompoundChildren.Of(ref Get(shapeIndex));
         pool.Take(children.Length, out Buffer<TypedIndex> names);
         for (int i = 0; i < children.Length; ++i)
             names[i] = children[i].ShapeIndex;
@@ -101,27 +99,61 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
 
     private protected override void RemoveAndDisposeChildren(int shapeIndex, Shapes shapes, BufferPool pool)
     {
-        var names = childNames[shapeIndex];
-        EndUses(names);
+        ReleaseChildren(shapeIndex);
         try
         {
-            foreach (var name in new ReadOnlySpan<TypedIndex>(names.Memory, names.Length))
-                all.GetBatch(name.Type).CheckUnused(name.Index);
+            CheckReleased(shapeIndex);
         }
         catch
         {
-            BeginUses(names);
+            ReclaimChildren(shapeIndex);
             throw;
         }
-        // A shape may be that of several children.
-        foreach (var name in new ReadOnlySpan<TypedIndex>(names.Memory, names.Length))
+        DisposeReleased(shapeIndex, pool);
+    }
+
+    internal override void ReleaseChildren(int shapeIndex)
+    {
+        foreach (var name in Names(shapeIndex))
         {
-            if (all.Exists(name))
-                all.GetBatch(name.Type).RemoveAndDisposeUnlocked(name.Index, pool);
+            if (all.GetBatch(name.Type).EndPart(name.Index) == 0)
+                all.GetBatch(name.Type).ReleaseChildren(name.Index);
+        }
+    }
+
+    internal override void ReclaimChildren(int shapeIndex)
+    {
+        foreach (var name in Names(shapeIndex))
+        {
+            if (all.GetBatch(name.Type).BeginPart(name.Index) == 1)
+                all.GetBatch(name.Type).ReclaimChildren(name.Index);
+        }
+    }
+
+    internal override void CheckReleased(int shapeIndex)
+    {
+        foreach (var name in Names(shapeIndex))
+        {
+            all.GetBatch(name.Type).CheckUnused(name.Index);
+            all.GetBatch(name.Type).CheckReleased(name.Index);
+        }
+    }
+
+    internal override void DisposeReleased(int shapeIndex, BufferPool pool)
+    {
+        // A shape may be that of several children.
+        foreach (var name in Names(shapeIndex))
+        {
+            if (!all.Exists(name))
+                continue;
+            all.GetBatch(name.Type).DisposeReleased(name.Index, pool);
+            all.GetBatch(name.Type).RemoveAndDisposeUnlocked(name.Index, pool);
         }
         base.pool.Return(ref childNames[shapeIndex]);
         childNames[shapeIndex] = default;
     }
+
+    ReadOnlySpan<TypedIndex> Names(int shapeIndex) => new(childNames[shapeIndex].Memory, childNames[shapeIndex].Length);
 
     void BeginUses(Buffer<TypedIndex> names)
     {

@@ -16,7 +16,9 @@ public unsafe partial struct HeightField
     // Part of the distances of a ray by which boxes are wider: a ray that is turned to the field's frame is rounded, and so is one in a triangle's test.
     const float RayRounding = 2e-6f;
 
-    readonly int IContainer.MaximumFanOut => TrianglesPerBlock;
+    readonly int IContainer.NodeCount => Levels.BlockCount;
+
+    readonly int IContainer.FanOut(int node, Shapes shapes) => TrianglesPerBlock;
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
     {
@@ -29,7 +31,6 @@ public unsafe partial struct HeightField
 
     static bool IContainer.IsList => false;
 
-    // In the order of their numbers.
     static bool IContainer.IsSurface => true;
 
     readonly bool IContainer.IsSolid => false;
@@ -40,7 +41,8 @@ public unsafe partial struct HeightField
         return false;
     }
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    // In the order of their numbers.
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var (firstX, lastX) = FindCells(min.X, max.X, CellWidth, CellCountX);
         var (firstZ, lastZ) = FindCells(min.Z, max.Z, CellLength, CellCountZ);

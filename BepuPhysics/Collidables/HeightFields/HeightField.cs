@@ -103,7 +103,8 @@ public unsafe partial struct HeightField : IContainer, IDisposableShape
     readonly HeightFieldCell* Cells => (HeightFieldCell*)(memory.Memory + cellsStart);
 
     /// <inheritdoc/>
-    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) => new HeightFieldShapeBatch(pool, initialCapacity);
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        new HeightFieldShapeBatch(pool, initialCapacity, shapes);
 
     /// <inheritdoc/>
     public readonly void Validate()

@@ -32,8 +32,6 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
         ref QuickList<FoundChild> found, BufferPool pool)
     {
         var descent = new ContainerDescent<TContainerA, TContainerB> { pool = pool, parent = parent, flipped = flipped };
-        pool.TakeAtLeast(a.MaximumFanOut, out descent.belowA);
-        pool.TakeAtLeast(b.MaximumFanOut, out descent.belowB);
         descent.stack = new(InitialCapacity, pool);
         descent.Descend(a, b, placement, shapes, ref found);
         descent.stack.Dispose(pool);
@@ -43,7 +41,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
 
     void Descend(in TContainerA a, in TContainerB b, in NodePlacement placement, Shapes shapes, ref QuickList<FoundChild> found)
     {
-        var countA = a.Open(0, shapes, belowA.Memory);
+        var countA = ContainerPlaces.Open(a, 0, shapes, ref belowA, pool);
         var countB = OpenB(b, 0, placement, shapes);
         for (int i = 0; i < countA; ++i)
         {
@@ -55,7 +53,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
             var pair = stack.Pop();
             if (pair.B.Index < 0 || (pair.A.Index >= 0 && pair.A.LeafCount >= pair.B.LeafCount))
             {
-                countA = a.Open(pair.A.Index, shapes, belowA.Memory);
+                countA = ContainerPlaces.Open(a, pair.A.Index, shapes, ref belowA, pool);
                 for (int i = 0; i < countA; ++i)
                     Test(belowA[i], pair.B, ref found);
             }
@@ -68,9 +66,9 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
         }
     }
 
-    readonly int OpenB(in TContainerB b, int node, in NodePlacement placement, Shapes shapes)
+    int OpenB(in TContainerB b, int node, in NodePlacement placement, Shapes shapes)
     {
-        var count = b.Open(node, shapes, belowB.Memory);
+        var count = ContainerPlaces.Open(b, node, shapes, ref belowB, pool);
         for (int i = 0; i < count; ++i)
             belowB[i] = placement.Place(belowB[i]);
         return count;

@@ -46,18 +46,18 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
     // A child of A that is inside of B meets nothing of B but the way out.
     static void FindWaysOut(in Entry entry, in NodePlacement placement, int parent, int first, Shapes shapes, ref QuickList<FoundChild> found, BufferPool pool)
     {
-        pool.TakeAtLeast<NodeChild>(Math.Max(entry.A.MaximumFanOut, entry.B.MaximumFanOut), out var below);
+        var below = default(Buffer<NodeChild>);
         Vector3 min = new(float.MaxValue), max = new(-float.MaxValue);
-        for (int i = entry.B.Open(0, shapes, below.Memory) - 1; i >= 0; --i)
+        for (int i = ContainerPlaces.Open(entry.B, 0, shapes, ref below, pool) - 1; i >= 0; --i)
         {
             var box = placement.Place(below[i]);
             min = Exact.Min(min, box.Min);
             max = Exact.Max(max, box.Max);
         }
         if (TContainerA.IsList)
-            entry.A.Open(0, shapes, below.Memory);
+            ContainerPlaces.Open(entry.A, 0, shapes, ref below, pool);
         var near = new QuickList<int>(InitialCapacity, pool);
-        entry.A.FindOverlaps(min, max, below.Memory, ref near, pool);
+        entry.A.FindOverlaps(min, max, shapes, below.Memory, ref near, pool);
         var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
         foreach (int child in near.AsSpan())
         {

@@ -1,13 +1,32 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Puts children where their containers are.</summary>
 static unsafe class ContainerPlaces
 {
+    /// <summary>Opens a node of a container.</summary>
+    /// <param name="container">The container.</param>
+    /// <param name="node">Index of the node.</param>
+    /// <param name="shapes">Shapes that children may be.</param>
+    /// <param name="below">Receives the nodes below; is taken from the pool, and made larger, as it needs to be.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <returns>Number of nodes.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static int Open<TContainer>(in TContainer container, int node, Shapes shapes, ref Buffer<NodeChild> below, BufferPool pool)
+        where TContainer : unmanaged, IContainer
+    {
+        var fanOut = container.FanOut(node, shapes);
+        if (below.Length < fanOut)
+            pool.ResizeToAtLeast(ref below, fanOut, 0);
+        return container.Open(node, shapes, below.Memory);
+    }
+
     /// <summary>Two shapes without children, which are to be replaced by children.</summary>
     // Written in place, field by field: as a value it would be copied for each child that is found.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -42,13 +42,13 @@ sealed unsafe class ContainerPlaneTask<TContainer> : ExpandingTask<TContainer, H
     static void Find(in TContainer container, in Vector3 normal, float height, int parent, bool flipped, Shapes shapes, ref QuickList<int> nodes,
         ref QuickList<FoundChild> found, BufferPool pool)
     {
-        pool.TakeAtLeast<NodeChild>(container.MaximumFanOut, out var below);
+        var below = default(Buffer<NodeChild>);
         var size = Vector3.Abs(normal);
         nodes.Count = 0;
         nodes.Add(0, pool);
         while (nodes.Count > 0)
         {
-            var count = container.Open(nodes.Pop(), shapes, below.Memory);
+            var count = ContainerPlaces.Open(container, nodes.Pop(), shapes, ref below, pool);
             for (int i = 0; i < count; ++i)
             {
                 var center = (below[i].Min + below[i].Max) * .5f;

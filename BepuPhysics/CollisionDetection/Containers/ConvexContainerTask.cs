@@ -45,7 +45,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 if (TContainer.IsList)
                     List(entry, shapes, ref list, ref listed, pool);
                 entry.B.FindOverlaps(
-                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), list.Memory, ref children, pool);
+                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), shapes, list.Memory, ref children, pool);
                 for (int j = 0; j < children.Count; ++j)
                     found.Add(new(start + i, Ids(entry.Pair, children[j])), pool);
             }
@@ -64,8 +64,8 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         if (name.Exists && name.Packed == listed.Packed)
             return;
         listed = name;
-        if (list.Length < entry.B.MaximumFanOut)
-            pool.ResizeToAtLeast(ref list, entry.B.MaximumFanOut, 0);
+        if (list.Length < entry.B.FanOut(0, shapes))
+            pool.ResizeToAtLeast(ref list, entry.B.FanOut(0, shapes), 0);
         entry.B.Open(0, shapes, list.Memory);
     }
 

@@ -31,6 +31,10 @@ static unsafe class WaysOut
         where TOther : unmanaged, IContainer where TSolid : unmanaged, IContainer
     {
         other.GetChild(child, shapes, scratch, out var found);
+        way = default;
+        // Those of a surface have no middle of their own.
+        if (found.TypeId == Triangle.Id)
+            return false;
         return solidIsA
             ? Find(solid, pair.OffsetB + Exact.Rotate(found.Pose.Position, pair.OrientationB), pair.OrientationA, out way)
             : Find(solid, Exact.Rotate(found.Pose.Position, pair.OrientationA) - pair.OffsetB, pair.OrientationB, out way);

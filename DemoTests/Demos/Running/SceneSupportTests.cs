@@ -46,6 +46,32 @@ public class SceneSupportTests
         Assert.InRange(result.KineticEnergy, 0, 1e-4);
     }
 
+    /// <summary>A body of a mesh and a box lies across the edge between a field and a box, which are one static.</summary>
+    [Fact]
+    public void Meshes_and_fields_are_parts_of_bodies()
+    {
+        string cube = "mesh 8 12 -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 "
+            + "0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5";
+        string text = $"scene 1 name n steps 120 friction 0.5 damping 0 sleep 0\nshapes 4\nbox 4 1 4\nfield 3 3 4 4 0 0 0 0 0 0 0 0 0\n{cube}\nbox 1 1 1\nbodies 2\n"
+            + "0 2 0 12 -1 4 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0\n"
+            + "2 2 2 0 0 0 0 0 0 1 3 2 0 0 0 0 0 1 2 7 1.01 4 0 0 0 1 0 0 0 0 0 0 0\njoints 0\n";
+        using var run = new SceneRun(SceneFile.Parse(Encoding.UTF8.GetBytes(text)), new RunSettings { Warmup = 0 });
+        RunResult result = run.Run();
+
+        Assert.Equal((1, 1, 0, 0), (result.Bodies, result.Statics, result.Lost, result.NotFinite));
+        Assert.True(result.Contacts > 2, "It is not there, or leans.");
+        Assert.InRange(result.KineticEnergy, 0, 1e-4);
+    }
+
+    [Fact]
+    public void A_field_among_parts_has_no_mass()
+    {
+        var error = Assert.Throws<SceneException>(() => Build("field 2 2 1 1 0 0 0 0",
+            "2 2 0 0 0 0 0 0 0 1 1 1 0 0 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0"));
+
+        Assert.Equal("field", error.Token);
+    }
+
     [Theory]
     [InlineData("field 1 2 1 1 0 0", "1")]
     [InlineData("field 2 2 1 0 0 0 0 0", "0")]

@@ -23,6 +23,9 @@ static class ShapeOperations
         new("Shapes.Add hull", 12, AddHull),
         new("Shapes.Add compound", 8, w => AddCompound(w, false)),
         new("Shapes.Add big compound", 8, w => AddCompound(w, true)),
+        new("Shapes.Add mesh", 5, AddMesh),
+        new("Shapes.Add height field", 4, AddField),
+        new("Compound.FindPiece", 4, FindPiece),
         new("Shapes.Add nothing", 1, w => w.Shapes.Add(default(ConvexHull))),
         new("Shapes.Remove", 5, w => w.Shapes.Remove(w.RemovableShape())),
         new("Shapes.RemoveAndDispose", 4, w => RemoveAndDispose(w, false)),
@@ -117,6 +120,57 @@ static class ShapeOperations
             dispose();
             throw;
         }
+    }
+
+    static void AddMesh(FuzzWorld w)
+    {
+        if (w.ShapeNames.Live.Count >= MaximumShapes)
+            return;
+        var triangles = new Triangle[1 + w.Random.Below(12)];
+        for (int i = 0; i < triangles.Length; ++i)
+            triangles[i] = w.Random.Spoil(new Triangle(w.Random.Vector(1), w.Random.Vector(1), w.Random.Vector(1)), 2);
+        AddOwner(w, new Mesh(triangles, w.Random.Spoil(new Vector3(1, -1, 1), 4), w.Pool));
+    }
+
+    static void AddField(FuzzWorld w)
+    {
+        if (w.ShapeNames.Live.Count >= MaximumShapes)
+            return;
+        int countX = 2 + w.Random.Below(4), countZ = 2 + w.Random.Below(4);
+        var heights = new float[countX * countZ];
+        for (int i = 0; i < heights.Length; ++i)
+            heights[i] = w.Random.Spoil(w.Random.Number(-0.3f, 0.3f), 1);
+        AddOwner(w, new HeightField(countX, countZ, Size(w), Size(w), heights, w.Pool));
+    }
+
+    static void AddOwner<TShape>(FuzzWorld w, TShape shape) where TShape : unmanaged, IDisposableShape
+    {
+        TypedIndex name;
+        try
+        {
+            name = w.Shapes.Add(shape);
+        }
+        catch
+        {
+            shape.Dispose(w.Pool);
+            throw;
+        }
+        w.ShapeNames.Live.Add(name);
+        w.Owners.Add(name, () => shape.Dispose(w.Pool));
+    }
+
+    // What a number says is what makes the number.
+    static void FindPiece(FuzzWorld w)
+    {
+        TypedIndex name = w.AnyShape();
+        if (!w.Shapes.Exists(name) || name.Type != Compound.Id)
+            return;
+        Compound compound = w.Shapes.GetShape<Compound>(name.Index);
+        int piece = w.Random.Percent(50) ? w.Random.Below(compound.ChildCount) : w.Random.Below(int.MaxValue);
+        w.Tell($"{piece}");
+        compound.FindPiece(piece, out int child, out int inner);
+        if (compound.GetPieceIndex(child, inner) != piece)
+            throw new FuzzFailure($"piece {piece} is {inner} of child {child}, which is another");
     }
 
     static void MakeHull(FuzzWorld w)
