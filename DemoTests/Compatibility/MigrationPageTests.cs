@@ -36,7 +36,7 @@ public partial class MigrationPageTests
         ["bounces"] = "SurfaceCallbacksTests.Surfaces_bounce_pair_by_pair",
         ["friction of a patch"] = "SlopeTests.Case",
         ["Simulation.Deterministic"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
-        ["AllowSubsteps"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
+        ["AllowSubsteps"] = "FreeBodyTests.A_throw_is_a_parabola",
         ["Simulation.Clear, Dispose"] = "MigrationTests.Shared_shapes_are_left_alone",
         ["a step of another length"] = "VariableTimestepTests.The_load_of_a_joint_follows_the_length_of_the_substep",
         ["ConvexHull"] = "ConvexHullCreationTests.CopiesAreTransformed",
