@@ -18,6 +18,8 @@ static unsafe class PatchReduction
     const float DepthPreference = 8e-5f;
     const float SpanPreference = 1.05f;
     const float SideLean = 1e-4f;
+    // What is above the deepest by more than this at the end of the step does not touch.
+    const float Apart = 2e-2f;
 
     struct Frames
     {
@@ -47,8 +49,20 @@ static unsafe class PatchReduction
             GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].InnerRadius();
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
-        Fill(ref memory, results, patches, reduces, greatest, ref frames, pool);
+        Span<float> limits = stackalloc float[PatchSet.Capacity];
+        FindLimits(memory.Ranked.AsSpan(), results, placed, patches, frames.Size, limits);
+        var left = Fill(ref memory, results, placed, patches, reduces, limits, greatest, ref frames, pool);
         Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
+        // What is carried by those that touch does not need the others. In place of one that touches it would be carried by fewer, and rock.
+        for (int i = 0; i < count; ++i)
+            left &= (sides.LeftExists[i] | sides.RightExists[i]) == 0 ? -1 : ~(1 << i);
+        if (left != 0)
+        {
+            for (int i = 0; i < count; ++i)
+                limits[i] = (left & 1 << i) != 0 ? float.MinValue : limits[i];
+            Fill(ref memory, results, placed, patches, reduces, limits, greatest, ref frames, pool);
+            Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out deepest, out farthest, out sides, out secondExists);
+        }
         memory.Kept.Count = 0;
         for (int i = 0; i < count; ++i)
         {
@@ -69,8 +83,36 @@ static unsafe class PatchReduction
         }
     }
 
-    static void Fill(ref SeamMemory memory, Span<ChildResult> results, in PatchSet patches, int reduces, int greatest, ref Frames frames, BufferPool pool)
+    // The least depth that contacts of each patch must have at the end of the step to touch.
+    static void FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, Vector<float> sizes,
+        Span<float> limits)
     {
+        limits.Fill(float.MinValue);
+        foreach (ref var child in ranked)
+        {
+            if (child.Patch < 0)
+                continue;
+            ref var limit = ref limits[child.Patch];
+            for (int i = 0; i < results[child.Slot].Manifold.Count; ++i)
+                limit = MathHelper.Max(limit, DepthToBe(results[child.Slot], i, placed[child.Slot].Motion, patches[child.Patch].Normal));
+        }
+        for (int i = 0; i < limits.Length; ++i)
+            limits[i] = MathHelper.Min(0, limits[i]) - Apart * sizes[i];
+    }
+
+    // Depth at the end of the step, if the two come nearer until then.
+    static float DepthToBe(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal)
+    {
+        ref var contact = ref Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), index);
+        var way = motion.Way + Exact.Cross(motion.Turn, contact.Offset - result.OffsetA);
+        return contact.Depth + MathHelper.Max(0, -Exact.Dot(way, normal));
+    }
+
+    // A bit for each patch some of whose contacts were left out.
+    static int Fill(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
+        ReadOnlySpan<float> limits, int greatest, ref Frames frames, BufferPool pool)
+    {
+        var left = 0;
         ref var candidates = ref memory.Candidates;
         candidates.Count = 0;
         candidates.EnsureCapacity(greatest, pool);
@@ -96,6 +138,11 @@ static unsafe class PatchReduction
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
+                if (DepthToBe(result, i, placed[child.Slot].Motion, patch.Normal) < limits[lane])
+                {
+                    left |= 1 << lane;
+                    continue;
+                }
                 ref var candidate = ref candidates[counts[lane]++];
                 var place = contact.Offset - origin;
                 var feature = result.Children.Mix(contact.FeatureId);
@@ -110,6 +157,7 @@ static unsafe class PatchReduction
                 GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
             }
         }
+        return left;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -36,7 +36,8 @@ public class ForeseenContactTests(ITestOutputHelper output)
         statics.Add(new StaticDescription(Vector3.Zero, shapes.Add(mesh)));
     }
 
-    static (float Slowest, float Upward, float Sunk) RollOverLip(bool isMesh, SeamMover mover, float radius, float speed, float lip, float friction, float phase)
+    static (float Slowest, float Upward, float Sunk) RollOverLip(
+        bool isMesh, SeamMover mover, float radius, float speed, float lip, float friction, float phase)
     {
         using var world = new ClusterWorld(isCluster: true);
         world.Behaviour.Friction = friction;
