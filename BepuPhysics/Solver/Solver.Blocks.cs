@@ -7,11 +7,12 @@ namespace BepuPhysics;
 // The constraints of a sweep, cut into blocks, and the stages that go through them.
 public sealed unsafe partial class Solver
 {
-    // A range of bundles of one type batch.
+    // A range of bundles of the joints, or of the contacts, of one batch: their type batches are counted one after the other. A batch is cut where it comes out
+    // even, whatever types it is of, so that each worker has as much to do as the others and finds in its cache what it had in the stage before.
     struct Block
     {
         public int Batch;
-        public int TypeBatch;
+        public bool IsOfJoints;
         public int StartBundle;
         public int EndBundle;
     }
@@ -56,26 +57,30 @@ public sealed unsafe partial class Solver
     int AddBlocks(ref SolveWork work, int batchIndex, bool ofJoints)
     {
         ref var batch = ref ActiveSet.Batches[batchIndex];
-        var sum = 0;
-        for (int i = 0; i < batch.TypeBatches.Count; ++i)
+        var bundles = 0;
+        foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
+            bundles += IsOfJoints(typeBatch) == ofJoints ? typeBatch.BundleCount : 0;
+        var count = EvenBlockCount(bundles, ConstraintBundlesPerBlock);
+        for (int i = 0; i < count; ++i)
         {
-            if (batch.TypeBatches[i].TypeId >= ConstraintTypeIds.ContactTypeCount != ofJoints)
-                continue;
-            var bundles = batch.TypeBatches[i].BundleCount;
-            sum += bundles;
-            for (int bundle = 0; bundle < bundles; bundle += ConstraintBundlesPerBlock)
+            work.Blocks.Add(new()
             {
-                work.Blocks.Add(new()
-                {
-                    Batch = batchIndex,
-                    TypeBatch = i,
-                    StartBundle = bundle,
-                    EndBundle = Math.Min(bundle + ConstraintBundlesPerBlock, bundles),
-                }, pool);
-            }
+                Batch = batchIndex,
+                IsOfJoints = ofJoints,
+                StartBundle = StartOfBlock(i, count, bundles),
+                EndBundle = StartOfBlock(i + 1, count, bundles),
+            }, pool);
         }
-        return sum;
+        return bundles;
     }
+
+    static bool IsOfJoints(in TypeBatch batch) => batch.TypeId >= ConstraintTypeIds.ContactTypeCount;
+
+    // Numbers that two and four workers share evenly, but for what is one block.
+    static int EvenBlockCount(int bundles, int mostPerBlock) =>
+        bundles <= mostPerBlock ? Math.Min(bundles, 1) : EvenParts * BlockCount(bundles, EvenParts * mostPerBlock);
+
+    static int StartOfBlock(int block, int blockCount, int bundles) => (int)((long)bundles * block / blockCount);
 
     void AddSweep(ref SolveWork work, StageKind kind, in Substep substep)
     {

@@ -26,10 +26,12 @@ public sealed unsafe partial class Solver
     /// <summary>Something that happens at the beginning or the end of a substep.</summary>
     public delegate void SubstepEvent(int substepIndex);
 
-    /// <summary>Bundles of constraints per block: large enough that claiming a block is cheap against solving it.</summary>
+    /// <summary>Most bundles of constraints per block: so many that claiming a block is cheap against solving it.</summary>
     const int ConstraintBundlesPerBlock = 16;
-    /// <summary>Bundles of bodies per block of integration.</summary>
+    /// <summary>Most bundles of bodies per block of integration.</summary>
     const int BodyBundlesPerBlock = 32;
+    /// <summary>What the number of blocks of a stage is a multiple of.</summary>
+    const int EvenParts = 4;
     /// <summary>Split bodies per block.</summary>
     const int SplitBodiesPerBlock = 64;
 
@@ -212,7 +214,7 @@ public sealed unsafe partial class Solver
 
     void AddIntegration(ref SolveWork work, IntegrationStage stage)
     {
-        var blocks = BlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
+        var blocks = EvenBlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
         // Who is split, and how, has nothing to do with the motion of bodies: another worker finds out meanwhile.
         if (stage == IntegrationStage.First && HasFallback)
             ++blocks;
@@ -305,8 +307,9 @@ public sealed unsafe partial class Solver
                         break;
                     }
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.Awake.Count);
-                    var start = blockIndex * BodyBundlesPerBlock;
-                    Integrator.Integrate(stage.Integration, SubstepDt, FreeBodies, start, Math.Min(start + BodyBundlesPerBlock, bundles), workerIndex);
+                    var blockCount = EvenBlockCount(bundles, BodyBundlesPerBlock);
+                    Integrator.Integrate(stage.Integration, SubstepDt, FreeBodies, StartOfBlock(blockIndex, blockCount, bundles),
+                        StartOfBlock(blockIndex + 1, blockCount, bundles), workerIndex);
                     break;
                 case StageKind.WarmStart:
                 case StageKind.Solve:
@@ -335,21 +338,36 @@ public sealed unsafe partial class Solver
         readonly void RunConstraints(in Stage stage, in Block block)
         {
             ref var constraints = ref Solver.ActiveSet.Batches[block.Batch];
-            ref var batch = ref constraints.TypeBatches[block.TypeBatch];
+            var (start, end) = (block.StartBundle, block.EndBundle);
+            for (int i = 0; end > 0; ++i)
+            {
+                ref var batch = ref constraints.TypeBatches[i];
+                if (IsOfJoints(batch) != block.IsOfJoints)
+                    continue;
+                var bundles = batch.BundleCount;
+                if (start < bundles)
+                    RunConstraints(stage, constraints.Kind, i, ref batch, Math.Max(0, start), Math.Min(end, bundles));
+                start -= bundles;
+                end -= bundles;
+            }
+        }
+
+        readonly void RunConstraints(in Stage stage, BatchKind kind, int index, ref TypeBatch batch, int start, int end)
+        {
             var processor = Solver.Processor(batch.TypeId);
             ref readonly var substep = ref stage.Substep;
-            if (constraints.Kind == BatchKind.Fallback)
+            if (kind == BatchKind.Fallback)
             {
-                var split = Split.For(block.TypeBatch);
+                var split = Split.For(index);
                 if (stage.Kind == StageKind.WarmStart)
-                    processor.WarmStartSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
+                    processor.WarmStartSplit(ref batch, Bodies, split, substep, start, end);
                 else
-                    processor.SolveSplit(ref batch, Bodies, split, substep, block.StartBundle, block.EndBundle);
+                    processor.SolveSplit(ref batch, Bodies, split, substep, start, end);
             }
             else if (stage.Kind == StageKind.WarmStart)
-                processor.WarmStart(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
+                processor.WarmStart(ref batch, Bodies, substep, start, end);
             else
-                processor.Solve(ref batch, Bodies, substep, block.StartBundle, block.EndBundle);
+                processor.Solve(ref batch, Bodies, substep, start, end);
         }
     }
 }

@@ -76,8 +76,8 @@ static unsafe class CompoundChildren
             var limit = new PieceNumbers(childCount, childCount).PerChild;
             if (containers.ChildCount(child.ShapeIndex.Index) is var count && count > limit)
             {
-                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is made of {count}: in a compound of {childCount} children each may be " +
-                    $"made of up to {limit}. Make it a shape of its own, or divide it.", nameof(child));
+                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is made of {count}: in a compound of {childCount} children " +
+                    $"each may be made of up to {limit}. Make it a shape of its own, or divide it.", nameof(child));
             }
             return;
         }

@@ -4,6 +4,8 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Scenes;
+using Demos.Scenes;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Seams;
@@ -94,6 +96,14 @@ public class AgreedPairTests
         Assert.False(pair.Holds(manifold, Orientation, Body));
     }
 
+    [Fact]
+    public void What_was_near_holds_wherever_it_is_until_it_is_touched()
+    {
+        var near = default(AgreedPair);
+        Assert.True(near.Holds(default, Quaternion.Identity, Body));
+        Assert.False(near.Holds(Find(), Orientation, Body));
+    }
+
     // Four boxes that meet at the origin.
     static ClusterWorld CreateGround(bool remembers, out StaticHandle[] ground)
     {
@@ -148,6 +158,58 @@ public class AgreedPairTests
             Assert.InRange(height, float.NegativeInfinity, 0);
         else
             Assert.InRange(height, .249f, .251f);
+    }
+
+    /// <summary>Contacts of the same features along the same normals, but deeper: nobody waits until it is found out anew.</summary>
+    [Fact]
+    public void A_static_that_grows_lifts_the_body()
+    {
+        const float Growth = .02f;
+        using var world = CreateGround(remembers: true, out var ground);
+        var body = world.AddBody(new Box(.5f, .5f, .5f), new RigidPose(new Vector3(.2f, .25f, .2f)), default);
+        for (int i = 0; i < 200; ++i)
+            world.Step();
+        Assert.Equal(4, CountRemembered(world));
+        var higher = world.Simulation.Shapes.Add(new Box(8, 1 + 2 * Growth, 8));
+        foreach (var box in ground)
+            world.Simulation.Statics.SetShape(box, higher);
+        world.Step();
+        Assert.Equal(0, CountRemembered(world));
+        for (int i = 0; i < 60; ++i)
+            world.Step();
+        Assert.InRange(world.Simulation.Bodies[body].Pose.Position.Y, .25f + Growth * .9f, .25f + Growth * 1.1f);
+    }
+
+    /// <summary>Which bodies agree anew and which do not, and which worker has found what, makes no difference.</summary>
+    [Fact]
+    public void Bodies_of_which_some_are_pushed_move_alike_on_any_number_of_threads()
+    {
+        ulong[] hashes = [Push(1), Push(2), Push(3)];
+        Assert.Equal([hashes[0], hashes[0], hashes[0]], hashes);
+    }
+
+    static ulong Push(int threads)
+    {
+        const int Width = 12, BodyCount = 400;
+        var scene = new SceneDescription { Name = "tiles" };
+        int tile = scene.AddBox(1, .5f, 1), box = scene.AddBox(.2f, .2f, .2f);
+        for (int i = 0; i < Width * Width; ++i)
+            scene.AddStatic(tile, new Vector3(2 * (i % Width), -.5f, 2 * (i / Width)));
+        for (int i = 0; i < BodyCount; ++i)
+            scene.AddDynamic(box, 1, new Vector3(i % 20 * 1.05f + .3f, .2f, i / 20 * 1.05f + .7f));
+        using var world = new SceneWorld(scene, threads);
+        var hash = 0ul;
+        for (int i = 0; i < 60; ++i)
+        {
+            world.Step();
+            if (i % 12 == 11)
+            {
+                Assert.InRange(world.Simulation.NarrowPhase.AgreedPairs.Bodies.Length, 1, BodyCount);
+                world.Simulation.Bodies.ActiveSet.MotionStates[i * 7 % BodyCount].Velocity.Linear.X = 3;
+            }
+            hash = hash * 31 + world.Simulation.StateHash();
+        }
+        return hash;
     }
 
     [Theory, InlineData(false), InlineData(true)]
