@@ -41,8 +41,8 @@ public class GearStackTests(ITestOutputHelper output)
     }
 
     /// <summary>A gear that comes down on a stack of others stays there, and no pair has more than eight contacts in four patches.</summary>
-    // What is not yet as it should be. On a stack of thirty it should be at rest after three seconds, to 1e-6 J/kg. On one of three it rocks by .01 J/kg, and
-    // stacks of ten and more fall over: what is a lip to the teeth, which are thin, is less than what a gear rocks by.
+    // What is not yet as it should be. On a stack of thirty it should be at rest after three seconds, to 1e-6 J/kg. On one of three it rocks by .001 J/kg, and
+    // stacks of ten and more have fallen over: what is a lip to the teeth, which are thin, is less than what a gear rocks by.
     [Fact]
     public void A_gear_stays_on_a_stack()
     {
@@ -74,7 +74,7 @@ public class GearStackTests(ITestOutputHelper output)
         });
         output.WriteLine($"greatest energy {energy}, at most {most} contacts, top at {world.Simulation.Bodies[bodies[^1]].Pose.Position}");
         Assert.InRange(most, 3, 8);
-        Assert.InRange(energy, 0, 2e-2f);
+        Assert.InRange(energy, 0, 5e-3f);
         Assert.InRange(world.Simulation.Bodies[bodies[^1]].Pose.Position.Y, (2 * stack + 1) * HalfThickness - 2e-2f, (2 * stack + 1) * HalfThickness + 1e-3f);
     }
 
