@@ -38,7 +38,10 @@ public interface INarrowPhaseCallbacks
     bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin);
 
     /// <summary>Whether to look for contacts between two children of compounds.</summary>
-    /// <remarks>Asked after the pair as a whole was allowed, in the order of the indices. A shape without children has the index 0.</remarks>
+    /// <remarks>
+    /// Asked after the pair as a whole was allowed, in the order of the indices. A shape without children has the index 0. Of a compound with children
+    /// that are made of children themselves, indices are those of convex pieces: <see cref="Compound.FindPiece"/> says what they belong to.
+    /// </remarks>
     bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB);
 
     /// <summary>May change the contacts between two children of compounds, which are in the frame of the pair's A.</summary>

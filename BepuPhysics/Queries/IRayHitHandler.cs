@@ -14,7 +14,10 @@ public interface IRayHitHandler
     /// <param name="t">Place of the hit: ray.Origin + ray.Direction * t; zero for a ray that starts inside.</param>
     /// <param name="normal">Unit normal that points out of the shape, in world axes.</param>
     /// <param name="collidable">What was hit.</param>
-    /// <param name="childIndex">Index of the child that was hit; zero for a shape without children.</param>
+    /// <param name="childIndex">
+    /// Number of the convex piece that was hit: of the triangle of a mesh, of the child of a compound, or, where that is made of children
+    /// itself, what <see cref="Compound.FindPiece"/> takes apart; zero for a shape without children.
+    /// </param>
     void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, CollidableReference collidable, int childIndex);
 
     /// <summary>Whether a collidable whose bounds the ray meets is to be tested.</summary>
@@ -22,6 +25,6 @@ public interface IRayHitHandler
 
     /// <summary>Whether a child of a collidable is to be tested; asked only for shapes that are made of children.</summary>
     /// <param name="collidable">The collidable.</param>
-    /// <param name="childIndex">Index of the child in its parent.</param>
+    /// <param name="childIndex">Number of the convex piece, as for hits.</param>
     bool AllowTest(CollidableReference collidable, int childIndex);
 }

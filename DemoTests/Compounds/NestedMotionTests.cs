@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Compounds;
@@ -137,6 +138,18 @@ public class NestedMotionTests
             var pose = new RigidPose(new Vector3(i % 3 * .7f, .5f + i * .35f, i % 2 * .4f), Quaternion.CreateFromYawPitchRoll(i, .3f * i, .1f));
             world.Simulation.Bodies.Add(BodyDescription.CreateDynamic(pose, inertia, i % 3 == 0 ? both : i % 3 == 1 ? sphere : mesh, -1f));
         }
+    }
+
+    [Fact]
+    public void A_step_takes_nothing_from_the_garbage_collector()
+    {
+        using var world = new CompoundWorld();
+        var floor = AddFloor(world, Ground.Field);
+        world.Simulation.Statics.Add(new StaticDescription(RigidPose.Identity, Add(world, isBig: false, floor, AddFloor(world, Ground.Compound))));
+        AddBodies(world);
+        for (int i = 0; i < 40; ++i)
+            world.Step();
+        Assert.Equal(0, Garbage.Of(() => world.Step()));
     }
 
     [Fact]

@@ -1,13 +1,33 @@
 using System;
 using System.Numerics;
 using BepuPhysics;
+using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 
 namespace DemoTests.Quality;
 
-// Docs/Guides/Events.md.
+// Docs/Guides/Events.md and Levels.md.
 static partial class DocSamples
 {
+    public static TypedIndex BuildLevel(Simulation simulation, Mesh terrain, Mesh bridge, Vector3 river)
+    {
+        using var builder = new CompoundBuilder(simulation.BufferPool, simulation.Shapes, 3);
+        builder.AddForKinematic(simulation.Shapes.Add(terrain), RigidPose.Identity, 1);
+        builder.AddForKinematic(simulation.Shapes.Add(bridge), new RigidPose(river), 1);
+        builder.AddForKinematic(new Box(4, 1, 4), new RigidPose(new Vector3(0, 5, 0)), 1);
+        builder.BuildKinematicCompound(out var parts);
+        var level = simulation.Shapes.Add(new BigCompound(parts, simulation.Shapes, simulation.BufferPool));
+        return level;
+    }
+
+    public static byte MaterialOf(Simulation simulation, TypedIndex level, Mesh terrain, int childIndex)
+    {
+        simulation.Shapes.GetShape<BigCompound>(level.Index).FindPiece(childIndex, out var part, out var triangle);
+        var isTerrain = part == 0;
+        var material = isTerrain ? terrain.GetMaterial(triangle) : (byte)0;
+        return material;
+    }
+
     public static void GiveLayers(Simulation simulation, StaticHandle ground, BodyHandle player, BodyHandle ghost)
     {
         const uint world = 1, players = 2, ghosts = 4;

@@ -6,6 +6,7 @@ using System.Numerics;
 using System.Text.RegularExpressions;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
 using BepuUtilities.Memory;
 using Xunit;
 
@@ -109,6 +110,41 @@ public sealed class DocSamplesTests : IDisposable
                 height = MathF.Max(height, underside);
         }
         return height;
+    }
+
+    [Fact]
+    public void A_ray_finds_the_material_of_a_part_of_a_level()
+    {
+        using var simulation = Simulation.Create(
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        var corners = (Vector3[])[new(-9, 0, -9), new(9, 0, -9), new(-9, 0, 9), new(9, 0, 9)];
+        var terrain = new Mesh(corners, [0, 1, 2, 2, 1, 3], Vector3.One, pool, [7, 8]);
+        var bridge = new Mesh(corners, [0, 1, 2, 2, 1, 3], new(.1f), pool, [1, 1]);
+        var level = DocSamples.BuildLevel(simulation, terrain, bridge, new Vector3(20, 0, 0));
+        simulation.Statics.Add(new StaticDescription(RigidPose.Identity, level));
+        foreach (var (x, z, material) in ((float, float, byte)[])[(-5, -5, 7), (5, 5, 8), (19.8f, 0, 0), (0, 0, 0)])
+        {
+            var hit = new FirstHit { Child = -1 };
+            simulation.RayCast(new Vector3(x, 9, z), -Vector3.UnitY, 20, pool, ref hit);
+            Assert.Equal(material, DocSamples.MaterialOf(simulation, level, terrain, hit.Child));
+        }
+        simulation.Statics.Clear();
+        simulation.Shapes.RecursivelyRemoveAndDispose(level, pool);
+    }
+
+    struct FirstHit : IRayHitHandler
+    {
+        public int Child;
+
+        public readonly bool AllowTest(CollidableReference collidable) => true;
+
+        public readonly bool AllowTest(CollidableReference collidable, int childIndex) => true;
+
+        public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, CollidableReference collidable, int childIndex)
+        {
+            Child = childIndex;
+            maximumT = t;
+        }
     }
 
     [Fact]

@@ -150,6 +150,11 @@ public unsafe struct Compound : ICompoundShape, IContainer
         }
     }
 
-    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
-        CompoundChildren.Get(Children, index, shapes, scratch, out child);
+    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
+    {
+        if (index < Children.Length)
+            CompoundChildren.Get(Children, index, shapes, out child);
+        else
+            ContainerChildren.GetPiece(Children, index, shapes, scratch, out child);
+    }
 }

@@ -76,8 +76,8 @@ static unsafe class CompoundChildren
             var limit = new PieceNumbers(childCount, childCount).PerChild;
             if (containers.ChildCount(child.ShapeIndex.Index) is var count && count > limit)
             {
-                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is made of {count}: in a compound of {childCount} children " +
-                    $"each may be made of up to {limit}. Make it a shape of its own, or divide it.", nameof(child));
+                throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is made of {count}: in a compound of {childCount} children each may " +
+                    $"be made of up to {limit}. Make it a shape of its own, or divide it.", nameof(child));
             }
             return;
         }
@@ -164,13 +164,8 @@ static unsafe class CompoundChildren
         children = default;
     }
 
-    public static void Get(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
+    public static void Get(Buffer<CompoundChild> children, int index, Shapes shapes, out ContainerChild result)
     {
-        if (index >= children.Length)
-        {
-            ContainerChildren.GetPiece(children, index, shapes, scratch, out result);
-            return;
-        }
         ref var child = ref children[index];
         result.TypeId = child.ShapeIndex.Type;
         result.Shape = shapes.GetBatch(child.ShapeIndex.Type).GetPointer(child.ShapeIndex.Index);

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -75,6 +76,7 @@ static unsafe class ContainerChildren
     }
 
     /// <summary>Gets a piece of a child.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void GetPiece(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
     {
         var (number, inner) = Pieces(children).Find(index);

@@ -21,7 +21,7 @@ public interface ICompoundShape : IDisposableShape
     /// <param name="max">Corner with the greatest coordinates, m.</param>
     void ComputeBounds(Quaternion orientation, Shapes shapeBatches, out Vector3 min, out Vector3 max);
 
-    /// <summary>Tests a ray against the children that the handler allows, and reports hits with the number of the child.</summary>
+    /// <summary>Tests a ray against the children that the handler allows, and reports hits with the numbers of their convex pieces.</summary>
     /// <param name="pose">Pose of the compound.</param>
     /// <param name="ray">Ray in the world.</param>
     /// <param name="maximumT">Farthest t of interest; the handler may lower it.</param>

@@ -68,8 +68,10 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
         if (task.Expands)
+        {
             throw new InvalidOperationException(
                 $"Pieces of a shape must be convex: {task.Description}. A compound was changed in place to what could not be added.");
+        }
         var keepsHistories = task.KeepsHistories && !children.LeadsOut;
         var slot = Children->TakeSlot(parent, ids, keepsHistories, children);
         var history = PairInput.NoHistory;

@@ -52,8 +52,8 @@ public class SceneSupportTests
     {
         string cube = "mesh 8 12 -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 "
             + "0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5";
-        string text = "scene 1 name n steps 120 friction 0.5 damping 0 sleep 0\n"
-            + $"shapes 4\nbox 4 1 4\nfield 3 3 4 4 0 0 0 0 0 0 0 0 0\n{cube}\nbox 1 1 1\nbodies 2\n"
+        string text = "scene 1 name n steps 120 friction 0.5 damping 0 sleep 0\nshapes 4\n"
+            + $"box 4 1 4\nfield 3 3 4 4 0 0 0 0 0 0 0 0 0\n{cube}\nbox 1 1 1\nbodies 2\n"
             + "0 2 0 12 -1 4 0 0 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0\n"
             + "2 2 2 0 0 0 0 0 0 1 3 2 0 0 0 0 0 1 2 7 1.01 4 0 0 0 1 0 0 0 0 0 0 0\njoints 0\n";
         using var run = new SceneRun(SceneFile.Parse(Encoding.UTF8.GetBytes(text)), new RunSettings { Warmup = 0 });
