@@ -68,7 +68,7 @@ public sealed partial class Simulation
         var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
         try
         {
-            StagedWork.Run(ref work, threadDispatcher);
+            StagedWork.Run(ref work, Bodies.Awake.Count < BoundsPredictor.MinimumBodyCountForThreads ? null : threadDispatcher);
         }
         catch
         {

@@ -76,14 +76,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
             Begin(ref workers[i], i, dt, workerCount == 1 ? null : dispatcher, workerCount, room);
-        FindOverlaps(dispatcher);
+        // Overlaps of few leaves are found on the caller, so what there is to be flushed is its, too.
+        var helpers = IsWorthSharing() ? dispatcher : null;
+        FindOverlaps(helpers);
         for (int i = 0; i < workerCount; ++i)
             crowd.AddRest(workers[i].PairsLeft);
         if (crowd.HasTooMany)
             return false;
         var flush = new FlushWork { NarrowPhase = this, WorkerCount = workerCount };
-        StagedWork.Run(ref flush, dispatcher);
+        StagedWork.Run(ref flush, helpers);
         return true;
+    }
+
+    // A pair that had contacts takes about as long as eight leaves without any; less than this in all is done before another thread is awake.
+    bool IsWorthSharing()
+    {
+        const int leavesPerPair = 8;
+        const int leastLeaves = 2048;
+        return Simulation.BroadPhase.ActiveTree.LeafCount + (long)PairCount * leavesPerPair >= leastLeaves;
     }
 
     // Two instances of the same loop, so that layers cost nothing where there are none.

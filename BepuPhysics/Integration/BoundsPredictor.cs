@@ -18,6 +18,9 @@ unsafe struct BoundsPredictor : IStagedWork
 {
     const int BundlesPerBlock = 16;
 
+    /// <summary>Bodies below which this ends before another thread is awake.</summary>
+    internal const int MinimumBodyCountForThreads = 1024;
+
     public Bodies Bodies;
     public Shapes Shapes;
     public BroadPhase BroadPhase;

@@ -9,6 +9,9 @@ namespace BepuPhysics;
 // to the end of the step.
 public sealed unsafe partial class Solver
 {
+    /// <summary>Bodies below which moving them once ends before another thread is awake.</summary>
+    const int MinimumFreeBodyCountForThreads = 1024;
+
     FreeBodies TakeFreeBodies()
     {
         pool.Take(BundleIndexing.GetBundleCount(bodies.Awake.Count), out Buffer<uint> lanes);
@@ -28,7 +31,7 @@ public sealed unsafe partial class Solver
             BundleCount = BundleIndexing.GetBundleCount(bodies.Awake.Count),
             Dt = dt,
         };
-        StagedWork.Run(ref flight, dispatcher);
+        StagedWork.Run(ref flight, bodies.Awake.Count < MinimumFreeBodyCountForThreads ? null : dispatcher);
     }
 
     struct FreeFlight : IStagedWork

@@ -105,7 +105,7 @@ public sealed unsafe partial class Solver
             BuildBlocks(ref work);
             BuildStages(ref work);
             integrator.Prepare(substepDt);
-            StagedWork.Run(ref work, dispatcher);
+            StagedWork.Run(ref work, IsWorthSharing(work) ? dispatcher : null);
             MoveFreeBodies(work, dt, dispatcher);
             ReadError();
             BreakOverloaded();
@@ -201,6 +201,17 @@ public sealed unsafe partial class Solver
         if (!relaxes)
             AddIntegration(ref work, IntegrationStage.Last);
         AddOptional(ref work, optional, SolverPoint.AfterSubsteps);
+    }
+
+    // Blocks beyond the first of each stage are what other threads can take off the caller: few of them are done before one is awake. The parts of
+    // split bodies are not counted yet, and are not few.
+    static bool IsWorthSharing(in SolveWork work)
+    {
+        const int leastBlocks = 16;
+        var others = 0;
+        for (int i = 0; i < work.Stages.Count && others < leastBlocks; ++i)
+            others += work.Stages[i].BlockCount < 0 ? leastBlocks : Math.Max(0, work.Stages[i].BlockCount - 1);
+        return others >= leastBlocks;
     }
 
     void BeginSubstep(ref SolveWork work, int substep)
