@@ -11,8 +11,8 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>What the pairs of bodies that lie across statics have agreed on, from step to step.</summary>
 /// <remarks>
 /// While pairs are tested, each notes whether it has found the same again. The pairs of bodies of which all have are the first ones from then on, and where
-/// they are among them is where they are among the pairs that agree in this step; behind them is room for those of the others. So of a body at rest nothing
-/// is copied, sorted or looked for.
+/// they are among them is where they are among the pairs that agree in this step; behind them is room for those of the others. So of a body at rest nothing is
+/// copied, sorted or looked for.
 /// </remarks>
 struct AgreedPairs
 {

@@ -3,9 +3,9 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
+using Demos.Scenes;
 using DemoTests.CollisionDetection.Children;
 using DemoTests.Scenes;
-using Demos.Scenes;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Seams;
