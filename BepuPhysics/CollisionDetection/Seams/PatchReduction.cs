@@ -50,7 +50,7 @@ static unsafe class PatchReduction
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
         Span<float> limits = stackalloc float[PatchSet.Capacity];
-        FindLimits(memory.Ranked.AsSpan(), results, placed, patches, frames.Size, limits);
+        FindLimits(memory.Ranked.AsSpan(), results, placed, patches, reduces, frames.Size, limits);
         var left = Fill(ref memory, results, placed, patches, reduces, limits, greatest, ref frames, pool);
         Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
         // What is carried by those that touch does not need the others. In place of one that touches it would be carried by fewer, and rock.
@@ -83,29 +83,48 @@ static unsafe class PatchReduction
         }
     }
 
-    // The least depth that contacts of each patch must have at the end of the step to touch.
-    static void FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, Vector<float> sizes,
-        Span<float> limits)
+    // The least depth that contacts of each patch must have at the end of the step to touch. Where there is room for all, or too few touch to carry anything,
+    // none is left out.
+    static void FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
+        Vector<float> sizes, Span<float> limits)
     {
-        limits.Fill(float.MinValue);
-        foreach (ref var child in ranked)
+        for (int lane = 0; lane < limits.Length; ++lane)
         {
-            if (child.Patch < 0)
+            limits[lane] = float.MinValue;
+            if ((reduces & 1 << lane) == 0 || patches[lane].ContactCount <= patches[lane].Share)
                 continue;
-            ref var limit = ref limits[child.Patch];
-            for (int i = 0; i < results[child.Slot].Manifold.Count; ++i)
-                limit = MathHelper.Max(limit, DepthToBe(results[child.Slot], i, placed[child.Slot].Motion, patches[child.Patch].Normal));
+            var (deepest, touching) = (float.MinValue, 0);
+            foreach (ref var child in ranked)
+            {
+                ref var manifold = ref results[child.Slot].Manifold;
+                for (int i = 0; child.Patch == lane && i < manifold.Count; ++i)
+                {
+                    deepest = MathHelper.Max(deepest, manifold.GetDepth(i));
+                    touching += manifold.GetDepth(i) >= -Apart * sizes[lane] ? 1 : 0;
+                }
+            }
+            if (touching == patches[lane].ContactCount)
+                continue;
+            var limit = MathHelper.Min(0, deepest) - Apart * sizes[lane];
+            touching = 0;
+            foreach (ref var child in ranked)
+            {
+                for (int i = 0; child.Patch == lane && i < results[child.Slot].Manifold.Count; ++i)
+                    touching += Touches(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal, limit) ? 1 : 0;
+            }
+            if (touching > 2)
+                limits[lane] = limit;
         }
-        for (int i = 0; i < limits.Length; ++i)
-            limits[i] = MathHelper.Min(0, limits[i]) - Apart * sizes[i];
     }
 
-    // Depth at the end of the step, if the two come nearer until then.
-    static float DepthToBe(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal)
+    // Whether a contact is that deep, or is at the end of the step.
+    static bool Touches(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal, float limit)
     {
         ref var contact = ref Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), index);
+        if (contact.Depth >= limit)
+            return true;
         var way = motion.Way + Exact.Cross(motion.Turn, contact.Offset - result.OffsetA);
-        return contact.Depth + MathHelper.Max(0, -Exact.Dot(way, normal));
+        return contact.Depth - Exact.Dot(way, normal) >= limit;
     }
 
     // A bit for each patch some of whose contacts were left out.
@@ -138,7 +157,7 @@ static unsafe class PatchReduction
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
-                if (DepthToBe(result, i, placed[child.Slot].Motion, patch.Normal) < limits[lane])
+                if (!Touches(result, i, placed[child.Slot].Motion, patch.Normal, limits[lane]))
                 {
                     left |= 1 << lane;
                     continue;
