@@ -139,6 +139,11 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         for (int i = 0; i < TBodies.Count; ++i)
             isHub |= BodySlots.At(ref slots, i).HubMask;
         softness = spring.ForSubstep(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints, substep.Hubs, isHub);
+        if (CarriesPointLoad && !substep.IsRelaxation)
+        {
+            TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
+            DampTurn(bodies, substep, geometry, inverseMass, error, BodySlots.At(ref slots, 0).TurnMask, ref softness);
+        }
         target = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)
             target = TRows.Min(target, error * new Vector<float>(-substep.InverseDt));

@@ -23,14 +23,19 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static bool TryGetGeometricStiffness(
-        in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB)
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB,
+        out Vector<int> turnsFar)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PointLoad(geometry, impulses, out var impulse, out var offsetA, out var offsetB);
-        var force = impulse * new Vector<float>(substep.InverseDt);
         ref var slots = ref Unsafe.AsRef(in bodies);
-        var tensionA = GeometricStiffness.Tension(force, offsetA, BodySlots.At(ref slots, 0).InverseInertia, substep);
-        var tensionB = GeometricStiffness.Tension(-force, offsetB, BodySlots.At(ref slots, TBodies.Count - 1).InverseInertia, substep);
+        ref var inverseInertiaA = ref BodySlots.At(ref slots, 0).InverseInertia;
+        ref var inverseInertiaB = ref BodySlots.At(ref slots, TBodies.Count - 1).InverseInertia;
+        turnsFar = TJoint.Kind == RowKind.Motor ? Vector<int>.Zero : IsRigid(prestep) & JointTurn.IsFar(
+            impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
+        var force = impulse * new Vector<float>(substep.InverseDt);
+        var tensionA = GeometricStiffness.Tension(force, offsetA, inverseInertiaA, substep);
+        var tensionB = GeometricStiffness.Tension(-force, offsetB, inverseInertiaB, substep);
         if (Vector.EqualsAll(tensionA + tensionB, Vector<float>.Zero))
         {
             stiffnessA = stiffnessB = default;
@@ -39,6 +44,16 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         stiffnessA = GeometricStiffness.Of(tensionA, offsetA);
         stiffnessB = GeometricStiffness.Of(tensionB, offsetB);
         return true;
+    }
+
+    // Springs and speeds that a game asked for are what it gets.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsRigid(in TPrestep prestep)
+    {
+        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
+        if (TJoint.Kind == RowKind.Servo)
+            isRigid &= Vector.Equals(TJoint.Servo(prestep).MaximumSpeed, new Vector<float>(float.MaxValue));
+        return isRigid;
     }
 
     /// <inheritdoc/>
@@ -80,6 +95,20 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         var limits = TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints;
         var softness = TJoint.Spring(prestep).ForSubstep(substep, limits, substep.Hubs, isHub);
 
+        if (CarriesPointLoad && !substep.IsRelaxation)
+        {
+            var turnsFar = BodySlots.At(ref bodies, 0).TurnMask;
+            if (!Vector.EqualsAll(turnsFar, Vector<int>.Zero))
+            {
+                // Copies: a local whose address is taken is in memory all the time.
+                TGeometry arms = geometry;
+                TMass mass = inverseMass;
+                TRows off = error;
+                SoftnessWide damped = softness;
+                DampTurn(bodies, substep, arms, mass, off, turnsFar, ref damped);
+                softness = damped;
+            }
+        }
         var wanted = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)
         {
@@ -106,6 +135,19 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             change = impulses - previous;
         }
         TJoint.ApplyImpulse(geometry, ref bodies, change);
+    }
+
+    // What correcting all of C does to rotations is M^-1 J^T K^-1 C.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void DampTurn(
+        in TBodies bodies, in Substep substep, in TGeometry geometry, in TMass inverseMass, in TRows error, Vector<int> turnsFar, ref SoftnessWide softness)
+    {
+        var still = bodies;
+        ref var first = ref BodySlots.At(ref still, 0);
+        ref var last = ref BodySlots.At(ref still, TBodies.Count - 1);
+        first.Angular = last.Angular = Vector3Wide.Zero;
+        TJoint.ApplyImpulse(geometry, ref still, TMass.Solve(inverseMass, error));
+        JointTurn.Damp(Wide.Max(first.Angular.LengthSquared(), last.Angular.LengthSquared()), substep.Dt, turnsFar, ref softness);
     }
 
     // A motor corrects no position: relaxation has nothing to take back, and hubs bear as much of it as chains.

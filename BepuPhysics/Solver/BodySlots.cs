@@ -26,6 +26,8 @@ public struct SolverBodyWide
     public Vector3Wide Rotation;
     /// <summary>Lanes in which the body is a hub: constraints that move it at the same time are many, or do not see each other's impulses.</summary>
     public Vector<int> HubMask;
+    /// <summary>Lanes in which a joint that holds points may turn a body far by correcting its error; of a constraint's first body.</summary>
+    public Vector<int> TurnMask;
 }
 
 /// <summary>Parts of a body that a constraint reads. Folded away by the JIT.</summary>

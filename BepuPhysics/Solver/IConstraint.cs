@@ -28,11 +28,16 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Whether several constraints of the type on one body make it a hub.</summary>
     static virtual bool MakesHubs => false;
 
-    /// <summary>Geometric stiffness of the constraint's load on its first and its last body; asked for only where <see cref="CarriesPointLoad"/>.</summary>
+    /// <summary>
+    /// Geometric stiffness of the constraint's load on its first and its last body, and lanes in which correcting the position may turn a body far; asked for
+    /// only where <see cref="CarriesPointLoad"/>.
+    /// </summary>
     /// <returns>Whether there is any in any lane that a substep might not resolve.</returns>
     static virtual bool TryGetGeometricStiffness(
-        in TBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB)
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB,
+        out Vector<int> turnsFar)
     {
+        turnsFar = Vector<int>.Zero;
         stiffnessA = stiffnessB = default;
         return false;
     }

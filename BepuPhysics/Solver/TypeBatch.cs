@@ -38,6 +38,8 @@ static class EncodedBody
     internal const int KinematicFlag = 1 << 30;
     /// <summary>Set, in joints that make hubs, for a body that is one (Solver.Hubs.cs).</summary>
     internal const int HubFlag = 1 << 29;
+    /// <summary>Set, in the first reference of a joint that holds points, where its correction may turn a body far (JointTurn.cs); anew in each step.</summary>
+    internal const int TurnFlag = 1 << 28;
     /// <summary>Bits of the body index.</summary>
-    internal const int IndexMask = HubFlag - 1;
+    internal const int IndexMask = TurnFlag - 1;
 }

@@ -30,7 +30,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             Scatter(rows, bodies, ref slots);
             if (TConstraint.CarriesPointLoad && substep.Index == 0)
-                AddGeometricStiffness(references, bodies, substep, slots, prestep[i], impulses[i]);
+                LookAtLoad(references, bodies, substep, slots, prestep[i], impulses[i]);
         }
     }
 
@@ -85,13 +85,26 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
 
     // Once per step: the load changes little from substep to substep.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void AddGeometricStiffness(
+    static void LookAtLoad(
         Vector<int>* references, in SolverBodies bodies, in Substep substep, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
     {
-        if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB))
+        var isStiffened = TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB, out var turnsFar);
+        MarkTurning(ref references[0], turnsFar);
+        if (!isStiffened)
             return;
         bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA);
         bodies.AddStiffness(new(references[TBodies.Count - 1] & PlaceMask), stiffnessB);
+    }
+
+    // An empty reference keeps all of its bits.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void MarkTurning(ref Vector<int> references, Vector<int> turnsFar)
+    {
+        var flag = Vector.AndNot(new Vector<int>(EncodedBody.TurnFlag), Vector.Equals(references, new Vector<int>(EncodedBody.Empty)));
+        var marked = Wide.Select(turnsFar, references | flag, Vector.AndNot(references, flag));
+        // Hardly ever one to write.
+        if (!Vector.EqualsAll(marked, references))
+            references = marked;
     }
 
     // Where the rows of the bodies of a bundle are: worked out once for all that is read and written of them.
@@ -126,6 +139,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
+            if (TConstraint.CarriesPointLoad) BodySlots.At(ref slots, 0).TurnMask = TurnMask(references[0]);
             if (TBodies.Count > 1) BodySlots.At(ref slots, 1).HubMask = HubMask(references[1]);
             if (TBodies.Count > 2) BodySlots.At(ref slots, 2).HubMask = HubMask(references[2]);
             if (TBodies.Count > 3) BodySlots.At(ref slots, 3).HubMask = HubMask(references[3]);
@@ -141,17 +155,22 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         if (TBodies.Count > 3) bodies.ScatterVelocity(rows.D, BodySlots.At(ref slots, 3));
     }
 
-    // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have the flag of a hub in theirs. Read once
+    // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have flags in theirs. Read once
     // per loop: one call more in the loop and the JIT inlines none of them.
     static Vector<int> PlaceMask
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => TConstraint.MakesHubs ? new Vector<int>(~EncodedBody.HubFlag) : new Vector<int>(-1);
+        get => TConstraint.MakesHubs ? new Vector<int>(~(EncodedBody.HubFlag | EncodedBody.TurnFlag)) : new Vector<int>(-1);
     }
 
     // All bits of an empty reference are set; what its lane holds means nothing.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> HubMask(Vector<int> references) => Vector.Equals(references & new Vector<int>(EncodedBody.HubFlag), new(EncodedBody.HubFlag));
+
+    // None of an empty reference, of which the sign is set as well: it is not worth a look.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> TurnMask(Vector<int> references) =>
+        Vector.Equals(references & new Vector<int>(EncodedBody.TurnFlag | int.MinValue), new(EncodedBody.TurnFlag));
 
     static void ScaleInverseMass(int bundle, in SplitBodies split, ref TBodies slots)
     {

@@ -83,6 +83,8 @@ public unsafe class KernelPurityTests
                 processor.PrestepFloat(ref batch, index, i) = random.NextSingle() * 2 - 0.7f;
             for (int i = 0; i < processor.ImpulseFloats; ++i)
                 processor.Impulse(ref batch, index, i) = random.NextSingle();
+            if (constraint % 3 == 0)
+                MakeRigid(processor, ref batch, index);
         }
 
         var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
@@ -93,6 +95,11 @@ public unsafe class KernelPurityTests
             processor.Solve(ref batch, bodies, substep, 0, batch.BundleCount);
         }
 
+        if (order.Length == ConstraintCount && processor.CarriesPointLoad && !JointTypes.All.Single(type => type.Id == typeId).Name.EndsWith("Motor"))
+        {
+            var marked = Enumerable.Range(0, ConstraintCount).Count(i => (processor.BodyReference(ref batch, i, 0) & EncodedBody.TurnFlag) != 0);
+            Assert.InRange(marked, 1, ConstraintCount / 2);
+        }
         var outcomes = new Dictionary<int, float[]>();
         for (int index = 0; index < batch.ConstraintCount; ++index)
         {
@@ -115,6 +122,20 @@ public unsafe class KernelPurityTests
         pool.Return(ref stiffness);
         pool.Return(ref displacements);
         return outcomes;
+    }
+
+    // What is rigid is damped where its load turns a body far.
+    static void MakeRigid(TypeProcessor processor, ref TypeBatch batch, int index)
+    {
+        if (JointTypes.All.SingleOrDefault(type => type.Id == processor.TypeId) is not { } joint)
+            return;
+        if (joint.PlaceOf<SpringSettings>() is var spring and >= 0)
+            processor.PrestepFloat(ref batch, index, spring) = 0;
+        // Its greatest speed comes first.
+        if (joint.PlaceOf<ServoSettings>() is var servo and >= 0)
+            processor.PrestepFloat(ref batch, index, servo) = float.MaxValue;
+        for (int i = 0; i < processor.ImpulseFloats; ++i)
+            processor.Impulse(ref batch, index, i) *= 20;
     }
 
     static void FillBody(Random random, out MotionState motion, out BodyInertia inertia, out BodyVelocity displacement)

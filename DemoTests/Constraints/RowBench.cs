@@ -84,6 +84,8 @@ sealed unsafe class RowBench : IDisposable
     /// <summary>What of it belongs to this constraint.</summary>
     public float[] OwnImpulses => [.. Enumerable.Range(0, Processor.ImpulseFloats).Select(i => Processor.Impulse(ref batch, index, i))];
 
+    public void WarmStart(in Substep substep) => Processor.WarmStart(ref batch, SolverBodies, substep, 0, batch.BundleCount);
+
     public void Solve(in Substep substep) => Processor.Solve(ref batch, SolverBodies, substep, 0, batch.BundleCount);
 
     /// <summary>Moves the poses by coordinates of translation and rotation, six per body.</summary>

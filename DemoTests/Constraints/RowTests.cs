@@ -196,7 +196,8 @@ public class RowTests
         }
     }
 
-    static (double[] Velocities, double[] Impulses) Sweep(RowBench bench, int typeId, in Substep substep)
+    /// <summary>A sweep in double precision, by the rows.</summary>
+    internal static (double[] Velocities, double[] Impulses) Sweep(RowBench bench, int typeId, in Substep substep)
     {
         var rows = bench.Rows(substep);
         var velocities = bench.Velocities;
@@ -232,7 +233,7 @@ public class RowTests
         return (velocities, impulses);
     }
 
-    static double[,] MassMatrix(RowBench bench, ConstraintRow[] rows)
+    internal static double[,] MassMatrix(RowBench bench, ConstraintRow[] rows)
     {
         var matrix = new double[rows.Length, rows.Length];
         for (int i = 0; i < rows.Length; ++i)
@@ -244,7 +245,7 @@ public class RowTests
         return matrix;
     }
 
-    static double[] Sum(RowBench bench, ConstraintRow[] rows, double[] factors)
+    internal static double[] Sum(RowBench bench, ConstraintRow[] rows, double[] factors)
     {
         var sum = new double[bench.BodyCount * 6];
         for (int i = 0; i < rows.Length; ++i)
@@ -257,7 +258,7 @@ public class RowTests
     }
 
     // Gauss and Jordan; the matrices are positive definite, or zero where a limit has let go.
-    static double[] SolveDense(double[,] matrix, double[] right)
+    internal static double[] SolveDense(double[,] matrix, double[] right)
     {
         var n = right.Length;
         var m = (double[,])matrix.Clone();
@@ -286,7 +287,7 @@ public class RowTests
 
     static double Dot(double[] a, double[] b) => a.Zip(b, (x, y) => x * y).Sum();
 
-    static void AssertClose(double[] expected, double[] actual, string what)
+    internal static void AssertClose(double[] expected, double[] actual, string what)
     {
         var scale = 1 + expected.Max(Math.Abs);
         for (int i = 0; i < expected.Length; ++i)
