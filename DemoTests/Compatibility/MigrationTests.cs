@@ -5,7 +5,6 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
-using Demos.Accuracy;
 using DemoTests.Scenes;
 using Xunit;
 
