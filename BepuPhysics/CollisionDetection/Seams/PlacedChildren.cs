@@ -26,10 +26,14 @@ unsafe struct ShapeCopy
     }
 
     /// <summary>Copies a shape.</summary>
+    // By the words that it is made of: a triangle was just written by these, and a wider load would have to wait for them.
     public void Write(int typeId, void* shape)
     {
         fixed (byte* bytes = Bytes)
-            Unsafe.CopyBlockUnaligned(bytes, shape, ByteCounts[typeId]);
+        {
+            for (int i = 0; i < ByteCounts[typeId]; i += sizeof(uint))
+                *(uint*)(bytes + i) = *(uint*)((byte*)shape + i);
+        }
     }
 }
 
