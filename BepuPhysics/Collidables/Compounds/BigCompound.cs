@@ -183,7 +183,8 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
             var child = found[i];
             if (!ContainerChildren.IsContainer(Children[child]))
                 continue;
-            found[i] = found[--found.Count];
+            found[i] = found[found.Count - 1];
+            --found.Count;
             ContainerChildren.FindOverlaps(Children, child, min, max, shapes, ref found, pool);
         }
     }

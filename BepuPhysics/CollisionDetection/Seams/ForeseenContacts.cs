@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -71,7 +72,8 @@ static class ForeseenContacts
         ref var child = ref view.Ranked[view.Set.Index];
         ref var placed = ref view.Placed(child);
         var gap = -child.Depth;
-        if (!(gap > 0) || !placed.AreKnown || placed.Motion.Way == default)
+        // Two triangles that touch may as well be behind each other: where they would meet says nothing.
+        if (!(gap > 0) || !placed.AreKnown || placed.Motion.Way == default || (placed.TypeA == Triangle.Id && placed.TypeB == Triangle.Id))
             return false;
         ref var result = ref view.Result(child);
         var normal = result.Manifold.Normal;
