@@ -62,6 +62,9 @@ static class ForeseenContacts
     // Part of an approach that may be of a turn.
     const float TurnShare = 0.25f;
 
+    // Part of a way that is along it: where an edge comes down on an edge, either side of it touches.
+    const float Graze = 1e-3f;
+
     // A normal that turns away is followed by half of what is left of its way each time.
     const int MaximumTestCount = 12;
 
@@ -144,7 +147,8 @@ static class ForeseenContacts
             // What is not there at the end of the step has a plane that does not stop it before that.
             if (touches || foresight.TestCount == MaximumTestCount || foresight.Time + gap / approach >= 1)
             {
-                Take(ref view.Result(child), ref child, placed, foresight, approach);
+                if (approach > Graze * Exact.Length(foresight.Way) || HasLeaderAlong(view, foresight.Manifold.Normal))
+                    Take(ref view.Result(child), ref child, placed, foresight, approach);
                 set.Stage = SeamStage.Prepared;
                 return;
             }
@@ -152,6 +156,17 @@ static class ForeseenContacts
         }
         ++foresight.TestCount;
         tests.Add(placed, foresight.Rise + foresight.Way * foresight.Time, owner, registry, pool);
+    }
+
+    // What is grazed and carries nothing yet would be no more than passed: the contact stays as it is then.
+    static bool HasLeaderAlong(SeamView view, in Vector3 normal)
+    {
+        for (int i = view.Set.LastLeader; i >= 0; i = view.Ranked[i].PreviousLeader)
+        {
+            if (ChildAgreement.HasOneNormal(view.Result(view.Ranked[i]).Manifold.Normal, normal))
+                return true;
+        }
+        return false;
     }
 
     // Depths are those at the beginning of the step, along the new normal. Where it has not turned, or would turn to where a neighbour is, all is as it was.
