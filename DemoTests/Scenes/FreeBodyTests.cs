@@ -179,11 +179,15 @@ public class FreeBodyTests
 
     readonly struct CountingCallbacks(Calls calls) : IPoseIntegratorCallbacks
     {
-        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
         public bool AllowSubstepsForUnconstrainedBodies => false;
-        public bool IntegrateVelocityForKinematics => false;
-        public void Initialize(Simulation simulation) { }
+
+        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
+
         public void PrepareForIntegration(float dt) { }
+
+        public bool IntegrateVelocityForKinematics => false;
+
+        public void Initialize(Simulation simulation) { }
 
         public void IntegrateVelocity(Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia,
             Vector<int> integrationMask, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
