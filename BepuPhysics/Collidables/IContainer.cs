@@ -45,11 +45,8 @@ unsafe interface IContainer : IShape
     /// <summary>Whether the children are in a list. Their boxes are then measured once for all that may touch it, one after the other.</summary>
     static abstract bool IsList { get; }
 
-    /// <summary>Number of children: their numbers are below it.</summary>
+    /// <summary>Number of children: their numbers are below it. So are the indices of nodes, of which there are no more.</summary>
     int ChildCount { get; }
-
-    /// <summary>Number of nodes: their indices are below it.</summary>
-    int NodeCount { get; }
 
     /// <summary>Greatest number of nodes that <see cref="Open"/> writes for a node.</summary>
     /// <param name="node">Index of the node.</param>
@@ -76,16 +73,23 @@ unsafe interface IContainer : IShape
     void FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool);
 
     /// <summary>Whether the children are triangles of a surface, not bodies with a middle.</summary>
-    static abstract bool IsSurface { get; }
+    static virtual bool IsSurface => false;
+
+    /// <summary>Whether there are containers of this type which are solid. Of others neither of the next two is asked for.</summary>
+    static virtual bool MayBeSolid => false;
 
     /// <summary>Whether what is inside is pushed out; of surfaces only.</summary>
-    bool IsSolid { get; }
+    bool IsSolid => false;
 
     /// <summary>Finds the nearest way out for a point inside of a container that is solid.</summary>
     /// <param name="point">The point in the container's frame.</param>
     /// <param name="way">The way out.</param>
     /// <returns>Whether the point is inside.</returns>
-    bool FindWayOut(Vector3 point, out WayOut way);
+    bool FindWayOut(Vector3 point, out WayOut way)
+    {
+        way = default;
+        return false;
+    }
 
     /// <summary>Gets a child.</summary>
     /// <param name="index">Number of the child.</param>

@@ -9,8 +9,6 @@ namespace BepuPhysics.Collidables;
 // A mesh as a container of triangles, which are made when they are asked for.
 public unsafe partial struct Mesh : IContainer
 {
-    readonly int IContainer.NodeCount => Header->NodeCount;
-
     readonly int IContainer.FanOut(int node, Shapes shapes) => MeshNode.Width * MeshNode.LeafSize;
 
     // A leaf is opened together with its node: below a node there are nodes and triangles.

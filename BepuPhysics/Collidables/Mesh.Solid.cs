@@ -45,6 +45,8 @@ public unsafe partial struct Mesh
     // Cosine from which on the way to the nearest point is along the normal, which is known better.
     const float AlongNormal = 0.999999f;
 
+    static bool IContainer.MayBeSolid => true;
+
     readonly bool IContainer.IsSolid => solid;
 
     readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)

@@ -1,8 +1,5 @@
-using System;
 using System.Numerics;
 using BepuPhysics.Trees;
-using BepuUtilities;
-using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -18,33 +15,19 @@ sealed class MeshShapeBatch(BufferPool pool, int initialCapacity, Shapes collect
         int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler) =>
         this[shapeIndex].RayTest(pose, ray, ref maximumT, pool, ref hitHandler);
 
+    // Known without the box.
     internal override float MaximumRadius(int shapeIndex)
     {
         Get(shapeIndex).ComputeAngularExpansionData(out var maximumRadius, out _);
         return maximumRadius;
     }
 
-    internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations,
-        out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
+    private protected override ContainerExtent Measure(int shapeIndex, in Quaternion orientation)
     {
-        Check.That(shapeIndices.Length <= Vector<float>.Count);
-        maximumRadius = default;
-        maximumAngularExpansion = default;
-        min = default;
-        max = default;
-        var turns = orientations;
-        for (int lane = 0; lane < shapeIndices.Length; ++lane)
-        {
-            if (shapeIndices[lane] < 0)
-                continue;
-            ref var mesh = ref Get(shapeIndices[lane]);
-            mesh.ComputeBounds(Lanes.Read<Quaternion, QuaternionWide>(ref turns, lane), out var low, out var high);
-            mesh.ComputeAngularExpansionData(out var radius, out var expansion);
-            Lanes.Write(low, ref min, lane);
-            Lanes.Write(high, ref max, lane);
-            GatherScatter.Get(ref maximumRadius, lane) = radius;
-            GatherScatter.Get(ref maximumAngularExpansion, lane) = expansion;
-        }
+        ref var mesh = ref Get(shapeIndex);
+        mesh.ComputeBounds(orientation, out var min, out var max);
+        mesh.ComputeAngularExpansionData(out var maximumRadius, out var maximumAngularExpansion);
+        return new(min, max, maximumRadius, maximumAngularExpansion);
     }
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);

@@ -139,8 +139,6 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         Tree.Dispose(pool);
     }
 
-    readonly int IContainer.NodeCount => Tree.NodeCount;
-
     readonly int IContainer.FanOut(int node, Shapes shapes) =>
         node < Tree.NodeCount ? 2 : ContainerChildren.FanOut(Children, Tree.NodeCount, node, shapes);
 
@@ -161,16 +159,6 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => false;
 
-    static bool IContainer.IsSurface => false;
-
-    readonly bool IContainer.IsSolid => false;
-
-    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
-    {
-        way = default;
-        return false;
-    }
-
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         int first = found.Count;
@@ -189,13 +177,8 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         }
     }
 
-    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
-    {
-        if (index < Children.Length)
-            CompoundChildren.Get(Children, index, shapes, out child);
-        else
-            ContainerChildren.GetPiece(Children, index, shapes, scratch, out child);
-    }
+    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
+        ContainerChildren.Get(Children, index, shapes, scratch, out child);
 
     struct Collector : IBreakableForEach<int>
     {

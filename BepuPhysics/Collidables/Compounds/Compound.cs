@@ -110,8 +110,6 @@ public unsafe struct Compound : ICompoundShape, IContainer
 
     const int OwnNodeCount = 1;
 
-    readonly int IContainer.NodeCount => OwnNodeCount;
-
     readonly int IContainer.FanOut(int node, Shapes shapes) =>
         node < OwnNodeCount ? Children.Length : ContainerChildren.FanOut(Children, OwnNodeCount, node, shapes);
 
@@ -127,16 +125,6 @@ public unsafe struct Compound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => true;
 
-    static bool IContainer.IsSurface => false;
-
-    readonly bool IContainer.IsSolid => false;
-
-    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
-    {
-        way = default;
-        return false;
-    }
-
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         for (int i = 0; i < Children.Length; ++i)
@@ -150,11 +138,6 @@ public unsafe struct Compound : ICompoundShape, IContainer
         }
     }
 
-    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
-    {
-        if (index < Children.Length)
-            CompoundChildren.Get(Children, index, shapes, out child);
-        else
-            ContainerChildren.GetPiece(Children, index, shapes, scratch, out child);
-    }
+    readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
+        ContainerChildren.Get(Children, index, shapes, scratch, out child);
 }

@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using BepuPhysics.Trees;
-using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -21,30 +20,10 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
         int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler) =>
         this[shapeIndex].RayTest(pose, ray, ref maximumT, all, pool, ref hitHandler);
 
-    internal override float MaximumRadius(int shapeIndex) => Measure(shapeIndex, Quaternion.Identity).MaximumRadius;
-
-    CompoundExtent Measure(int shapeIndex, in Quaternion orientation)
+    private protected override ContainerExtent Measure(int shapeIndex, in Quaternion orientation)
     {
-        ref var compound = ref Get(shapeIndex);
-        return CompoundChildren.Measure(CompoundChildren.Of(ref compound), orientation, all);
-    }
-
-    internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
-        out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
-    {
-        maximumRadius = maximumAngularExpansion = default;
-        min = max = default;
-        var turns = orientations;
-        for (int lane = 0; lane < shapeIndices.Length; ++lane)
-        {
-            if (shapeIndices[lane] < 0)
-                continue;
-            var extent = Measure(shapeIndices[lane], Lanes.Read<Quaternion, QuaternionWide>(ref turns, lane));
-            GatherScatter.Get(ref maximumRadius, lane) = extent.MaximumRadius;
-            GatherScatter.Get(ref maximumAngularExpansion, lane) = extent.MaximumAngularExpansion;
-            Lanes.Write(extent.Min, ref min, lane);
-            Lanes.Write(extent.Max, ref max, lane);
-        }
+        var extent = CompoundChildren.Measure(CompoundChildren.Of(ref Get(shapeIndex)), orientation, all);
+        return new(extent.Min, extent.Max, extent.MaximumRadius, extent.MaximumAngularExpansion);
     }
 
     internal override bool IsForStaticsOnly(int shapeIndex) => CompoundChildren.IsForStaticsOnly(CompoundChildren.Of(ref Get(shapeIndex)), all);

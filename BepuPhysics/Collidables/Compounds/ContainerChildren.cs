@@ -75,9 +75,19 @@ static unsafe class ContainerChildren
             found[i] = pieces.Of(number, found[i]);
     }
 
-    /// <summary>Gets a piece of a child.</summary>
+    /// <summary>Gets a piece.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Get(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
+    {
+        if (index < children.Length)
+            CompoundChildren.Get(children, index, shapes, out result);
+        else
+            GetInner(children, index, shapes, scratch, out result);
+    }
+
+    // A piece of a child.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static void GetPiece(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
+    static void GetInner(Buffer<CompoundChild> children, int index, Shapes shapes, void* scratch, out ContainerChild result)
     {
         var (number, inner) = Pieces(children).Find(index);
         ref var child = ref children[number];

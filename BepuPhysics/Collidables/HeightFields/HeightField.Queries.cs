@@ -16,8 +16,6 @@ public unsafe partial struct HeightField
     // Part of the distances of a ray by which boxes are wider: a ray that is turned to the field's frame is rounded, and so is one in a triangle's test.
     const float RayRounding = 2e-6f;
 
-    readonly int IContainer.NodeCount => Levels.BlockCount;
-
     readonly int IContainer.FanOut(int node, Shapes shapes) => TrianglesPerBlock;
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
@@ -32,14 +30,6 @@ public unsafe partial struct HeightField
     static bool IContainer.IsList => false;
 
     static bool IContainer.IsSurface => true;
-
-    readonly bool IContainer.IsSolid => false;
-
-    readonly bool IContainer.FindWayOut(Vector3 point, out WayOut way)
-    {
-        way = default;
-        return false;
-    }
 
     // In the order of their numbers.
     readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)

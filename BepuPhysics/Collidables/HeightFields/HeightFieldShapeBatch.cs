@@ -1,7 +1,5 @@
-using System;
 using System.Numerics;
 using BepuPhysics.Trees;
-using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -19,26 +17,15 @@ sealed class HeightFieldShapeBatch(BufferPool pool, int initialCapacity, Shapes 
         int shapeIndex, in RigidPose pose, in RayData ray, ref float maximumT, BufferPool pool, ref TRayHitHandler hitHandler) =>
         this[shapeIndex].RayTest(pose, ray, ref maximumT, pool, ref hitHandler);
 
+    // Known without the box.
     internal override float MaximumRadius(int shapeIndex) => Get(shapeIndex).MaximumRadius;
 
-    internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
-        out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
+    private protected override ContainerExtent Measure(int shapeIndex, in Quaternion orientation)
     {
-        maximumRadius = default;
-        min = max = default;
-        var turns = orientations;
-        for (int lane = 0; lane < shapeIndices.Length; ++lane)
-        {
-            if (shapeIndices[lane] < 0)
-                continue;
-            ref var field = ref Get(shapeIndices[lane]);
-            field.ComputeBounds(Lanes.Read<Quaternion, QuaternionWide>(ref turns, lane), out var low, out var high);
-            Lanes.Write(low, ref min, lane);
-            Lanes.Write(high, ref max, lane);
-            GatherScatter.Get(ref maximumRadius, lane) = field.MaximumRadius;
-        }
-        // Nothing turns by which this would be asked for; more there is not.
-        maximumAngularExpansion = maximumRadius + maximumRadius;
+        ref var field = ref Get(shapeIndex);
+        field.ComputeBounds(orientation, out var min, out var max);
+        // Nothing turns by which the last would be asked for; more there is not.
+        return new(min, max, field.MaximumRadius, 2 * field.MaximumRadius);
     }
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);

@@ -37,7 +37,7 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
                 var placement = new NodePlacement(ref motion, i);
                 var first = found.Count;
                 ContainerDescent<TContainerA, TContainerB>.Find(entry.A, entry.B, placement, start + i, entry.Pair.Flipped, shapes, ref found, pool);
-                if (!TContainerA.IsSurface && entry.B.IsSolid)
+                if (!TContainerA.IsSurface && TContainerB.MayBeSolid && entry.B.IsSolid)
                     FindWaysOut(entry, placement, start + i, first, shapes, ref found, pool);
             }
         }

@@ -62,14 +62,28 @@ static unsafe class ContainerPlaces
         if (containerIsA)
         {
             SetA(ref children, container, ids.A, shapes, scratch);
-            children.TypeB = typeId;
-            children.ShapeB = shape;
+            SetShape(ref children, isA: false, typeId, shape);
         }
         else
         {
             SetB(ref children, container, ids.B, shapes, scratch);
+            SetShape(ref children, isA: true, typeId, shape);
+        }
+    }
+
+    /// <summary>Says what shape one of the two is; where it is stays as it is.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void SetShape(ref ChildShapes children, bool isA, int typeId, void* shape)
+    {
+        if (isA)
+        {
             children.TypeA = typeId;
             children.ShapeA = shape;
+        }
+        else
+        {
+            children.TypeB = typeId;
+            children.ShapeB = shape;
         }
     }
 

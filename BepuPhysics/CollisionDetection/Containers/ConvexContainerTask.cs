@@ -36,7 +36,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
-                if (entry.B.IsSolid && WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
+                if (TContainer.MayBeSolid && entry.B.IsSolid && WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
                 {
                     found.Add(new(start + i, Ids(entry.Pair, way.Child)) { LeadsOut = true }, pool);
                     continue;
@@ -64,9 +64,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         if (name.Exists && name.Packed == listed.Packed)
             return;
         listed = name;
-        if (list.Length < entry.B.FanOut(0, shapes))
-            pool.ResizeToAtLeast(ref list, entry.B.FanOut(0, shapes), 0);
-        entry.B.Open(0, shapes, list.Memory);
+        ContainerPlaces.Open(entry.B, 0, shapes, ref list, pool);
     }
 
     static void FindBoxes(Entry* entries, int count, float dt, out Vector3Wide min, out Vector3Wide max)
@@ -100,16 +98,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     {
         ref var pair = ref entry.Pair;
         ContainerPlaces.SetParents(pair, out children);
-        if (pair.Flipped)
-        {
-            children.TypeB = TConvex.TypeId;
-            children.ShapeB = Unsafe.AsPointer(ref entry.A);
-        }
-        else
-        {
-            children.TypeA = TConvex.TypeId;
-            children.ShapeA = Unsafe.AsPointer(ref entry.A);
-        }
+        ContainerPlaces.SetShape(ref children, isA: !pair.Flipped, TConvex.TypeId, Unsafe.AsPointer(ref entry.A));
         WaysOut.Find(pair, pair.Flipped, entry.B, out var way);
         WaysOut.Set(ref children, pair.Flipped, way, scratch);
     }

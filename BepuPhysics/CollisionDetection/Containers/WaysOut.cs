@@ -49,17 +49,10 @@ static unsafe class WaysOut
     {
         *(HalfSpace*)scratch = new(way.Normal);
         children.LeadsOut = true;
+        ContainerPlaces.SetShape(ref children, solidIsA, HalfSpace.Id, scratch);
         if (solidIsA)
-        {
             children.OffsetA = Exact.Rotate(way.Place, children.OrientationA);
-            children.TypeA = HalfSpace.Id;
-            children.ShapeA = scratch;
-        }
         else
-        {
             children.OffsetB += Exact.Rotate(way.Place, children.OrientationB);
-            children.TypeB = HalfSpace.Id;
-            children.ShapeB = scratch;
-        }
     }
 }
