@@ -18,8 +18,7 @@ public unsafe partial struct Mesh
         where TRayHitHandler : struct, IShapeRayHitHandler
     {
         var hits = new HandlerHits<TRayHitHandler>(ref hitHandler, ray, pose.Orientation);
-        var line = new MeshRay(this, pose, ray.Origin, ray.Direction);
-        line.Cast(ref maximumT, ref hits);
+        MeshRay.Cast(this, pose, ray.Origin, ray.Direction, ref maximumT, ref hits);
     }
 
     /// <summary>Finds the first triangle that a ray hits; of several at the same place that with the lowest number.</summary>
@@ -35,8 +34,7 @@ public unsafe partial struct Mesh
     public readonly bool RayTest(in RigidPose pose, Vector3 origin, Vector3 direction, float maximumT, out float t, out Vector3 normal, out int triangleIndex)
     {
         var nearest = new NearestHit { Triangle = -1 };
-        var line = new MeshRay(this, pose, origin, direction);
-        line.Cast(ref maximumT, ref nearest);
+        MeshRay.Cast(this, pose, origin, direction, ref maximumT, ref nearest);
         triangleIndex = nearest.Triangle;
         t = nearest.T;
         normal = triangleIndex < 0 ? default : Exact.Rotate(nearest.Normal, pose.Orientation);

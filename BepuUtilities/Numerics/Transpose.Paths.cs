@@ -160,6 +160,25 @@ public static unsafe partial class Transpose
         r3 = InterleaveHigh(t2, t3);
     }
 
+    /// <summary>
+    /// Makes the first four lanes of four points, each in the first three floats of its row. What other lanes and the fourth floats hold means nothing,
+    /// but is some number of the rows or zero.
+    /// </summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector3Wide FourPoints(Vector128<float> r0, Vector128<float> r1, Vector128<float> r2, Vector128<float> r3)
+    {
+        Transpose4(ref r0, ref r1, ref r2, ref r3);
+        return new(Widen(r0), Widen(r1), Widen(r2));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Widen(Vector128<float> four)
+    {
+        if (Vector<float>.Count == 4)
+            return four.AsVector();
+        return Vector<float>.Count == 8 ? four.ToVector256().AsVector() : four.ToVector256().ToVector512().AsVector();
+    }
+
     /// <summary>a0 b0 a1 b1.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector128<float> InterleaveLow(Vector128<float> a, Vector128<float> b)

@@ -8,6 +8,7 @@ using BepuUtilities.Memory;
 using Demos.Accuracy;
 using Demos.Engine;
 using Demos.JointTables;
+using Demos.Levels;
 using Demos.Memory;
 using Demos.Running;
 using Demos.Scenes;
@@ -45,6 +46,7 @@ public static class DemosCommand
         root.Subcommands.Add(JointTimesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(AccuracyCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(MemoryCommand.Create((parsed, action) => Guard(parsed, _ => action())));
+        root.Subcommands.Add(LevelCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
             root.Subcommands.Add(command);
         root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -24,14 +25,18 @@ static unsafe class MeshBuilder
     /// <summary>Refuses corners that no mesh can have.</summary>
     readonly struct CornerCheck(Vector3 scale)
     {
+        const float Limit = ShapeLimits.MaximumSize;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public void Check(int triangle, int corner, Vector3 value)
         {
-            var scaled = value * scale;
-            const float Limit = ShapeLimits.MaximumSize;
             // What is not a number is not within the limits; nor is what is infinite before it is scaled.
-            if (MathF.Abs(scaled.X) <= Limit && MathF.Abs(scaled.Y) <= Limit && MathF.Abs(scaled.Z) <= Limit &&
-                float.IsFinite(value.X) && float.IsFinite(value.Y) && float.IsFinite(value.Z))
-                return;
+            if (!(Vector3.LessThanOrEqualAll(Vector3.Abs(value * scale), new(Limit)) && Vector3.LessThanOrEqualAll(Vector3.Abs(value), new(float.MaxValue))))
+                Refuse(triangle, corner, value);
+        }
+
+        static void Refuse(int triangle, int corner, Vector3 value)
+        {
             throw new ArgumentException(
                 $"Corner {"ABC"[corner]} of triangle {triangle} is {value}; coordinates, scaled, must be from {-Limit} to {Limit} m.", nameof(value));
         }

@@ -3,6 +3,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 using BepuPhysics.Trees;
 
 namespace BepuPhysics.Collidables;
@@ -25,9 +26,12 @@ unsafe struct MeshNode
     /// <summary>Greatest number of triangles of a leaf.</summary>
     public const int LeafSize = 4;
 
-    const int Lines = 255;
+    /// <summary>Number of the last line of a grid.</summary>
+    public const int Lines = 255;
+
     // Bits of a float's mantissa, and of its exponent for 1.
     const int MantissaBits = 23, Bias = 127;
+    const int DoubleMantissaBits = 52, DoubleBias = 1023;
     const int LineOffset = 24;
     const ulong EachByte = 0x0101010101010101;
 
@@ -118,18 +122,27 @@ unsafe struct MeshNode
         }
     }
 
-    /// <summary>Least and greatest coordinates of all children along an axis; exact.</summary>
+    /// <summary>Steps of the grid along the axes, in the first three lanes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void GetSides(int axis, out Vector256<float> least, out Vector256<float> greatest)
+    public static Vector128<float> Steps(MeshNode* node) => Vector128.ShiftLeft(Exponents(node), MantissaBits).AsSingle();
+
+    // As floats have them; the fourth is the mask of nodes.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<uint> Exponents(MeshNode* node) =>
+        Vector128.WidenLower(Vector128.WidenLower(Vector128.CreateScalarUnsafe(node->exponents).AsByte()));
+
+    /// <summary>The least lines of all children along an axis, and then, for each, the number of lines from its greatest one to the last.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static byte* AxisLines(MeshNode* node, int axis) => (byte*)node + LineOffset + 2 * Width * axis;
+
+    /// <summary>Eight lines as integers.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector256<int> Widen(byte* lines)
     {
-        var origin = Vector256.Create(Origin[axis]);
-        var step = Vector256.Create(Step(axis));
-        var bytes = Vector128.LoadUnsafe(ref Unsafe.AsRef(in lines[2 * Width * axis]));
-        var (low, high) = Vector128.Widen(bytes);
-        least = origin + Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(low), Vector128.WidenUpper(low)).AsInt32()) * step;
-        greatest = origin +
-            (Vector256.Create((float)Lines) - Vector256.ConvertToSingle(Vector256.Create(Vector128.WidenLower(high),
-                Vector128.WidenUpper(high)).AsInt32())) * step;
+        if (Avx2.IsSupported)
+            return Avx2.ConvertToVector256Int32(lines);
+        var words = Vector128.WidenLower(Vector128.CreateScalarUnsafe(Unsafe.ReadUnaligned<ulong>(lines)).AsByte());
+        return Vector256.Create(Vector128.WidenLower(words), Vector128.WidenUpper(words)).AsInt32();
     }
 
     /// <summary>Makes the grid of boxes and writes them; where there is no child the box is to be empty, least above greatest.</summary>
@@ -146,7 +159,7 @@ unsafe struct MeshNode
             }
             var exponent = FindExponent(low, high);
             exponents = exponents & ~(255u << (8 * axis)) | (uint)exponent << (8 * axis);
-            var inverseStep = Math.ScaleB(1.0, Bias - exponent);
+            var inverseStep = InverseStep(exponent);
             var first = Math.Floor(low * inverseStep);
             Origin[axis] = (float)(first / inverseStep);
             for (int child = 0; child < Width; ++child)
@@ -165,15 +178,18 @@ unsafe struct MeshNode
         var exponent = Math.Max(1, Math.Max(Exponent(((double)high - low) / Lines), Exponent(largest) - MantissaBits + 1));
         while (true)
         {
-            var inverseStep = Math.ScaleB(1.0, Bias - exponent);
+            var inverseStep = InverseStep(exponent);
             if (Math.Ceiling(high * inverseStep) - Math.Floor(low * inverseStep) <= Lines)
                 return exponent;
             ++exponent;
         }
     }
 
+    // Two to the power of the bias less the exponent, of a float: well within what a double has.
+    static double InverseStep(int exponent) => BitConverter.Int64BitsToDouble((long)(DoubleBias + Bias - exponent) << DoubleMantissaBits);
+
     // Of the greatest power of two that is not above a value, as floats have it; zero for less than the least normal float.
-    static int Exponent(double value) => Math.Max(0, (int)(BitConverter.DoubleToInt64Bits(value) >> 52) - 1023 + Bias);
+    static int Exponent(double value) => Math.Max(0, (int)(BitConverter.DoubleToInt64Bits(value) >> DoubleMantissaBits) - DoubleBias + Bias);
 
     /// <summary>Which children's boxes a box meets, a bit for each. Boxes that only touch do.</summary>
     /// <remarks>
@@ -185,8 +201,7 @@ unsafe struct MeshNode
     {
         var origin = Vector128.Load((float*)node);
         // The exponent of one over the step. What the fourth lane gets from the mask of nodes is left out at the end.
-        var bits = Vector128.WidenLower(Vector128.WidenLower(Vector128.CreateScalarUnsafe(node->exponents).AsByte()));
-        var inverseStep = Vector128.ShiftLeft(Vector128.Create(2u * Bias) - bits, MantissaBits).AsSingle();
+        var inverseStep = Vector128.ShiftLeft(Vector128.Create(2u * Bias) - Exponents(node), MantissaBits).AsSingle();
         var low = Vector128.Ceiling(Clamp((min - origin) * inverseStep));
         var high = Vector128.Floor(Clamp((max - origin) * inverseStep));
         var outside = Vector128.GreaterThan(low, Vector128.Create((float)Lines)) | Vector128.LessThan(high, Vector128<float>.Zero);

@@ -29,30 +29,55 @@ interface IMeshHits
 unsafe struct MeshRay
 {
     // Of the distance of the farthest corner: each coordinate of a corner is rounded when it is scaled, when the point is subtracted and in two
-    // products, and the direction has three roundings; all together less than 2^-20.
-    const float Widening = 1f / (1 << 20);
+    // products, and the direction has three roundings; all together less than 2^-20. A box's own side is rounded when the grid's step and origin are
+    // scaled, and in two products and a sum: less than 2^-21 of the ends of the grid, which is at most twice as long as what is in it.
+    const float Widening = 1f / (1 << 19);
     // Two roundings on each side of the comparison of two times.
     const float Slack = 1 + 4 * 1.1920929e-7f;
+    // Of a direction: along an axis with less the line stays in its place, to far less than a rounding, over any distance of use. Nothing that is divided by it
+    // overflows.
+    const float LeastComponent = 1f / (1L << 60);
     const int StackSize = MeshTree.MaximumHeight * MeshNode.Width;
 
-    readonly Mesh mesh;
-    readonly MeshHeader* header;
+    MeshNode* nodes;
+    float* vertices;
+    int* indices, order;
     CenteredRayWide line;
-    readonly Vector3Wide across, upward;
-    // Of the boxes: where the line is nearest to the origin, its direction, one over that, by how much boxes are widened against it.
-    readonly Vector3 closest, scale;
-    Vector3 inverseDirection, widening;
-    readonly float start;
-    // Which sides of a box come first along the line, a bit for each axis: the least ones, before scaling.
-    readonly int leastFirst;
+    Vector3Wide across, upward;
+    Vector<int> twoSided;
+    bool isMirrored;
+    float start, margin;
+    Vector128<float> scale;
+    MeshSlabs slabs;
 
-    public MeshRay(in Mesh mesh, in RigidPose pose, in Vector3 origin, in Vector3 direction)
+    /// <summary>Finds all triangles that a ray hits, near boxes first.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="pose">Its pose.</param>
+    /// <param name="origin">Start of the ray.</param>
+    /// <param name="direction">Direction of the ray.</param>
+    /// <param name="maximumT">Greatest t of interest.</param>
+    /// <param name="hits">Receives the hits.</param>
+    public static void Cast<THits>(
+        in Mesh mesh, in RigidPose pose, in Vector3 origin, in Vector3 direction, ref float maximumT, ref THits hits)
+        where THits : struct, IMeshHits, allows ref struct
     {
-        this.mesh = mesh;
-        header = mesh.Header;
-        scale = mesh.Scale;
-        inverseDirection = default;
-        widening = default;
+        // Not a constructor: what that makes would be cleared before and copied after, which takes as long as two nodes.
+        Unsafe.SkipInit(out MeshRay ray);
+        if (ray.TryBegin(mesh, pose, origin, direction))
+            ray.Cast(ref maximumT, ref hits);
+    }
+
+    // Whether the ray has a direction, and with it can hit anything.
+    bool TryBegin(in Mesh mesh, in RigidPose pose, in Vector3 origin, in Vector3 direction)
+    {
+        var header = mesh.Header;
+        nodes = header->Nodes;
+        vertices = (float*)header->Vertices;
+        indices = header->Indices;
+        order = header->Order;
+        twoSided = new Vector<int>(mesh.TwoSided ? -1 : 0);
+        isMirrored = mesh.IsMirrored;
+        scale = mesh.Scale.AsVector128();
         var rays = new RayWide
         {
             Origin = Lanes.Broadcast<Vector3, Vector3Wide>(origin),
@@ -61,24 +86,15 @@ unsafe struct MeshRay
         line = new(rays, Lanes.Broadcast<Vector3, Vector3Wide>(pose.Position));
         line.ToLocal(Matrix3x3Wide.FromQuaternion(Lanes.Broadcast<Quaternion, QuaternionWide>(pose.Orientation)));
         Vector3Wide.BuildOrthonormalBasis(line.Direction, out across, out upward);
-        closest = new(line.Closest.X[0], line.Closest.Y[0], line.Closest.Z[0]);
         start = line.Start[0];
-        var extent = Exact.Max(Vector3.Abs(header->Min * scale), Vector3.Abs(header->Max * scale));
-        var margin = ((extent + Vector3.Abs(closest)).Largest()) * Widening;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            var component = axis == 0 ? line.Direction.X[0] : axis == 1 ? line.Direction.Y[0] : line.Direction.Z[0];
-            var inverse = 1 / component;
-            // Of an axis along which the line does not move: times beyond any use, and nothing that becomes no number.
-            inverse = component == 0 || inverse > float.MaxValue ? float.MaxValue : inverse < -float.MaxValue ? -float.MaxValue : inverse;
-            inverseDirection[axis] = inverse;
-            widening[axis] = inverse < 0 ? -margin : margin;
-            leastFirst |= inverse < 0 == scale[axis] < 0 ? 1 << axis : 0;
-        }
+        var closest = new Vector3(line.Closest.X[0], line.Closest.Y[0], line.Closest.Z[0]);
+        var extent = Exact.Max(Vector3.Abs(header->Min * mesh.Scale), Vector3.Abs(header->Max * mesh.Scale));
+        margin = (extent + Vector3.Abs(closest)).Largest() * Widening;
+        slabs = new(mesh.Scale, closest, new(Invert(line.Direction.X[0]), Invert(line.Direction.Y[0]), Invert(line.Direction.Z[0])), margin);
+        return float.IsFinite(start + closest.X + closest.Y + closest.Z);
     }
 
-    /// <summary>Whether the ray has a direction, and with it can hit anything.</summary>
-    public readonly bool Exists => float.IsFinite(start + closest.X + closest.Y + closest.Z);
+    static float Invert(float component) => 1 / (MathF.Abs(component) >= LeastComponent ? component : component < 0 ? -LeastComponent : LeastComponent);
 
     struct Entry
     {
@@ -90,13 +106,8 @@ unsafe struct MeshRay
         public int Index;
     }
 
-    /// <summary>Finds all triangles that the ray hits, near boxes first.</summary>
-    /// <param name="maximumT">Greatest t of interest.</param>
-    /// <param name="hits">Receives the hits.</param>
-    public void Cast<THits>(ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
+    readonly void Cast<THits>(ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
     {
-        if (!Exists)
-            return;
         var stack = stackalloc Entry[StackSize];
         stack[0] = new() { Begin = float.NegativeInfinity };
         for (var stackCount = 1; stackCount > 0;)
@@ -107,7 +118,7 @@ unsafe struct MeshRay
             if (entry.Count > 0)
                 TestLeaf(entry.Index, entry.Count, ref maximumT, ref hits);
             else
-                Open(header->Nodes + entry.Index, Distance(maximumT), stack, ref stackCount);
+                Open(nodes + entry.Index, Distance(maximumT), stack, ref stackCount);
         }
     }
 
@@ -116,13 +127,13 @@ unsafe struct MeshRay
     {
         // By the factors that the line itself was made with; the sum may be rounded by as much as boxes are widened.
         var distance = line.Place(new(t))[0];
-        return distance + MathF.Abs(distance) * (Slack - 1) + MathF.Abs(widening.X);
+        return distance + MathF.Abs(distance) * (Slack - 1) + margin;
     }
 
     // Pushes the children that the line meets, the nearest last.
-    void Open(MeshNode* node, float end, Entry* stack, ref int stackCount)
+    readonly void Open(MeshNode* node, float end, Entry* stack, ref int stackCount)
     {
-        var mask = FindHits(node, end, out var begins);
+        var mask = slabs.FindHits(node, start, end, Slack - 1, out var begins);
         var bottom = stackCount;
         for (; mask != 0; mask &= mask - 1)
         {
@@ -139,63 +150,42 @@ unsafe struct MeshRay
         }
     }
 
-    // Eight boxes at a time on every CPU, so that nothing depends on the width of vectors.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly int FindHits(MeshNode* node, float end, out Vector256<float> begins)
+    readonly void TestLeaf<THits>(int place, int count, ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
     {
-        var begin = Vector256.Create(start);
-        var last = Vector256.Create(end);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            node->GetSides(axis, out var least, out var greatest);
-            var isLeastFirst = (leastFirst >> axis & 1) != 0;
-            var factor = Vector256.Create(scale[axis]);
-            var point = Vector256.Create(closest[axis]);
-            var margin = Vector256.Create(widening[axis]);
-            var inverse = Vector256.Create(inverseDirection[axis]);
-            var near = ((isLeastFirst ? least : greatest) * factor - point - margin) * inverse;
-            var far = ((isLeastFirst ? greatest : least) * factor - point + margin) * inverse;
-            begin = Vector256.ConditionalSelect(Vector256.GreaterThan(near, begin), near, begin);
-            last = Vector256.ConditionalSelect(Vector256.LessThan(far, last), far, last);
-        }
-        begins = begin;
-        var slack = Vector256.Create(Slack - 1);
-        return (int)Vector256.LessThanOrEqual(begin - Vector256.Abs(begin) * slack, last + Vector256.Abs(last) * slack).ExtractMostSignificantBits();
-    }
-
-    void TestLeaf<THits>(int place, int count, ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
-    {
-        Unsafe.SkipInit(out TriangleWide triangles);
-        Unsafe.SkipInit(out TriangleNumbers numbers);
-        var used = 0;
+        var numbers = order + place;
+        var allowed = 0;
         for (int i = 0; i < count; ++i)
-        {
-            var number = header->Order[place + i];
-            if (!hits.Allows(number))
-                continue;
-            mesh.GetChild(number, out var triangle);
-            Lanes.Write(triangle, ref triangles, used);
-            numbers[used++] = number;
-        }
-        if (used == 0)
+            allowed |= hits.Allows(numbers[i]) ? 1 << i : 0;
+        if (allowed == 0)
             return;
+        // Where there are fewer than four, the first takes the place of those that are not there.
+        int* first = indices + 3 * numbers[0], second = indices + 3 * numbers[count > 1 ? 1 : 0];
+        int* third = indices + 3 * numbers[count > 2 ? 2 : 0], fourth = indices + 3 * numbers[count > 3 ? 3 : 0];
+        var triangles = new TriangleWide
+        {
+            A = Corners(first[0], second[0], third[0], fourth[0]),
+            B = isMirrored ? Corners(first[2], second[2], third[2], fourth[2]) : Corners(first[1], second[1], third[1], fourth[1]),
+            C = isMirrored ? Corners(first[1], second[1], third[1], fourth[1]) : Corners(first[2], second[2], third[2], fourth[2]),
+            TwoSidedMask = twoSided,
+        };
         triangles.Meet(line, across, upward, out var front, out var back, out var distance);
         var meets = front | back;
+        if (Vector.EqualsAll(meets, Vector<int>.Zero))
+            return;
         line.Resolve(distance, Wide.Select(meets, distance, new Vector<float>(float.NaN)), out var hitMask, out _, out var t);
         if (Vector.EqualsAll(hitMask, Vector<int>.Zero))
             return;
         var normals = triangles.GetNormal();
         normals = Vector3Wide.Select(back, -normals, normals);
-        for (int i = 0; i < used; ++i)
+        for (int i = 0; i < count; ++i)
         {
-            if (hitMask[i] != 0 && t[i] <= maximumT)
+            if ((allowed >> i & 1) != 0 && hitMask[i] != 0 && t[i] <= maximumT)
                 hits.Add(numbers[i], t[i], new(normals.X[i], normals.Y[i], normals.Z[i]), ref maximumT);
         }
     }
 
-    [InlineArray(MeshNode.LeafSize)]
-    struct TriangleNumbers
-    {
-        int first;
-    }
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector3Wide Corners(int a, int b, int c, int d) => Transpose.FourPoints(
+        Vector128.Load(vertices + 3 * a) * scale, Vector128.Load(vertices + 3 * b) * scale,
+        Vector128.Load(vertices + 3 * c) * scale, Vector128.Load(vertices + 3 * d) * scale);
 }

@@ -2,6 +2,7 @@ using System;
 using System.Diagnostics;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using System.Text.Json;
 using Demos.Scenes;
 using Demos.Terminal;
@@ -108,6 +109,20 @@ public sealed class DemosCommandTests : IDisposable
 
         Assert.Equal(DemosCommand.BadInput, status);
         Assert.NotEmpty(error);
+    }
+
+    [Fact]
+    public void The_row_of_a_level_has_times_and_rays_that_hit()
+    {
+        (int status, string output, _) = Run("levels", "--row", "--repetitions", "1");
+
+        Assert.Equal(DemosCommand.Finished, status);
+        double[] figures = [.. output.Split(';').Skip(1).Select(cell => double.Parse(cell, CultureInfo.InvariantCulture))];
+        Assert.Equal(4, figures.Length);
+        Assert.All(figures[..3], time => Assert.InRange(time, double.Epsilon, double.MaxValue));
+        // Hills that reach as far as the rays do: most come down within them.
+        Assert.InRange(figures[3], .8, 1);
+        Assert.Equal(DemosCommand.BadInput, Run("levels", "--repetitions", "0").Status);
     }
 
     [Fact]
