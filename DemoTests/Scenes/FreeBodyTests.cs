@@ -179,18 +179,9 @@ public class FreeBodyTests
 
     readonly struct CountingCallbacks(Calls calls) : IPoseIntegratorCallbacks
     {
-        public bool AllowSubstepsForUnconstrainedBodies => false;
-
-        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
-
-        public void PrepareForIntegration(float dt) { }
-
-        public bool IntegrateVelocityForKinematics => false;
-
-        public void Initialize(Simulation simulation) { }
-
-        public void IntegrateVelocity(Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia,
-            Vector<int> integrationMask, int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
+        public void IntegrateVelocity(
+            Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia, Vector<int> integrationMask,
+            int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
         {
             velocity.Linear.Y -= dt * new Vector<float>(10);
             if (!calls.IsSolving)
@@ -204,6 +195,16 @@ public class FreeBodyTests
                     calls.Add(bodyIndices[i], dt[i]);
             }
         }
+
+        public void Initialize(Simulation simulation) { }
+
+        public bool IntegrateVelocityForKinematics => false;
+
+        public void PrepareForIntegration(float dt) { }
+
+        public bool AllowSubstepsForUnconstrainedBodies => false;
+
+        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
     }
 
     // Knows when the solver is at work: the prediction of bounds calls the same callback.
