@@ -38,10 +38,10 @@ public unsafe partial struct Mesh : IDisposableShape
     /// <param name="triangles">Triangles, 1 to 2^26; taken from the pool, and not to be used any more.</param>
     /// <param name="scale">Factors by which coordinates are multiplied; not zero.</param>
     /// <param name="pool">Source of the mesh's memory and of temporary memory.</param>
-    /// <param name="dispatcher">Threads to build with; so far the calling one does it all.</param>
+    /// <param name="dispatcher">Threads to build the tree with, which is a third of the work; null for the calling one. The mesh is the same.</param>
     /// <exception cref="ArgumentException">A corner is not finite or too far away, no triangle has a surface, or there are none or too many.</exception>
     public Mesh(Buffer<Triangle> triangles, Vector3 scale, BufferPool pool, IThreadDispatcher? dispatcher = null)
-        : this((ReadOnlySpan<Triangle>)triangles.AsSpan(), scale, pool)
+        : this((ReadOnlySpan<Triangle>)triangles.AsSpan(), scale, pool, dispatcher)
     {
         if (triangles.Allocated && triangles.Id >= 0)
             pool.Return(ref triangles);
@@ -51,11 +51,12 @@ public unsafe partial struct Mesh : IDisposableShape
     /// <param name="triangles">Triangles, 1 to 2^26; they stay the caller's.</param>
     /// <param name="scale">Factors by which coordinates are multiplied; not zero.</param>
     /// <param name="pool">Source of the mesh's memory and of temporary memory.</param>
+    /// <param name="dispatcher">As for a buffer of triangles.</param>
     /// <inheritdoc cref="Mesh(Buffer{Triangle}, Vector3, BufferPool, IThreadDispatcher)" path="/exception"/>
-    public Mesh(ReadOnlySpan<Triangle> triangles, Vector3 scale, BufferPool pool)
+    public Mesh(ReadOnlySpan<Triangle> triangles, Vector3 scale, BufferPool pool, IThreadDispatcher? dispatcher = null)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        data = MeshBuilder.Build(triangles, scale, pool);
+        data = MeshBuilder.Build(triangles, scale, pool, dispatcher);
         this.scale = scale;
     }
 
@@ -65,11 +66,14 @@ public unsafe partial struct Mesh : IDisposableShape
     /// <param name="scale">Factors by which coordinates are multiplied; not zero.</param>
     /// <param name="pool">Source of the mesh's memory and of temporary memory.</param>
     /// <param name="materials">For each triangle a byte of the game's own, see <see cref="GetMaterial"/>; or nothing.</param>
+    /// <param name="dispatcher">As for triangles.</param>
     /// <exception cref="ArgumentException">As for triangles, or an index names no vertex.</exception>
-    public Mesh(ReadOnlySpan<Vector3> vertices, ReadOnlySpan<int> indices, Vector3 scale, BufferPool pool, ReadOnlySpan<byte> materials = default)
+    public Mesh(
+        ReadOnlySpan<Vector3> vertices, ReadOnlySpan<int> indices, Vector3 scale, BufferPool pool, ReadOnlySpan<byte> materials = default,
+        IThreadDispatcher? dispatcher = null)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        data = MeshBuilder.Build(vertices, indices, scale, materials, pool);
+        data = MeshBuilder.Build(vertices, indices, scale, materials, pool, dispatcher);
         this.scale = scale;
     }
 

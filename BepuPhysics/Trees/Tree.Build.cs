@@ -16,20 +16,14 @@ public unsafe partial struct Tree
         if (LeafCount <= 2)
             return;
         using var scratch = new BuildScratch(LeafCount, pool);
-        if (IsWorthThreads(dispatcher))
-        {
-            Metanodes[0].ParentSlot = -1;
-            TreeBuildWork.Run(this, scratch.Items, scratch.Spare, scratch.NodeIndices, MaximumHeight, pool, dispatcher!);
-            isDepthFirst = true;
-            return;
-        }
-        for (var leaf = 0; leaf < LeafCount; ++leaf)
-            scratch.Items[leaf] = Children[Leaves[leaf].Slot];
-        BuildAll(scratch);
+        BuildAll(scratch, pool, dispatcher);
     }
 
     /// <summary>Replaces the content of the tree: leaf i gets box i. Leaves the nodes in depth-first order.</summary>
-    public void BinnedBuild(ReadOnlySpan<BoundingBox> leafBounds, BufferPool pool)
+    public void BinnedBuild(ReadOnlySpan<BoundingBox> leafBounds, BufferPool pool) => BinnedBuild(leafBounds, pool, null);
+
+    /// <summary>As <see cref="BinnedBuild(ReadOnlySpan{BoundingBox}, BufferPool)"/>, on many threads if the tree is large: the same tree.</summary>
+    internal void BinnedBuild(ReadOnlySpan<BoundingBox> leafBounds, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
         if (leafBounds.Length > MaximumLeafCount)
@@ -48,13 +42,26 @@ public unsafe partial struct Tree
             return;
         }
         LeafCount = leafBounds.Length;
+        // Anywhere: there are as many slots as leaves and more.
         for (var leaf = 0; leaf < LeafCount; ++leaf)
-            scratch.Items[leaf] = new NodeChild { Min = leafBounds[leaf].Min, Max = leafBounds[leaf].Max, Index = ~leaf, LeafCount = 1 };
-        BuildAll(scratch);
+        {
+            Children[leaf] = new NodeChild { Min = leafBounds[leaf].Min, Max = leafBounds[leaf].Max, Index = ~leaf, LeafCount = 1 };
+            Leaves[leaf].Slot = leaf;
+        }
+        BuildAll(scratch, pool, dispatcher);
     }
 
-    void BuildAll(in BuildScratch scratch)
+    void BuildAll(in BuildScratch scratch, BufferPool pool, IThreadDispatcher? dispatcher)
     {
+        if (IsWorthThreads(dispatcher))
+        {
+            Metanodes[0].ParentSlot = -1;
+            TreeBuildWork.Run(this, scratch.Items, scratch.Spare, scratch.NodeIndices, MaximumHeight, pool, dispatcher!);
+            isDepthFirst = true;
+            return;
+        }
+        for (var leaf = 0; leaf < LeafCount; ++leaf)
+            scratch.Items[leaf] = Children[Leaves[leaf].Slot];
         var nodeCount = NodeCount;
         for (var node = 0; node < nodeCount; ++node)
             scratch.NodeIndices[node] = node;

@@ -35,6 +35,9 @@ public class TreeThreadTests
             model.Tree.BinnedBuild(model.Pool, dispatcher);
             model.Validate();
             Assert.Equal(TreeBytes.Of(expected.Tree), TreeBytes.Of(model.Tree));
+            model.Tree.BinnedBuild(Boxes(kind).ToArray(), model.Pool, dispatcher);
+            model.Validate();
+            Assert.Equal(TreeBytes.Of(expected.Tree), TreeBytes.Of(model.Tree));
         }
     }
 

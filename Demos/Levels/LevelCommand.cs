@@ -11,7 +11,7 @@ namespace Demos.Levels;
 /// <summary>The command that says what a level of triangles costs, beside bepuphysics2 where it is told where that is.</summary>
 static class LevelCommand
 {
-    const string Word = "levels", RowOption = "--row", RepetitionOption = "--repetitions";
+    const string Word = "levels", RowOption = "--row", RepetitionOption = "--repetitions", ThreadOption = "--threads";
 
     public static Command Create(Func<ParseResult, Func<int>, int> guard)
     {
@@ -25,21 +25,22 @@ static class LevelCommand
             Description = "Runs of each program, in turn; the least of each figure counts.",
             DefaultValueFactory = _ => 3,
         };
+        var threads = new Option<int>(ThreadOption) { Description = "Threads to build with; rays are cast by one.", DefaultValueFactory = _ => 1 };
         var peer = new Option<string?>("--peer")
         {
             Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure beside.",
             HelpName = "FOLDER",
         };
         var row = new Option<bool>(RowOption) { Description = "Writes a row for a program.", Hidden = true };
-        var command = new Command(Word, "Measures what a mesh of 131,072 triangles costs: to build, and per ray.") { repetitions, runs, peer, row };
+        var command = new Command(Word, "Measures what a mesh of 131,072 triangles costs: to build, and per ray.") { repetitions, runs, threads, peer, row };
         command.SetAction(parsed => guard(parsed, () =>
         {
-            int repetitionCount = parsed.GetValue(repetitions), runCount = parsed.GetValue(runs);
-            if (repetitionCount is < 1 or > 10_000 || runCount is < 1 or > 1_000)
-                throw new SceneException("repetitions have to be from 1 to 10,000, runs from 1 to 1,000");
+            int repetitionCount = parsed.GetValue(repetitions), runCount = parsed.GetValue(runs), threadCount = parsed.GetValue(threads);
+            if (repetitionCount is < 1 or > 10_000 || runCount is < 1 or > 1_000 || threadCount is < 1 or > 1024)
+                throw new SceneException("repetitions have to be from 1 to 10,000, runs from 1 to 1,000, threads from 1 to 1,024");
             if (parsed.GetValue(row))
             {
-                LevelFigures figures = LevelRun.Measure(repetitionCount);
+                LevelFigures figures = LevelRun.Measure(repetitionCount, threadCount);
                 double[] numbers = [figures.Build, figures.Slanted, figures.Grazing, figures.HitShare];
                 parsed.InvocationConfiguration.Output.WriteLine(
                     string.Join(';', [EngineDefaults.Name, .. numbers.Select(number => number.ToString("R", CultureInfo.InvariantCulture))]));
@@ -53,7 +54,7 @@ static class LevelCommand
             {
                 for (int i = 0; i < programs.Length; ++i)
                 {
-                    PeerProgram.Run(programs[i], [Word, RowOption, RepetitionOption, repetitionCount.ToString(CultureInfo.InvariantCulture)], line =>
+                    PeerProgram.Run(programs[i], [Word, RowOption, RepetitionOption, Text(repetitionCount, "0"), ThreadOption, Text(threadCount, "0")], line =>
                     {
                         string[] cells = line.Split(';');
                         double[] numbers = [.. cells.Skip(1).Select(cell => double.Parse(cell, CultureInfo.InvariantCulture))];

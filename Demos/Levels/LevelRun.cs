@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Trees;
+using BepuUtilities;
 using BepuUtilities.Memory;
 using Demos.Engine;
 using Demos.Running;
@@ -13,7 +14,7 @@ using Demos.Scenes;
 namespace Demos.Levels;
 
 /// <summary>What a level of triangles costs.</summary>
-/// <param name="Build">Seconds for a million triangles, each with corners of its own, on one thread.</param>
+/// <param name="Build">Seconds for a million triangles, each with corners of its own.</param>
 /// <param name="Slanted">Rays that come down on the hills at about 45 degrees, nanoseconds each.</param>
 /// <param name="Grazing">Rays of 100 m along the hills, nanoseconds each.</param>
 /// <param name="HitShare">Part of all rays that hit.</param>
@@ -27,13 +28,15 @@ static class LevelRun
 
     /// <summary>Makes the level and casts rays.</summary>
     /// <param name="repetitions">Times that each is done; the least counts.</param>
-    public static LevelFigures Measure(int repetitions)
+    /// <param name="threads">Threads to build with.</param>
+    public static LevelFigures Measure(int repetitions, int threads)
     {
         using var pool = new BufferPool();
+        using var dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         SceneShape hills = Hills();
         double build = double.MaxValue;
         for (int i = 0; i < repetitions; ++i)
-            build = Math.Min(build, TimeBuild(hills, pool));
+            build = Math.Min(build, TimeBuild(hills, pool, dispatcher));
         Simulation simulation = Simulation.Create(
             pool, new SceneNarrowPhaseCallbacks(new ContactRecorder(1), new PairMaterialProperties(1, 1, EngineDefaults.ContactSpring)),
             new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, 0), EngineDefaults.Solve(new RunSettings()));
@@ -53,7 +56,7 @@ static class LevelRun
         return scene.Shapes.Find(shape => shape.Kind == SceneShapeKind.Mesh)!;
     }
 
-    static double TimeBuild(SceneShape hills, BufferPool pool)
+    static double TimeBuild(SceneShape hills, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         int count = hills.Indices.Length / 3;
         pool.Take(count, out Buffer<Triangle> triangles);
@@ -61,7 +64,7 @@ static class LevelRun
         for (int i = 0; i < count; ++i)
             triangles[i] = new(hills.Points[hills.Indices[3 * i]], hills.Points[hills.Indices[3 * i + 2]], hills.Points[hills.Indices[3 * i + 1]]);
         long start = Stopwatch.GetTimestamp();
-        var mesh = new Mesh(triangles, Vector3.One, pool);
+        var mesh = new Mesh(triangles, Vector3.One, pool, dispatcher);
         double seconds = Stopwatch.GetElapsedTime(start).TotalSeconds;
         mesh.Dispose(pool);
         return seconds * 1e6 / count;

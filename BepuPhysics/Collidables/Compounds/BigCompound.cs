@@ -27,7 +27,7 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
     /// <param name="children">Memory with the children, and no more; the compound keeps it.</param>
     /// <param name="shapes">Shapes that the children refer to.</param>
     /// <param name="pool">Source of the tree's memory.</param>
-    /// <param name="dispatcher">Not used: the tree is built by the calling thread. Kept for callers.</param>
+    /// <param name="dispatcher">Threads to build the tree with; null for the calling one. The compound is the same.</param>
     /// <exception cref="ArgumentException">A child's shape does not exist or cannot be a child, or a pose is not valid.</exception>
     public BigCompound(Buffer<CompoundChild> children, Shapes shapes, BufferPool pool, IThreadDispatcher? dispatcher = null)
     {
@@ -42,7 +42,7 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         for (int i = 0; i < children.Length; ++i)
             boxes[i] = new(nodes[i].Min, nodes[i].Max);
         Tree = new Tree(pool, children.Length);
-        Tree.BinnedBuild(new ReadOnlySpan<BoundingBox>(boxes.Memory, children.Length), pool);
+        Tree.BinnedBuild(new ReadOnlySpan<BoundingBox>(boxes.Memory, children.Length), pool, dispatcher);
         pool.Return(ref boxes);
         pool.Return(ref nodes);
     }

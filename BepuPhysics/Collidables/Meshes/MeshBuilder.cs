@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -85,13 +86,13 @@ static unsafe class MeshBuilder
     }
 
     /// <summary>Builds a mesh of triangles that each have corners of their own.</summary>
-    public static Buffer<byte> Build(ReadOnlySpan<Triangle> triangles, Vector3 scale, BufferPool pool)
+    public static Buffer<byte> Build(ReadOnlySpan<Triangle> triangles, Vector3 scale, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         CheckCount(triangles.Length, nameof(triangles));
         var weld = new MeshWeld(triangles.Length / 2, pool);
         try
         {
-            return Build(new TriangleCorners(triangles), ref weld, scale, [], pool);
+            return Build(new TriangleCorners(triangles), ref weld, scale, [], pool, dispatcher);
         }
         finally
         {
@@ -101,7 +102,8 @@ static unsafe class MeshBuilder
 
     /// <summary>Builds a mesh of triangles with numbered vertices.</summary>
     public static Buffer<byte> Build(
-        ReadOnlySpan<Vector3> vertices, ReadOnlySpan<int> indices, Vector3 scale, ReadOnlySpan<byte> materials, BufferPool pool)
+        ReadOnlySpan<Vector3> vertices, ReadOnlySpan<int> indices, Vector3 scale, ReadOnlySpan<byte> materials, BufferPool pool,
+        IThreadDispatcher? dispatcher)
     {
         if (indices.Length % 3 != 0)
             throw new ArgumentException($"There are {indices.Length} indices; a triangle has three.", nameof(indices));
@@ -113,7 +115,7 @@ static unsafe class MeshBuilder
         try
         {
             numbers.Clear(0, vertices.Length);
-            return Build(new IndexedCorners(vertices, indices, numbers.Memory), ref weld, scale, materials, pool);
+            return Build(new IndexedCorners(vertices, indices, numbers.Memory), ref weld, scale, materials, pool, dispatcher);
         }
         finally
         {
@@ -128,7 +130,8 @@ static unsafe class MeshBuilder
             throw new ArgumentException($"A mesh has from 1 to {MaximumTriangleCount} triangles, not {triangleCount}.", name);
     }
 
-    static Buffer<byte> Build<TSource>(TSource source, ref MeshWeld weld, Vector3 scale, ReadOnlySpan<byte> materials, BufferPool pool)
+    static Buffer<byte> Build<TSource>(
+        TSource source, ref MeshWeld weld, Vector3 scale, ReadOnlySpan<byte> materials, BufferPool pool, IThreadDispatcher? dispatcher)
         where TSource : ICornerSource, allows ref struct
     {
         CheckScale(scale);
@@ -161,7 +164,7 @@ static unsafe class MeshBuilder
             }
             pool.TakeAtLeast(header.PlacedCount, out order);
             nodes = new(header.PlacedCount / 8 + 1, pool);
-            MeshTree.Build(indices.Memory, count, weld.Points, header.PlacedCount, ref nodes, order.Memory, pool);
+            MeshTree.Build(indices.Memory, count, weld.Points, header.PlacedCount, ref nodes, order.Memory, pool, dispatcher);
             header.NodeCount = nodes.Count;
             Measure(ref header, weld.Points);
             if (header.TotalByteCount > int.MaxValue)

@@ -21,7 +21,7 @@ static unsafe class MeshTree
 
     /// <summary>Finds the nodes, without their boxes, and the order of the triangles.</summary>
     public static void Build(int* indices, int triangleCount, Vector3* vertices, int placedCount,
-        ref QuickList<MeshNode> nodes, int* order, BufferPool pool)
+        ref QuickList<MeshNode> nodes, int* order, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         pool.TakeAtLeast<BoundingBox>(placedCount, out var boxes);
         pool.TakeAtLeast<int>(placedCount, out var triangles);
@@ -35,7 +35,7 @@ static unsafe class MeshTree
             triangles[count++] = triangle;
         }
         var tree = new Tree(pool, placedCount);
-        tree.BinnedBuild(boxes.AsSpan()[..placedCount], pool);
+        tree.BinnedBuild(boxes.AsSpan()[..placedCount], pool, dispatcher);
         pool.Return(ref boxes);
         Collapse(tree, triangles.Memory, ref nodes, order, pool);
         tree.Dispose(pool);

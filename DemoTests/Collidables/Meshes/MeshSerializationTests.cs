@@ -2,6 +2,7 @@ using System;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
@@ -22,9 +23,9 @@ public sealed class MeshSerializationTests : IDisposable
         pool.Clear();
     }
 
-    byte[] Write(MeshSample sample, Vector3 scale, bool twoSided = false, byte[]? materials = null)
+    byte[] Write(MeshSample sample, Vector3 scale, bool twoSided = false, byte[]? materials = null, IThreadDispatcher? dispatcher = null)
     {
-        var mesh = new Mesh(sample.Vertices, sample.Indices, scale, pool, materials) { TwoSided = twoSided };
+        var mesh = new Mesh(sample.Vertices, sample.Indices, scale, pool, materials, dispatcher) { TwoSided = twoSided };
         var bytes = new byte[mesh.GetSerializedByteCount()];
         mesh.Serialize(bytes);
         mesh.Dispose(pool);
@@ -44,6 +45,31 @@ public sealed class MeshSerializationTests : IDisposable
         Assert.Equal(bytes, again);
         Assert.Throws<ArgumentException>(() => mesh.Serialize(new byte[again.Length - 1]));
         mesh.Dispose(pool);
+    }
+
+    [Theory]
+    [InlineData(2), InlineData(3), InlineData(8)]
+    public void Threads_build_the_same_bytes(int threads)
+    {
+        // As large as a tree has to be for threads, and larger by far.
+        foreach (var cells in new[] { 32, 33, 90 })
+        {
+            var sample = MeshSample.Terrain(cells);
+            var alone = Write(sample, Vector3.One);
+            using var dispatcher = new ThreadDispatcher(threads);
+            Assert.Equal(alone, Write(sample, Vector3.One, dispatcher: dispatcher));
+            var triangles = new Triangle[sample.TriangleCount];
+            for (int i = 0; i < triangles.Length; ++i)
+            {
+                var corners = sample.Indices.AsSpan(3 * i, 3);
+                triangles[i] = new(sample.Vertices[corners[0]], sample.Vertices[corners[1]], sample.Vertices[corners[2]]);
+            }
+            var mesh = new Mesh(triangles, Vector3.One, pool, dispatcher);
+            var bytes = new byte[mesh.GetSerializedByteCount()];
+            mesh.Serialize(bytes);
+            mesh.Dispose(pool);
+            Assert.Equal(alone, bytes);
+        }
     }
 
     [Fact]
