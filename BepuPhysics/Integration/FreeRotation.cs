@@ -308,7 +308,8 @@ static class FreeRotation
 
     // The body turns about its axis u by rate times L_u; L, fixed in the world, turns the other way in the body. Sine and cosine of half the angle.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateU<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c) where TAngles : struct, IAngles
+    static void RotateU<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
+        where TAngles : struct, IAngles
     {
         Halve<TAngles>(rate * (start.X + change.X), out s, out c);
         Turn(s, c, start.Y + change.Y, start.Z + change.Z, ref change.Y, ref change.Z);
@@ -323,7 +324,8 @@ static class FreeRotation
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateV<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c) where TAngles : struct, IAngles
+    static void RotateV<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
+        where TAngles : struct, IAngles
     {
         Halve<TAngles>(rate * (start.Y + change.Y), out s, out c);
         Turn(s, c, start.Z + change.Z, start.X + change.X, ref change.Z, ref change.X);
