@@ -18,7 +18,12 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     /// <inheritdoc/>
     public static bool CarriesPointLoad => TJoint.HoldsPoints;
     /// <inheritdoc/>
-    public static bool MakesHubs => TJoint.HoldsPoints || TJoint.CarriesBodies;
+    public static bool MakesHubs
+    {
+        // A call in the loops of the solver otherwise.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.HoldsPoints || TJoint.CarriesBodies;
+    }
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -49,17 +49,32 @@ static class GeometricStiffness
         var loaded = Vector.GreaterThan(squared, Vector<float>.Zero) & Vector.LessThan(squared, new Vector<float>(float.PositiveInfinity));
         if (Vector.EqualsAll(loaded, Vector<int>.Zero))
             return;
-        var inertia = Symmetric3x3Wide.Invert(inverseInertia);
-        var resolved = Wide.DivideOrZero(Contract(inertia, stiffness), squared);
-        var added = dt * dt - resolved;
+        // The inertia up to a factor: the adjugate of its inverse, taken to a trace of one. Times the trace and over the determinant it would be the inertia
+        // itself; all that is asked for can do without the division.
+        var trace = inverseInertia.XX + inverseInertia.YY + inverseInertia.ZZ;
+        var adjugate = Adjugate(inverseInertia * Wide.DivideOrZero(Vector<float>.One, trace), out var determinant);
+        var perInertia = determinant * trace;
+        var added = dt * dt * perInertia - Wide.DivideOrZero(Contract(adjugate, stiffness), squared);
         // A locked axis has a zero inverse inertia, whose inverse says nothing: such bodies stay as they are.
-        var turns = Vector.GreaterThan(Contract(inertia, inertia), Vector<float>.Zero);
+        var turns = Vector.GreaterThan(determinant, Vector<float>.Zero);
         var unresolved = loaded & turns & Vector.GreaterThan(added, Vector<float>.Zero);
         if (Vector.EqualsAll(unresolved, Vector<int>.Zero))
             return;
-        var stiffened = Symmetric3x3Wide.Invert(inertia + stiffness * added);
-        angular = Vector3Wide.Select(unresolved, stiffened * (inertia * angular), angular);
-        inverseInertia = Symmetric3x3Wide.Select(unresolved, stiffened, inverseInertia);
+        var stiffened = Symmetric3x3Wide.Invert(adjugate + stiffness * added);
+        angular = Vector3Wide.Select(unresolved, stiffened * (adjugate * angular), angular);
+        inverseInertia = Symmetric3x3Wide.Select(unresolved, stiffened * perInertia, inverseInertia);
+    }
+
+    // The inverse times the determinant.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Symmetric3x3Wide Adjugate(in Symmetric3x3Wide m, out Vector<float> determinant)
+    {
+        var column = Vector3Wide.Cross(new(m.YX, m.YY, m.ZY), new(m.ZX, m.ZY, m.ZZ));
+        determinant = Vector3Wide.Dot(new(m.XX, m.YX, m.ZX), column);
+        return new(
+            column.X,
+            column.Y, m.XX * m.ZZ - m.ZX * m.ZX,
+            column.Z, m.YX * m.ZX - m.XX * m.ZY, m.XX * m.YY - m.YX * m.YX);
     }
 
     // A : B, the sum of products of all nine entries.

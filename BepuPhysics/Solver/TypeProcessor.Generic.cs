@@ -120,21 +120,21 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         Unsafe.SkipInit(out slots);
         Unsafe.SkipInit(out rows);
         rows.A = new(references[0] & places);
-        bodies.Gather(rows.A, access, substep, out BodySlots.At(ref slots, 0));
+        Gather(bodies, rows.A, access, substep, out BodySlots.At(ref slots, 0));
         if (TBodies.Count > 1)
         {
             rows.B = new(references[1] & places);
-            bodies.Gather(rows.B, access, substep, out BodySlots.At(ref slots, 1));
+            Gather(bodies, rows.B, access, substep, out BodySlots.At(ref slots, 1));
         }
         if (TBodies.Count > 2)
         {
             rows.C = new(references[2] & places);
-            bodies.Gather(rows.C, access, substep, out BodySlots.At(ref slots, 2));
+            Gather(bodies, rows.C, access, substep, out BodySlots.At(ref slots, 2));
         }
         if (TBodies.Count > 3)
         {
             rows.D = new(references[3] & places);
-            bodies.Gather(rows.D, access, substep, out BodySlots.At(ref slots, 3));
+            Gather(bodies, rows.D, access, substep, out BodySlots.At(ref slots, 3));
         }
         if ((access & BodyAccess.Hub) != 0)
         {
@@ -149,11 +149,43 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Scatter(in SlotRows rows, in SolverBodies bodies, ref TBodies slots)
     {
-        bodies.ScatterVelocity(rows.A, BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) bodies.ScatterVelocity(rows.B, BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) bodies.ScatterVelocity(rows.C, BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) bodies.ScatterVelocity(rows.D, BodySlots.At(ref slots, 3));
+        Scatter(bodies, rows.A, BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) Scatter(bodies, rows.B, BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) Scatter(bodies, rows.C, BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) Scatter(bodies, rows.D, BodySlots.At(ref slots, 3));
     }
+
+    // More than two bodies of sixteen lanes are beyond what the inliner takes for a loop, and each part of their gathers would be a call.
+    static bool IsGatheredByCalls
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TBodies.Count > 2 && Vector<float>.Count > 8;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Gather(in SolverBodies bodies, in RowOffsets rows, BodyAccess access, in Substep substep, out SolverBodyWide body)
+    {
+        if (IsGatheredByCalls)
+            GatherByCall(bodies, rows, access, substep, out body);
+        else
+            bodies.Gather(rows, access, substep, out body);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void GatherByCall(in SolverBodies bodies, in RowOffsets rows, BodyAccess access, in Substep substep, out SolverBodyWide body) =>
+        bodies.Gather(rows, access, substep, out body);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Scatter(in SolverBodies bodies, in RowOffsets rows, in SolverBodyWide body)
+    {
+        if (IsGatheredByCalls)
+            ScatterByCall(bodies, rows, body);
+        else
+            bodies.ScatterVelocity(rows, body);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ScatterByCall(in SolverBodies bodies, in RowOffsets rows, in SolverBodyWide body) => bodies.ScatterVelocity(rows, body);
 
     // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have flags in theirs. Read once
     // per loop: one call more in the loop and the JIT inlines none of them.
