@@ -18,9 +18,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     const int LeastForThreads = 128;
 
     QuickList<NoteKey> order;
-    QuickList<AddedConstraint> added;
-    // Whether the flush leaves what constraints hold until all are in place, for many threads. To one that is only another pass. What is done is the same.
-    bool sharesChanges;
+    // So many of the notes, from the first on, have their constraint.
+    int appliedCount;
+    // Whether the flush leaves what constraints hold until all are in place. What is done is the same.
+    bool leavesColumns;
     // Whether what a constraint holds is read where a change is noted, which many threads do; otherwise the flush reads it.
     bool readsEarly;
 
@@ -46,19 +47,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public int Inherited = StaticPairs.Nothing;
         /// <summary>Where friction acts of a patch on several statics; zero for a patch on one.</summary>
         public Vector3 FrictionCenter;
-
-        public const int NotRead = -1;
-    }
-
-    // A constraint that was added for a note, and where it is remembered what its contacts are called.
-    struct AddedConstraint
-    {
-        public int Worker;
-        public int Index;
-        public int Old;
-        public ConstraintHandle Constraint;
+        /// <summary>The constraint that the flush has added, if it is still to be written, and where it is remembered what its contacts are called.</summary>
+        public ConstraintHandle Added = new(NotAdded);
         public int PairIndex;
         public int ChildManifold;
+
+        public const int NotRead = -1;
+        public const int NotAdded = -1;
     }
 
     // A pair with a coefficient of restitution.
@@ -77,16 +72,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // By slots alone: whether these were others' before must not change the order. The notes of one pair are one worker's, which has made
-    // them in the order of children.
-    struct ByKey : IComparerRef<NoteKey>
+    // them in the order of children, and are gathered in that order.
+    struct ByKey : IComparerRef<NoteKey>, ISortKey<NoteKey>
     {
         const ulong Ordering = (ulong)CollidableReference.OrderMask << 32 | CollidableReference.OrderMask;
 
         public readonly int Compare(ref NoteKey a, ref NoteKey b)
         {
-            var pairs = (a.Key & Ordering).CompareTo(b.Key & Ordering);
+            var pairs = Of(a).CompareTo(Of(b));
             return pairs != 0 ? pairs : a.Index - b.Index;
         }
+
+        public static ulong Of(in NoteKey note) => note.Key & Ordering;
     }
 
     internal override void Flush(IThreadDispatcher? dispatcher)
@@ -99,7 +96,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
             Release(ref order, Pool);
-            Release(ref added, Pool);
             ReleaseWorkers();
         }
     }
@@ -108,7 +104,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        sharesChanges = IsWorthSharing(dispatcher);
+        var noteCount = CountNotes();
+        leavesColumns = LeavesColumns(dispatcher, noteCount);
+        appliedCount = 0;
+        MakeRoomForNew(noteCount - PairCount);
+        if (leavesColumns && !readsEarly)
+            ReadOld();
         BeginColumns();
         try
         {
@@ -125,10 +126,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 WakeTouched();
                 BeginColumns();
             }
-            for (int i = 0; i < order.Count; ++i)
+            for (; appliedCount < order.Count; ++appliedCount)
             {
-                PrefetchPending(i);
-                Apply(order[i].Worker, order[i].Index);
+                PrefetchPending(appliedCount);
+                Apply(order[appliedCount]);
             }
         }
         finally
@@ -138,25 +139,36 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         WatchBouncingPairs();
     }
 
-    bool IsWorthSharing(IThreadDispatcher? dispatcher)
+    // Whether what constraints hold waits: for many threads, or because so many are new that the memory of all doubles, which then need not be copied.
+    bool LeavesColumns(IThreadDispatcher? dispatcher, int noteCount) =>
+        noteCount >= LeastForThreads && (dispatcher is { ThreadCount: > 1 } || noteCount > PairCount);
+
+    int CountNotes()
     {
-        if (dispatcher is null || dispatcher.ThreadCount == 1)
-            return false;
         var count = 0;
         foreach (ref var worker in workers.AsSpan())
             count += worker.Pending.Count + worker.Gone.Count;
-        return count >= LeastForThreads;
+        return count;
+    }
+
+    // Tables that double on their way are copied, and leave what they were behind.
+    void MakeRoomForNew(int count)
+    {
+        if (count <= 0)
+            return;
+        Pairs.EnsureCapacity(Pairs.Pairs.Count + count, Pool);
+        Simulation.Solver.EnsureFreeSlots(count);
     }
 
     void BeginColumns()
     {
-        if (sharesChanges)
+        if (leavesColumns)
             Simulation.Solver.BeginDeferral();
     }
 
     void FinishColumns(IThreadDispatcher? dispatcher)
     {
-        if (!sharesChanges)
+        if (!leavesColumns)
             return;
         Simulation.Solver.PrepareDeferred();
         var work = new WriteWork { NarrowPhase = this };
@@ -180,24 +192,30 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 awakener.Request(pending.Pair.B.Slot);
         }
         if (awakener.WakeRequested())
-            ReadWoken();
+            ReadOld();
     }
 
-    // No worker has read the constraints that slept until now.
-    void ReadWoken()
+    // Where no worker has, as those constraints slept until now.
+    void ReadOld()
     {
-        for (int i = 0; i < order.Count; ++i)
+        if (Pairs.Pairs.Count == 0)
+            return;
+        foreach (ref var worker in workers.AsSpan())
         {
-            ref var worker = ref workers[order[i].Worker];
-            ref var pending = ref worker.Pending[order[i].Index];
-            var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
-            if (index < 0)
-                continue;
-            for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
-            {
-                if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
-                    Read(ref worker, ref pending, manifolds.Current);
-            }
+            foreach (ref var pending in worker.Pending.AsSpan())
+                ReadOld(ref worker, ref pending);
+        }
+    }
+
+    void ReadOld(ref Worker worker, ref PendingManifold pending)
+    {
+        var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
+        if (index < 0)
+            return;
+        for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
+        {
+            if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
+                Read(ref worker, ref pending, manifolds.Current);
         }
     }
 
@@ -232,10 +250,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void SortByKey(int first = 0)
     {
-        if (order.Count - first < 2)
+        var notes = order.AsSpan()[first..];
+        if (notes.Length >= RadixSort.LeastCount)
+        {
+            RadixSort.Sort<NoteKey, ByKey>(notes, Pool);
             return;
+        }
         var comparer = new ByKey();
-        QuickSort.Sort(order.AsSpan()[first..], ref comparer);
+        QuickSort.Sort(notes, ref comparer);
     }
 
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
@@ -292,9 +314,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // The structure alone: which constraints there are, and where. What they hold is written when all are there.
-    void Apply(int workerIndex, int noteIndex)
+    void Apply(in NoteKey note)
     {
-        ref var pending = ref workers[workerIndex].Pending[noteIndex];
+        ref var worker = ref workers[note.Worker];
+        ref var pending = ref worker.Pending[note.Index];
         var ofChildren = pending.Children != ChildIds.None;
         var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
         ref var cached = ref Pairs.Pairs.Values[index];
@@ -324,8 +347,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             if (pending.Old == PendingManifold.NotRead && contactCount > 0 && pending.Inherited == StaticPairs.Nothing)
             {
-                Check.That(!sharesChanges);
-                Read(ref workers[workerIndex], ref pending, manifold);
+                Check.That(!leavesColumns);
+                Read(ref worker, ref pending, manifold);
             }
             old = pending.Old;
             RemoveConstraint(ref cached, ref manifold);
@@ -333,19 +356,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        var constraint = new AddedConstraint
-        {
-            Worker = workerIndex,
-            Index = noteIndex,
-            Old = old,
-            Constraint = manifold.Constraint,
-            PairIndex = index,
-            ChildManifold = childManifold,
-        };
-        if (sharesChanges)
-            Note(ref added, constraint, Pool, order.Count);
-        else
-            WriteAdded(constraint);
+        pending.Old = old;
+        pending.Added = manifold.Constraint;
+        pending.PairIndex = index;
+        pending.ChildManifold = childManifold;
+        if (!leavesColumns)
+            WriteAdded(ref worker, pending);
     }
 
     // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
@@ -357,7 +373,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
         public readonly int StageCount => 2;
         public readonly int GetBlockCount(int stage) =>
-            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
+            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.appliedCount + PerBlock - 1) / PerBlock;
 
         public readonly void Execute(int stage, int block, int workerIndex)
         {
@@ -367,26 +383,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 NarrowPhase.Simulation.Solver.DoDeferred(block);
                 return;
             }
-            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.added.Count);
+            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.appliedCount);
             for (int i = block * PerBlock; i < end; ++i)
-                NarrowPhase.WriteAdded(NarrowPhase.added[i]);
+                NarrowPhase.WriteAdded(NarrowPhase.order[i]);
         }
     }
 
-    void WriteAdded(in AddedConstraint constraint)
+    void WriteAdded(in NoteKey note)
     {
-        ref var worker = ref workers[constraint.Worker];
-        ref var pending = ref worker.Pending[constraint.Index];
+        ref var worker = ref workers[note.Worker];
+        ref var pending = ref worker.Pending[note.Index];
+        if (pending.Added.Value != PendingManifold.NotAdded)
+            WriteAdded(ref worker, pending);
+    }
+
+    void WriteAdded(ref Worker worker, in PendingManifold pending)
+    {
         ContactPatch none = default;
         ref var old = ref none;
         if (pending.Inherited != StaticPairs.Nothing)
             old = ref worker.Statics.Inheritances[pending.Inherited].Load;
-        else if (constraint.Old != PendingManifold.NotRead)
-            old = ref worker.Old[constraint.Old];
-        ref var manifold = ref Pairs.Pairs.Values[constraint.PairIndex].Single;
-        if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
-            manifold = ref Pairs.Manifolds.Memory[constraint.ChildManifold].Manifold;
-        new ContactConstraint(Simulation.Solver, constraint.Constraint, pending.Manifold.Count)
+        else if (pending.Old != PendingManifold.NotRead)
+            old = ref worker.Old[pending.Old];
+        ref var manifold = ref Pairs.Pairs.Values[pending.PairIndex].Single;
+        if (pending.ChildManifold != PairRecords<ChildManifold>.None)
+            manifold = ref Pairs.Manifolds.Memory[pending.ChildManifold].Manifold;
+        new ContactConstraint(Simulation.Solver, pending.Added, pending.Manifold.Count)
             .WriteNew(ref old, pending.Manifold, pending.Material, pending.FrictionCenter, ref manifold.Features);
     }
 

@@ -30,7 +30,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         StagedWork.Compile<SeamWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<ContactPatch>));
-        Precompilation.Compile(typeof(QuickList<AddedConstraint>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
         OverlapFinder.Compile<Overlaps>();
