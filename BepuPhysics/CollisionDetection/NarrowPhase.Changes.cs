@@ -47,13 +47,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public int Inherited = StaticPairs.Nothing;
         /// <summary>Where friction acts of a patch on several statics; zero for a patch on one.</summary>
         public Vector3 FrictionCenter;
-        /// <summary>The constraint that the flush has added, if it is still to be written, and where it is remembered what its contacts are called.</summary>
-        public ConstraintHandle Added = new(NotAdded);
-        public int PairIndex;
-        public int ChildManifold;
 
         public const int NotRead = -1;
-        public const int NotAdded = -1;
     }
 
     // A pair with a coefficient of restitution.
@@ -69,6 +64,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public ulong Key;
         public int Worker;
         public int Index;
+
+        const uint Nothing = uint.MaxValue;
+
+        /// <summary>Whether a constraint was added for it: it has a place then instead of its key, which nobody needs any more.</summary>
+        public readonly bool HasConstraint => (uint)Key != Nothing;
+        /// <summary>The constraint that was added.</summary>
+        public readonly ConstraintHandle Constraint => new((int)Key);
+        /// <summary>Place of the pair, or of the manifold of two children, where it is remembered what its contacts are called.</summary>
+        public readonly int Place => (int)(Key >> 32);
+
+        public void SetNothing() => Key = Nothing;
+        public void SetConstraint(ConstraintHandle constraint, int place) => Key = (ulong)place << 32 | (uint)constraint.Value;
     }
 
     // By slots alone: whether these were others' before must not change the order. The notes of one pair are one worker's, which has made
@@ -129,7 +136,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             for (; appliedCount < order.Count; ++appliedCount)
             {
                 PrefetchPending(appliedCount);
-                Apply(order[appliedCount]);
+                Apply(ref order[appliedCount]);
             }
         }
         finally
@@ -314,7 +321,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // The structure alone: which constraints there are, and where. What they hold is written when all are there.
-    void Apply(in NoteKey note)
+    void Apply(ref NoteKey note)
     {
         ref var worker = ref workers[note.Worker];
         ref var pending = ref worker.Pending[note.Index];
@@ -328,11 +335,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Pairs.Empty(ref cached, ofChildren, Pool);
         }
         ref var manifold = ref cached.Single;
-        var childManifold = PairRecords<ChildManifold>.None;
+        var place = index;
         if (ofChildren)
         {
-            childManifold = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
-            ref var record = ref Pairs.Manifolds.Memory[childManifold];
+            place = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
+            ref var record = ref Pairs.Manifolds.Memory[place];
             manifold = ref record.Manifold;
             if (pending.Children.IsPatch)
                 record.Patch.Write(pending.Manifold);
@@ -353,15 +360,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             old = pending.Old;
             RemoveConstraint(ref cached, ref manifold);
         }
+        note.SetNothing();
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
         pending.Old = old;
-        pending.Added = manifold.Constraint;
-        pending.PairIndex = index;
-        pending.ChildManifold = childManifold;
+        note.SetConstraint(manifold.Constraint, place);
         if (!leavesColumns)
-            WriteAdded(ref worker, pending);
+            WriteAdded(note);
     }
 
     // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
@@ -391,24 +397,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void WriteAdded(in NoteKey note)
     {
+        if (!note.HasConstraint)
+            return;
         ref var worker = ref workers[note.Worker];
         ref var pending = ref worker.Pending[note.Index];
-        if (pending.Added.Value != PendingManifold.NotAdded)
-            WriteAdded(ref worker, pending);
-    }
-
-    void WriteAdded(ref Worker worker, in PendingManifold pending)
-    {
         ContactPatch none = default;
         ref var old = ref none;
         if (pending.Inherited != StaticPairs.Nothing)
             old = ref worker.Statics.Inheritances[pending.Inherited].Load;
         else if (pending.Old != PendingManifold.NotRead)
             old = ref worker.Old[pending.Old];
-        ref var manifold = ref Pairs.Pairs.Values[pending.PairIndex].Single;
-        if (pending.ChildManifold != PairRecords<ChildManifold>.None)
-            manifold = ref Pairs.Manifolds.Memory[pending.ChildManifold].Manifold;
-        new ContactConstraint(Simulation.Solver, pending.Added, pending.Manifold.Count)
+        ref var manifold = ref pending.Children == ChildIds.None ? ref Pairs.Pairs.Values[note.Place].Single : ref Pairs.Manifolds.Memory[note.Place].Manifold;
+        new ContactConstraint(Simulation.Solver, note.Constraint, pending.Manifold.Count)
             .WriteNew(ref old, pending.Manifold, pending.Material, pending.FrictionCenter, ref manifold.Features);
     }
 

@@ -45,7 +45,7 @@ public class ManyChangesTests
         return hashes;
     }
 
-    /// <summary>Where more is new than there is, one thread leaves what constraints hold until all are in place, too; some of what there is changes beside.</summary>
+    /// <summary>Where more is new than there is, one thread leaves what constraints hold for later, too; some of what there is changes beside.</summary>
     [Fact]
     public void More_new_contacts_than_there_are_do_not_depend_on_threads()
     {
