@@ -32,6 +32,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(QuickList<ContactPatch>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
+        Precompilation.Compile(typeof(RadixSort<NoteKey, ByKey>));
         OverlapFinder.Compile<Overlaps>();
         var expands = false;
         foreach (var a in shapeTypes)

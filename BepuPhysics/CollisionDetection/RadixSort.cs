@@ -11,22 +11,22 @@ interface ISortKey<T> where T : unmanaged
 
 /// <summary>Sorts many elements by a number, stably: digit by digit, the lowest first, leaving out digits in which all agree.</summary>
 /// <remarks>
-/// Each element is moved once per digit, however many there are: for 100,000 elements a fifth of what comparing takes. For some hundreds it is not worth
+/// Each element is moved once per digit, however many there are: for some thousand elements a fifth of what comparing takes. For some hundreds it is not worth
 /// its tables.
 /// </remarks>
-static unsafe class RadixSort
+static unsafe class RadixSort<T, TKey> where T : unmanaged where TKey : struct, ISortKey<T>
 {
     const int DigitBits = 11;
     const int DigitCount = (64 + DigitBits - 1) / DigitBits;
     const int Base = 1 << DigitBits;
 
-    /// <summary>Below so many elements <see cref="BepuUtilities.Collections.QuickSort"/> is faster.</summary>
+    /// <summary>For fewer elements <see cref="BepuUtilities.Collections.QuickSort"/> does without its tables.</summary>
     internal const int LeastCount = 1024;
 
     /// <summary>Sorts in ascending order of the keys; elements with equal keys stay in their order.</summary>
     /// <param name="elements">The elements.</param>
     /// <param name="pool">Source of memory for the time of the call.</param>
-    internal static void Sort<T, TKey>(Span<T> elements, BufferPool pool) where T : unmanaged where TKey : struct, ISortKey<T>
+    internal static void Sort(Span<T> elements, BufferPool pool)
     {
         pool.Take<T>(Math.Max(1, elements.Length), out var room);
         pool.Take<int>(DigitCount * Base, out var counts);
@@ -34,12 +34,12 @@ static unsafe class RadixSort
         {
             var source = memory;
             var target = room.Memory;
-            var common = CountDigits<T, TKey>(source, elements.Length, counts);
+            var common = CountDigits(source, elements.Length, counts);
             for (int digit = 0; digit < DigitCount; ++digit)
             {
                 if ((common >> digit & 1) != 0)
                     continue;
-                Move<T, TKey>(source, target, elements.Length, digit * DigitBits, counts.Memory + digit * Base);
+                Move(source, target, elements.Length, digit * DigitBits, counts.Memory + digit * Base);
                 var moved = target;
                 target = source;
                 source = moved;
@@ -52,7 +52,7 @@ static unsafe class RadixSort
     }
 
     // How often each value of each digit occurs. One bit per digit is set in the result where it is the same in all keys.
-    static int CountDigits<T, TKey>(T* elements, int count, Buffer<int> counts) where T : unmanaged where TKey : struct, ISortKey<T>
+    static int CountDigits(T* elements, int count, Buffer<int> counts)
     {
         counts.Clear(0, counts.Length);
         ulong all = ulong.MaxValue, any = 0;
@@ -74,7 +74,7 @@ static unsafe class RadixSort
     }
 
     // Counts become places.
-    static void Move<T, TKey>(T* source, T* target, int count, int shift, int* counts) where T : unmanaged where TKey : struct, ISortKey<T>
+    static void Move(T* source, T* target, int count, int shift, int* counts)
     {
         int place = 0;
         for (int i = 0; i < Base; ++i)

@@ -42,7 +42,7 @@ public class RadixSortTests
         }
         var expected = elements.OrderBy(element => element.Key).ToArray();
         var pool = new BufferPool();
-        RadixSort.Sort<Element, ByKey>(elements.AsSpan(), pool);
+        RadixSort<Element, ByKey>.Sort(elements.AsSpan(), pool);
         Assert.Equal(expected.Select(element => (element.Key, element.Place)), elements.Select(element => (element.Key, element.Place)));
         pool.AssertEmpty();
         pool.Clear();
