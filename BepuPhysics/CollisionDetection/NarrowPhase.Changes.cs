@@ -1,10 +1,8 @@
 using System;
-using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
@@ -17,77 +15,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Below so many constraints that move or are new a dispatch costs as much as it saves.
     const int LeastForThreads = 128;
 
-    QuickList<NoteKey> order;
-    QuickList<AddedConstraint> added;
-    // Whether the flush leaves what constraints hold until all are in place, for many threads. To one that is only another pass. What is done is the same.
-    bool sharesChanges;
+    // So many of the notes, from the first on, have their constraint.
+    int appliedCount;
+    // Whether the flush leaves what constraints hold until all are in place. What is done is the same.
+    bool leavesColumns;
     // Whether what a constraint holds is read where a change is noted, which many threads do; otherwise the flush reads it.
     bool readsEarly;
-
-    /// <summary>Something that a worker has noted about a pair, for the flush.</summary>
-    interface INote
-    {
-        CollidablePair Pair { get; }
-    }
-
-    // A manifold whose contacts need a constraint that it does not have, or that has one and no contacts, or that is to have a history.
-    struct PendingManifold(CollidablePair pair, ChildIds children, bool keepsHistory) : INote
-    {
-        public CollidablePair Pair { get; } = pair;
-        public ChildIds Children { get; } = children;
-        public bool KeepsHistory { get; } = keepsHistory;
-        /// <summary>Whether the pair as a whole is to have a history.</summary>
-        public bool KeepsParentHistory;
-        /// <summary>What the constraint holds that the manifold has had so far, in the list of the worker; negative where it has not been read.</summary>
-        public int Old = NotRead;
-        public ConvexContactManifold Manifold;
-        public PairMaterialProperties Material;
-        /// <summary>Place of what the contacts take over from others of their body; negative where there is nothing.</summary>
-        public int Inherited = StaticPairs.Nothing;
-        /// <summary>Where friction acts of a patch on several statics; zero for a patch on one.</summary>
-        public Vector3 FrictionCenter;
-
-        public const int NotRead = -1;
-    }
-
-    // A constraint that was added for a note, and where it is remembered what its contacts are called.
-    struct AddedConstraint
-    {
-        public int Worker;
-        public int Index;
-        public int Old;
-        public ConstraintHandle Constraint;
-        public int PairIndex;
-        public int ChildManifold;
-    }
-
-    // A pair with a coefficient of restitution.
-    struct BouncingPair : INote
-    {
-        public CollidablePair Pair { get; init; }
-        public float Coefficient;
-    }
-
-    // Where a note is, with the key by which all are put in order.
-    struct NoteKey
-    {
-        public ulong Key;
-        public int Worker;
-        public int Index;
-    }
-
-    // By slots alone: whether these were others' before must not change the order. The notes of one pair are one worker's, which has made
-    // them in the order of children.
-    struct ByKey : IComparerRef<NoteKey>
-    {
-        const ulong Ordering = (ulong)CollidableReference.OrderMask << 32 | CollidableReference.OrderMask;
-
-        public readonly int Compare(ref NoteKey a, ref NoteKey b)
-        {
-            var pairs = (a.Key & Ordering).CompareTo(b.Key & Ordering);
-            return pairs != 0 ? pairs : a.Index - b.Index;
-        }
-    }
 
     internal override void Flush(IThreadDispatcher? dispatcher)
     {
@@ -99,7 +32,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
             Release(ref order, Pool);
-            Release(ref added, Pool);
             ReleaseWorkers();
         }
     }
@@ -108,7 +40,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        sharesChanges = IsWorthSharing(dispatcher);
+        var noteCount = CountNotes();
+        leavesColumns = LeavesColumns(dispatcher, noteCount);
+        appliedCount = 0;
+        MakeRoomForNew(noteCount - PairCount);
+        if (leavesColumns && !readsEarly)
+            ReadOld();
         BeginColumns();
         try
         {
@@ -125,10 +62,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 WakeTouched();
                 BeginColumns();
             }
-            for (int i = 0; i < order.Count; ++i)
+            for (; appliedCount < order.Count; ++appliedCount)
             {
-                PrefetchPending(i);
-                Apply(order[i].Worker, order[i].Index);
+                PrefetchPending(appliedCount);
+                Apply(ref order[appliedCount]);
             }
         }
         finally
@@ -138,25 +75,36 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         WatchBouncingPairs();
     }
 
-    bool IsWorthSharing(IThreadDispatcher? dispatcher)
+    // Whether what constraints hold waits: for many threads, or because so many are new that the memory of all doubles, which then need not be copied.
+    bool LeavesColumns(IThreadDispatcher? dispatcher, int noteCount) =>
+        noteCount >= LeastForThreads && (dispatcher is { ThreadCount: > 1 } || noteCount > PairCount);
+
+    int CountNotes()
     {
-        if (dispatcher is null || dispatcher.ThreadCount == 1)
-            return false;
         var count = 0;
         foreach (ref var worker in workers.AsSpan())
             count += worker.Pending.Count + worker.Gone.Count;
-        return count >= LeastForThreads;
+        return count;
+    }
+
+    // Tables that double on their way are copied, and leave what they were behind.
+    void MakeRoomForNew(int count)
+    {
+        if (count <= 0)
+            return;
+        Pairs.EnsureCapacity(Pairs.Pairs.Count + count, Pool);
+        Simulation.Solver.EnsureFreeSlots(count);
     }
 
     void BeginColumns()
     {
-        if (sharesChanges)
+        if (leavesColumns)
             Simulation.Solver.BeginDeferral();
     }
 
     void FinishColumns(IThreadDispatcher? dispatcher)
     {
-        if (!sharesChanges)
+        if (!leavesColumns)
             return;
         Simulation.Solver.PrepareDeferred();
         var work = new WriteWork { NarrowPhase = this };
@@ -180,62 +128,31 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 awakener.Request(pending.Pair.B.Slot);
         }
         if (awakener.WakeRequested())
-            ReadWoken();
+            ReadOld();
     }
 
-    // No worker has read the constraints that slept until now.
-    void ReadWoken()
+    // Where no worker has, as those constraints slept until now.
+    void ReadOld()
     {
-        for (int i = 0; i < order.Count; ++i)
+        if (Pairs.Pairs.Count == 0)
+            return;
+        foreach (ref var worker in workers.AsSpan())
         {
-            ref var worker = ref workers[order[i].Worker];
-            ref var pending = ref worker.Pending[order[i].Index];
-            var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
-            if (index < 0)
-                continue;
-            for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
-            {
-                if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
-                    Read(ref worker, ref pending, manifolds.Current);
-            }
+            foreach (ref var pending in worker.Pending.AsSpan())
+                ReadOld(ref worker, ref pending);
         }
     }
 
-    // Only some steps, and some pairs, need a list; no others pay for it.
-    static void Note<T>(ref QuickList<T> notes, in T note, BufferPool pool, int room = LeastRoom) where T : unmanaged
+    void ReadOld(ref Worker worker, ref PendingManifold pending)
     {
-        if (!notes.Span.Allocated)
-            notes = new QuickList<T>(room, pool);
-        notes.Add(note, pool);
-    }
-
-    const int LeastRoom = 64;
-
-    // Room for the notes of a worker in a step that makes everything anew, as the first does: room that is not used is not touched and costs next to
-    // nothing, lists that double touch twice as much and copy it. Up to some bound, as there are systems that promise memory when it is asked for.
-    static int RoomForNotes(int bodyCount, int workerCount) => Math.Clamp(bodyCount / workerCount, LeastRoom, 1 << 17);
-
-    void Gather<T>(ref QuickList<T> notes, int worker) where T : unmanaged, INote
-    {
-        if (notes.Count > 0)
-            MakeRoom(ref order, order.Count + notes.Count, Pool);
-        for (int i = 0; i < notes.Count; ++i)
-            Note(ref order, new() { Key = Key(notes[i].Pair), Worker = worker, Index = i }, Pool);
-    }
-
-    static void MakeRoom<T>(ref QuickList<T> notes, int count, BufferPool pool) where T : unmanaged
-    {
-        if (!notes.Span.Allocated)
-            notes = new QuickList<T>(Math.Max(LeastRoom, count), pool);
-        notes.EnsureCapacity(count, pool);
-    }
-
-    void SortByKey(int first = 0)
-    {
-        if (order.Count - first < 2)
+        var index = pending.Old == PendingManifold.NotRead && pending.Manifold.Count > 0 ? Pairs.Pairs.IndexOf(pending.Pair) : -1;
+        if (index < 0)
             return;
-        var comparer = new ByKey();
-        QuickSort.Sort(order.AsSpan()[first..], ref comparer);
+        for (var manifolds = Pairs.ManifoldsOf(index); manifolds.MoveNext();)
+        {
+            if (manifolds.Children == pending.Children && manifolds.Current.HasConstraint)
+                Read(ref worker, ref pending, manifolds.Current);
+        }
     }
 
     /// <summary>Asks the processor to load what pairs need that are soon to be applied: they are in the order of their handles.</summary>
@@ -292,9 +209,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // The structure alone: which constraints there are, and where. What they hold is written when all are there.
-    void Apply(int workerIndex, int noteIndex)
+    void Apply(ref NoteKey note)
     {
-        ref var pending = ref workers[workerIndex].Pending[noteIndex];
+        ref var worker = ref workers[note.Worker];
+        ref var pending = ref worker.Pending[note.Index];
         var ofChildren = pending.Children != ChildIds.None;
         var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
         ref var cached = ref Pairs.Pairs.Values[index];
@@ -305,11 +223,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Pairs.Empty(ref cached, ofChildren, Pool);
         }
         ref var manifold = ref cached.Single;
-        var childManifold = PairRecords<ChildManifold>.None;
+        var place = index;
         if (ofChildren)
         {
-            childManifold = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
-            ref var record = ref Pairs.Manifolds.Memory[childManifold];
+            place = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
+            ref var record = ref Pairs.Manifolds.Memory[place];
             manifold = ref record.Manifold;
             if (pending.Children.IsPatch)
                 record.Patch.Write(pending.Manifold);
@@ -324,28 +242,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             if (pending.Old == PendingManifold.NotRead && contactCount > 0 && pending.Inherited == StaticPairs.Nothing)
             {
-                Check.That(!sharesChanges);
-                Read(ref workers[workerIndex], ref pending, manifold);
+                Check.That(!leavesColumns);
+                Read(ref worker, ref pending, manifold);
             }
             old = pending.Old;
             RemoveConstraint(ref cached, ref manifold);
         }
+        note.SetNothing();
         if (contactCount == 0)
             return;
         AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        var constraint = new AddedConstraint
-        {
-            Worker = workerIndex,
-            Index = noteIndex,
-            Old = old,
-            Constraint = manifold.Constraint,
-            PairIndex = index,
-            ChildManifold = childManifold,
-        };
-        if (sharesChanges)
-            Note(ref added, constraint, Pool, order.Count);
-        else
-            WriteAdded(constraint);
+        pending.Old = old;
+        note.SetConstraint(manifold.Constraint, place);
+        if (!leavesColumns)
+            WriteAdded(note);
     }
 
     // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
@@ -357,7 +267,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
         public readonly int StageCount => 2;
         public readonly int GetBlockCount(int stage) =>
-            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.added.Count + PerBlock - 1) / PerBlock;
+            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.appliedCount + PerBlock - 1) / PerBlock;
 
         public readonly void Execute(int stage, int block, int workerIndex)
         {
@@ -367,26 +277,26 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 NarrowPhase.Simulation.Solver.DoDeferred(block);
                 return;
             }
-            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.added.Count);
+            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.appliedCount);
             for (int i = block * PerBlock; i < end; ++i)
-                NarrowPhase.WriteAdded(NarrowPhase.added[i]);
+                NarrowPhase.WriteAdded(NarrowPhase.order[i]);
         }
     }
 
-    void WriteAdded(in AddedConstraint constraint)
+    void WriteAdded(in NoteKey note)
     {
-        ref var worker = ref workers[constraint.Worker];
-        ref var pending = ref worker.Pending[constraint.Index];
+        if (!note.HasConstraint)
+            return;
+        ref var worker = ref workers[note.Worker];
+        ref var pending = ref worker.Pending[note.Index];
         ContactPatch none = default;
         ref var old = ref none;
         if (pending.Inherited != StaticPairs.Nothing)
             old = ref worker.Statics.Inheritances[pending.Inherited].Load;
-        else if (constraint.Old != PendingManifold.NotRead)
-            old = ref worker.Old[constraint.Old];
-        ref var manifold = ref Pairs.Pairs.Values[constraint.PairIndex].Single;
-        if (constraint.ChildManifold != PairRecords<ChildManifold>.None)
-            manifold = ref Pairs.Manifolds.Memory[constraint.ChildManifold].Manifold;
-        new ContactConstraint(Simulation.Solver, constraint.Constraint, pending.Manifold.Count)
+        else if (pending.Old != PendingManifold.NotRead)
+            old = ref worker.Old[pending.Old];
+        ref var manifold = ref pending.Children == ChildIds.None ? ref Pairs.Pairs.Values[note.Place].Single : ref Pairs.Manifolds.Memory[note.Place].Manifold;
+        new ContactConstraint(Simulation.Solver, note.Constraint, pending.Manifold.Count)
             .WriteNew(ref old, pending.Manifold, pending.Material, pending.FrictionCenter, ref manifold.Features);
     }
 
@@ -411,11 +321,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             }
         }
     }
-
-    static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
-
-    static CollidablePair PairOf(ulong key) =>
-        new(new CollidableReference { Packed = (uint)(key >> 32) }, new CollidableReference { Packed = (uint)key });
 
     static int ConstraintType(in CollidablePair pair, int contactCount) =>
         ConstraintTypeIds.ConvexContact(contactCount, pair.B.Mobility == CollidableMobility.Static ? 1 : 2);

@@ -30,9 +30,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         StagedWork.Compile<SeamWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<ContactPatch>));
-        Precompilation.Compile(typeof(QuickList<AddedConstraint>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
+        Precompilation.Compile(typeof(RadixSort<NoteKey, ByKey>));
         OverlapFinder.Compile<Overlaps>();
         var expands = false;
         foreach (var a in shapeTypes)

@@ -11,4 +11,6 @@ struct PendingColumns
     public bool HasNewBundle;
     /// <summary>Whether the type batch is in the list of those in which something is left to be done.</summary>
     public bool IsListed;
+    /// <summary>Of a listed type batch, how many of its bundles held something before: what has been added since is not written yet.</summary>
+    public int WrittenBundleCount;
 }

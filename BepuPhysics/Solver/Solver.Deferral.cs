@@ -1,5 +1,6 @@
 using System.Numerics;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
@@ -79,10 +80,12 @@ public sealed unsafe partial class Solver
             deferredBatches.Dispose(pool);
     }
 
-    void Defer(int batch, ref TypeBatch typeBatch)
+    // The count is that of constraints before the first change that is deferred.
+    void Defer(int batch, ref TypeBatch typeBatch, int constraintCount)
     {
         if (typeBatch.Pending.IsListed)
             return;
+        typeBatch.Pending.WrittenBundleCount = BundleIndexing.GetBundleCount(constraintCount);
         if (!deferredBatches.Span.Allocated)
             deferredBatches = new QuickList<TypeBatchName>(64, pool);
         deferredBatches.Add(new(batch, typeBatch.TypeId), pool);
@@ -91,7 +94,7 @@ public sealed unsafe partial class Solver
 
     void DeferMove(int batch, ref TypeBatch typeBatch, int from, int to)
     {
-        Defer(batch, ref typeBatch);
+        Defer(batch, ref typeBatch, typeBatch.ConstraintCount + 1);
         if (!columnMoves.Span.Allocated)
             columnMoves = new QuickList<ColumnMove>(64, pool);
         columnMoves.Add(new() { From = from, To = to }, pool);
@@ -107,7 +110,7 @@ public sealed unsafe partial class Solver
     {
         if (index % Vector<float>.Count != 0)
             return;
-        Defer(batch, ref typeBatch);
+        Defer(batch, ref typeBatch, index);
         typeBatch.Pending.HasNewBundle = true;
     }
 }

@@ -219,6 +219,13 @@ public sealed unsafe partial class Solver
         throw owners.Missing(handle, handle.Value, handle.Slot);
     }
 
+    /// <summary>Makes room for the handles of so many more constraints, as far as there may be so many.</summary>
+    internal void EnsureFreeSlots(int count)
+    {
+        var needed = (long)HandlePool.HighestPossiblyClaimedId + 1 - HandlePool.AvailableIdCount + count;
+        EnsureSlots((int)Math.Min(needed, MaximumCount));
+    }
+
     void EnsureSlots(int count)
     {
         owners.EnsureSlots(count, new ConstraintLocation { SetIndex = -1 }, ref Locations, ref HandlePool, pool);

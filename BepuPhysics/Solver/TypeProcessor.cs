@@ -177,9 +177,14 @@ public abstract partial class TypeProcessor
 
     internal void Resize(ref TypeBatch batch, int capacity, BufferPool pool)
     {
-        // Whole bundles are addressed, so all columns hold whole bundles.
-        var resize = new ResizeBundles(BundleIndexing.GetBundleCount(capacity), batch.BundleCount, pool);
-        VisitColumns(ref batch, ref resize);
+        // Whole bundles are addressed, so all columns hold whole bundles. What is not written yet is not copied, nor touched: a type batch that doubles
+        // many times in a flush costs one of its sizes.
+        var bundles = BundleIndexing.GetBundleCount(capacity);
+        var written = batch.Pending.IsListed ? Math.Min(batch.Pending.WrittenBundleCount, batch.BundleCount) : batch.BundleCount;
+        var resizeContents = new ResizeBundles(bundles, written, pool);
+        VisitContents(ref batch, ref resizeContents);
+        var resizeNames = new ResizeBundles(bundles, batch.BundleCount, pool);
+        VisitNames(ref batch, ref resizeNames);
     }
 
     internal static int ColumnStart(int floats, int index) =>

@@ -208,10 +208,10 @@ public class SupportGraphTests
         // What a step does to nodes.
         for (int i = 0; i < graph.Nodes.Count; ++i)
         {
-            Assert.False(graph.Nodes[i].HasLoad || graph.Nodes[i].IsActive || graph.Nodes[i].NeedsWork || graph.Nodes[i].HasSupports);
+            Assert.False(graph.Nodes[i].HasLoad || graph.Nodes[i].IsActive || graph.Nodes[i].NeedsWork);
             Assert.Equal(default, graph.Nodes[i].Linear + graph.Nodes[i].Angular);
             ref var node = ref graph.Nodes[i];
-            node.HasLoad = node.IsActive = node.NeedsWork = node.HasSupports = true;
+            node.HasLoad = node.IsActive = node.NeedsWork = true;
             node.Radius += 1;
             node.Linear = node.Angular = new(1, 2, 3);
         }

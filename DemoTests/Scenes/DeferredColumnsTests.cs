@@ -11,7 +11,7 @@ namespace DemoTests.Scenes;
 /// <summary>Constraints that come and go while what they hold is deferred end up as if each had come and gone at once.</summary>
 public class DeferredColumnsTests
 {
-    const int BodyCount = 40;
+    const int BodyCount = 120;
 
     [Theory]
     [InlineData(1)]
@@ -33,7 +33,8 @@ public class DeferredColumnsTests
     /// <summary>Two types of constraints, each with a number that no other has in all that it holds.</summary>
     sealed class World : IDisposable
     {
-        readonly TestWorld world = new(new() { Contacts = Demos.Accuracy.ContactScope.None });
+        // Type batches grow from nothing, also in the midst of it.
+        readonly TestWorld world = new(new() { Contacts = Demos.Accuracy.ContactScope.None }, sizes: new(64, 64, 64, 64, 64, 1, 4));
         readonly List<BodyHandle> bodies = [];
         readonly List<(ConstraintHandle Handle, float Number)> constraints = [];
         readonly int seed;
@@ -63,9 +64,9 @@ public class DeferredColumnsTests
             int removals = round % 7 == 6 ? constraints.Count : random.Next(constraints.Count + 1);
             for (int i = 0; i < removals; ++i)
                 Remove(random.Next(constraints.Count), added);
-            for (int i = random.Next(60); i > 0; --i)
+            for (int i = random.Next(180); i > 0; --i)
             {
-                Add(random, added, round * 100 + i, isDeferred);
+                Add(random, added, round * 200 + i, isDeferred);
                 // Also one that nobody has written yet.
                 if (constraints.Count > 0 && random.Next(3) == 0)
                     Remove(random.Next(constraints.Count), added);

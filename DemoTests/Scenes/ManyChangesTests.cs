@@ -45,6 +45,41 @@ public class ManyChangesTests
         return hashes;
     }
 
+    /// <summary>Where more is new than there is, one thread leaves what constraints hold for later, too; some of what there is changes beside.</summary>
+    [Fact]
+    public void More_new_contacts_than_there_are_do_not_depend_on_threads()
+    {
+        var expected = RunCrowdThatComes(1);
+        foreach (int threads in threadCounts)
+            Assert.Equal(expected, RunCrowdThatComes(threads));
+    }
+
+    static List<ulong> RunCrowdThatComes(int threads)
+    {
+        const int few = 40, many = 400;
+        using var world = new TestWorld(threads: threads);
+        world.AddStatic(new Box(100, 1, 100), new RigidPose(new Vector3(0, -.5f, 0)));
+        var box = new Box(1, 1, 1);
+        for (int i = 0; i < few; ++i)
+            world.AddDynamic(box, 1 + i, new RigidPose(new Vector3(2 * (i % 20), .5f, -3 * (i / 20))));
+        var hashes = world.HashSteps(5);
+        Assert.Equal(few, world.Simulation.NarrowPhase.PairCount);
+        // Tipped on an edge, which has two contacts, with what the four have carried; every fifth is lifted off.
+        for (int i = 0; i < few; ++i)
+        {
+            var body = world.Bodies[new BodyHandle(i)];
+            body.Pose.Orientation = Quaternion.CreateFromAxisAngle(Vector3.UnitX, .3f);
+            body.Pose.Position.Y = i % 5 == 0 ? 3 : .62f;
+        }
+        for (int i = 0; i < many; ++i)
+            world.AddDynamic(box, 1, new RigidPose(new Vector3(2 * (i % 20), .5f, 3 + 2 * (i / 20))));
+        hashes.AddRange(world.HashSteps(5));
+        // Both kinds of changes came in one step, or the test says nothing.
+        Assert.Equal(few - few / 5 + many, world.Simulation.NarrowPhase.PairCount);
+        world.Simulation.Validate();
+        return hashes;
+    }
+
     [Fact]
     public void A_plate_on_hundreds_of_pebbles_does_not_depend_on_threads()
     {

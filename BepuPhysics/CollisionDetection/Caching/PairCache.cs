@@ -81,16 +81,27 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         return index >= 0 ? index : Add(pair, new CachedPair(ofChildren), pool);
     }
 
+    /// <summary>Makes room for a number of pairs.</summary>
+    public void EnsureCapacity(int count, BufferPool pool)
+    {
+        Pairs.EnsureCapacity(count, pool);
+        if (count > seen.Length)
+            GrowSeen(count, pool);
+    }
+
+    void GrowSeen(int count, BufferPool pool)
+    {
+        var previous = seen.Length;
+        pool.ResizeToAtLeast(ref seen, count, previous);
+        seen.Clear(previous, seen.Length - previous);
+    }
+
     int Add(in CollidablePair pair, in CachedPair value, BufferPool pool)
     {
         var index = Pairs.Count;
         Pairs.Add(pair, value, pool);
         if (Pairs.Count > seen.Length)
-        {
-            var previous = seen.Length;
-            pool.ResizeToAtLeast(ref seen, Pairs.Count * 2, previous);
-            seen.Clear(previous, seen.Length - previous);
-        }
+            GrowSeen(Pairs.Count * 2, pool);
         seen[index] = 1;
         return index;
     }

@@ -151,7 +151,9 @@ struct AgreedPairs
         }
         body.Count = count - body.First;
         ref var entry = ref entries[body.Body.Slot];
-        body.Lifetime = body.Remaining = (short)Math.Max(entry.Lifetime, AgreedBody.FirstLifetime);
+        body.Lifetime = (short)Math.Max(entry.Lifetime, AgreedBody.FirstLifetime);
+        // Bodies that came to rest together would all agree anew together, again and again.
+        body.Remaining = (short)(body.Lifetime - body.Body.Slot % (body.Lifetime / 2));
         entry.Index = bodies.Count;
         if (!bodies.Span.Allocated)
             bodies = new(LeastRoom, pool);

@@ -19,8 +19,6 @@ struct LoadNode
     public bool IsActive;
     /// <summary>Of the first body of an island: whether the island is to be worked on in this substep.</summary>
     public bool NeedsWork;
-    /// <summary>Of the first body of an island: whether its supports have been read in this step.</summary>
-    public bool HasSupports;
     /// <summary>What the transfer has changed of its momentum, N s.</summary>
     public Vector3 Linear;
     /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>

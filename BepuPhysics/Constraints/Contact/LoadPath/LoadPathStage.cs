@@ -35,8 +35,10 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     int blockCount;
     // What each block has found in its room.
     readonly (int Start, int Count)[] pieces = new (int, int)[MaximumBlocks];
-    // What carries the nodes, read when a node's island is worked on for the first time in a step.
+    // What carries the nodes of the island that a block is working on. Only one at a time: in the first step of a scene each island has something to
+    // hand down, and all of their supports would be more memory than the contacts themselves.
     Buffer<LoadSupport> supports;
+    readonly Room[] rooms = new Room[MaximumBlocks];
     // Whether contacts may be held.
     bool hasBegun;
 
@@ -99,7 +101,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                    Transfer(island);
+                    Transfer(island, ref rooms[block]);
                 break;
         }
     }
@@ -158,7 +160,37 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         }
         ref var set = ref bodies.Awake;
         graph.Build(found.Memory, used, set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
-        pool.TakeAtLeast(Math.Max(1, graph.Links.Count), out supports);
+        MakeRooms();
+    }
+
+    // Where a block reads the supports of its islands, one after the other.
+    struct Room
+    {
+        public int Start;
+        // The island whose supports are there; negative for none.
+        public int Island;
+    }
+
+    void MakeRooms()
+    {
+        int count = 0;
+        for (int block = 0; block < blockCount; ++block)
+        {
+            int largest = 0;
+            for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
+                largest = Math.Max(largest, EndOfSupports(island) - FirstSupport(island));
+            rooms[block] = new() { Start = count, Island = -1 };
+            count += largest;
+        }
+        pool.TakeAtLeast(Math.Max(1, count), out supports);
+    }
+
+    int FirstSupport(int island) => graph.Nodes[graph.Islands[island]].FirstSupport;
+
+    int EndOfSupports(int island)
+    {
+        ref var last = ref graph.Nodes[graph.Islands[island + 1] - 1];
+        return last.FirstSupport + last.SupportCount;
     }
 
     void Fill(int block, float dt)
@@ -196,7 +228,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         node.Tolerance = new RestTolerance(ratio, dt).Of(gain, node.Radius);
     }
 
-    void Transfer(int island)
+    void Transfer(int island, ref Room room)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
@@ -205,14 +237,15 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         first.NeedsWork = false;
         if (!first.IsActive)
             return;
-        ReadSupports(start, end);
+        var firstSupport = first.FirstSupport;
+        var supports = ReadSupports(island, ref room);
         for (int i = end - 1; i >= start; --i)
         {
             ref var node = ref graph.Nodes[i];
             if (node.HasLoad)
-                HandDown(ref node);
+                HandDown(ref node, SupportsOf(node, supports, firstSupport));
         }
-        Apply(start, end);
+        Apply(start, end, supports);
     }
 
     // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
@@ -252,25 +285,26 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         return needsWork;
     }
 
-    void ReadSupports(int start, int end)
+    Span<LoadSupport> ReadSupports(int island, ref Room room)
     {
-        ref var first = ref graph.Nodes[start];
-        if (first.HasSupports)
-            return;
-        first.HasSupports = true;
-        ref var last = ref graph.Nodes[end - 1];
-        for (int i = first.FirstSupport; i < last.FirstSupport + last.SupportCount; ++i)
-            supports[i] = new LoadSupport(graph.Links[i]);
+        var first = FirstSupport(island);
+        var read = new Span<LoadSupport>(supports.Memory + room.Start, EndOfSupports(island) - first);
+        if (room.Island == island)
+            return read;
+        room.Island = island;
+        for (int i = 0; i < read.Length; ++i)
+            read[i] = new LoadSupport(graph.Links[first + i]);
+        return read;
     }
 
-    Span<LoadSupport> SupportsOf(in LoadNode node) => new(supports.Memory + node.FirstSupport, node.SupportCount);
+    static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>
+        ofIsland.Slice(node.FirstSupport - firstOfIsland, node.SupportCount);
 
-    void HandDown(ref LoadNode node)
+    void HandDown(ref LoadNode node, Span<LoadSupport> supports)
     {
         ref var set = ref bodies.Awake;
         ref var velocity = ref set.MotionStates[node.Body].Velocity;
         ref var inertia = ref set.WorldInertias[node.Body];
-        var supports = SupportsOf(node);
         foreach (ref var support in supports)
             support.Read();
         LoadTransfer.Find(supports, velocity.Linear * (1 / inertia.InverseMass) + node.Linear,
@@ -291,7 +325,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
 
     // As far as it lowers the kinetic energy of the island, and no farther than all of it. Both ends obey what bounds the impulses, and these
     // bounds are convex: so does all between.
-    void Apply(int start, int end)
+    void Apply(int start, int end, Span<LoadSupport> supports)
     {
         ref var set = ref bodies.Awake;
         float slope = 0, curvature = 0;
@@ -310,6 +344,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         if (!(part > 0))
             return;
         part = MathHelper.Min(part, 1);
+        var firstSupport = graph.Nodes[start].FirstSupport;
         for (int i = start; i < end; ++i)
         {
             ref var node = ref graph.Nodes[i];
@@ -319,7 +354,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             ref var inertia = ref set.WorldInertias[node.Body];
             velocity.Linear += node.Linear * (inertia.InverseMass * part);
             velocity.Angular += inertia.InverseInertiaTensor * (node.Angular * part);
-            foreach (ref var support in SupportsOf(node))
+            foreach (ref var support in SupportsOf(node, supports, firstSupport))
                 support.Write(part);
         }
     }
