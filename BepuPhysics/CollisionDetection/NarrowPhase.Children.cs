@@ -2,6 +2,8 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -103,6 +105,28 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
+    /// <summary>Finds what the last step has done to a pair: how deep its patches came to be, and how its bodies moved.</summary>
+    void RecallMotion(int workerIndex, int pairId, out LastMotion motion)
+    {
+        motion = default;
+        var patch = 0;
+        for (int i = FirstManifold(workers[workerIndex].TestedPairs[pairId]); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
+        {
+            if (!Pairs.Manifolds.Memory[i].Children.IsPatch)
+                return;
+            ref var manifold = ref Pairs.Manifolds.Memory[i].Manifold;
+            if (manifold.HasConstraint)
+            {
+                var count = ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId);
+                var rows = new ContactRows(Simulation.Solver, Simulation.Bodies, manifold.Constraint, count);
+                (motion.OfA, motion.OfB) = (rows.MotionOfA, rows.MotionOfB);
+                for (int j = 0; j < count; ++j)
+                    motion.NoteDepth(patch, -rows.Gap(j, rows.NormalRow(j)));
+            }
+            ++patch;
+        }
+    }
+
     bool AllowsChildren(int workerIndex, int pairId, int childA, int childB) =>
         Callbacks.AllowContactGeneration(workerIndex, workers[workerIndex].TestedPairs[pairId].Pair, childA, childB);
 
@@ -123,6 +147,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         }
         tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry;
+        tested.HitsThin = worker.Batcher.HitsThin;
         if (HasParentHistory(tested))
             Record(tested, worker.Batcher.Dt, offsetB, results);
         CompleteChildren(workerIndex, tested, offsetB, results);
@@ -134,7 +159,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var waits = Waits(tested);
         if (waits)
             worker.Statics.Show(results);
-        var isTouching = Configure(workerIndex, tested.Pair, offsetB, results, out var material);
+        var isTouching = Configure(workerIndex, tested, offsetB, results, out var material);
         if (!isTouching)
         {
             foreach (ref var result in results)
@@ -226,27 +251,27 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     /// <summary>Asks the callbacks about a pair as a whole.</summary>
     /// <returns>Whether its contacts push.</returns>
-    bool Configure(int workerIndex, in CollidablePair pair, Vector3 offsetB, Span<ChildResult> results, out PairMaterialProperties material)
+    bool Configure(int workerIndex, in TestedPair tested, Vector3 offsetB, Span<ChildResult> results, out PairMaterialProperties material)
     {
         var view = new ContactView(results, offsetB);
         if (view.IsConvex)
         {
-            if (!Callbacks.ConfigureContactManifold(workerIndex, pair, ref view.Convex, out material) || view.Convex.Count == 0)
+            if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Convex, out material) || view.Convex.Count == 0)
                 return false;
-            NoteSurface(workerIndex, pair, ref view.Convex);
+            NoteSurface(workerIndex, tested.Pair, ref view.Convex, tested.HitsThin);
         }
         else
         {
-            if (!Callbacks.ConfigureContactManifold(workerIndex, pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
+            if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
                 return false;
-            CallbackChecks.Count(pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
-            NoteSurface(workerIndex, pair, ref view.Nonconvex);
+            CallbackChecks.Count(tested.Pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
+            NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.HitsThin);
             view.TakeOver();
         }
         foreach (ref var result in results)
         {
             if (result.Manifold.Count != 0)
-                CallbackChecks.Contacts(pair, result.Manifold, material);
+                CallbackChecks.Contacts(tested.Pair, result.Manifold, material);
         }
         return true;
     }

@@ -77,6 +77,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             self.NarrowPhase.RecallPatches(self.WorkerIndex, pairId, out known);
         }
 
+        static void ICollisionCallbacks.RecallMotion<T>(ref T callbacks, int pairId, out LastMotion motion)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            self.NarrowPhase.RecallMotion(self.WorkerIndex, pairId, out motion);
+        }
+
         static void ICollisionCallbacks.OnChildrenCompleted<T>(ref T callbacks, int pairId, Vector3 offsetB, Span<ChildResult> results)
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
@@ -141,7 +147,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             AgreedPairs.Prefetch(a);
         if (task.Expands)
         {
-            tested.MayCarry = tested.IsCarried = false;
+            tested.MayCarry = tested.IsCarried = tested.HitsThin = false;
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
             if (!TCallbacks.DecidesOnChildren && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
                 return;
@@ -281,11 +287,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold)
+    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold, bool hitsThin = false)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
-        if (surface.Restitution == 0)
+        if (surface.Restitution == 0 && !hitsThin)
             return;
         CallbackChecks.Restitution(pair, surface.Restitution);
         ref var worker = ref workers[workerIndex];

@@ -258,7 +258,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 {
                     ref var manifold = ref ResultOf(i, j).Manifold;
                     if (manifold.Count > 0)
-                        agreement.AddFixed(manifold.Normal, DeepestOf(manifold), number, pair.Group, pool);
+                        agreement.AddFixed(manifold.Normal, manifold.GreatestDepth, number, pair.Group, pool);
                 }
             }
             else if (pair.IsOfChildren)
@@ -331,14 +331,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             }
         }
         return remembered;
-    }
-
-    static float DeepestOf(in ConvexContactManifold manifold)
-    {
-        var depth = manifold.Contact0.Depth;
-        for (int i = 1; i < manifold.Count; ++i)
-            depth = MathHelper.Max(depth, Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i).Depth);
-        return depth;
     }
 
     // Statics and what rests are the first; what turns is alone.

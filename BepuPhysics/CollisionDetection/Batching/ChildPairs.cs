@@ -58,6 +58,8 @@ unsafe struct ChildPairs(BufferPool pool)
     /// a contact that is carried along goes up behind it and pushes it on. Only where a round child lies with an end flat, it has three or more.
     /// </summary>
     public bool MayCarry;
+    /// <summary>Whether what the parent that was completed last hits is so thin that it must not give way.</summary>
+    public bool HitsThin;
     WaitingList<WaitingChild> waiting = new(InitialCapacity, pool);
     WaitingList<OpenParent> parents = new(InitialCapacity, pool);
 
@@ -163,6 +165,14 @@ unsafe struct ChildPairs(BufferPool pool)
         return Seams.Sets.Count == SeamMemory.SetCapacity;
     }
 
+    /// <summary>Whether a parent may have children that it was pressed through.</summary>
+    public readonly bool MayHaveSunk(in SeamSet set, in KnownPatches known) =>
+        set.Count < parents[set.Owner].SlotCount && SunkChildren.MayHave(set, Seams.TouchingOf(set), known);
+
+    /// <summary>Keeps a parent in front of these.</summary>
+    public void HoldSunk(ref SeamSet set, in KnownPatches known, in LastMotion motion, BufferPool pool) =>
+        SunkChildren.Hold(ref Seams, ref set, parents[set.Owner].SlotCount, known, motion, pool);
+
     /// <summary>Makes patches of what was found for the children of a parent, which have agreed.</summary>
     /// <param name="set">The parent's set.</param>
     /// <param name="known">Patches of the last step.</param>
@@ -172,7 +182,7 @@ unsafe struct ChildPairs(BufferPool pool)
     {
         ref var open = ref parents[set.Owner];
         Kept.Count = 0;
-        MayCarry = false;
+        MayCarry = HitsThin = false;
         if (set.Count == 0)
             return 0;
         var results = Results(set.Owner, 0);
@@ -181,7 +191,11 @@ unsafe struct ChildPairs(BufferPool pool)
         if (known.KeepsChildren)
             Keep(results, placed, pool);
         MayCarry = open.HasRound || AreAllCarried(results, placed);
-        return PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+        var count = PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+        var patches = Results(set.Owner, count)[..count];
+        if (count > 0 && ThinImpacts.MayHave(patches[0].Manifold, open.Motion, open.Dt))
+            HitsThin = ThinImpacts.Has(patches, open.Motion, open.Dt, placed, Seams.Ranked.AsSpan());
+        return count;
     }
 
     readonly bool AreAllCarried(Span<ChildResult> results, Span<PlacedChildren> placed)

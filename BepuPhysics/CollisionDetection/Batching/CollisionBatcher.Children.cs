@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -14,6 +15,9 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
 
     /// <summary>Whether the patches of the pair that is being completed may be carried along while it hardly moves.</summary>
     internal readonly bool MayCarry => Children->MayCarry;
+
+    /// <summary>Whether what the pair that is being completed hits is so thin that it must not give way.</summary>
+    internal readonly bool HitsThin => Children->HitsThin;
 
     /// <summary>Adds a pair of shapes that exist to a task that expands it, with a pose that is known to be sound.</summary>
     internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
@@ -140,7 +144,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         if (!Children->Joins(parent))
         {
             Children->Kept.Count = 0;
-            Children->MayCarry = false;
+            Children->MayCarry = Children->HitsThin = false;
             Complete(parent, 0);
         }
         else if (Children->WaitToJoin(parent, Pool))
@@ -157,9 +161,18 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         foreach (ref var set in sets)
         {
             TCallbacks.RecallPatches(ref Callbacks, Children->PairId(set.Owner), out var known);
+            if (known.Count > 0 && Children->MayHaveSunk(set, known))
+                HoldSunk(ref set, known);
             Complete(set.Owner, Children->BuildPatches(set, known, Pool));
         }
         seams.Begin();
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void HoldSunk(ref SeamSet set, in KnownPatches known)
+    {
+        TCallbacks.RecallMotion(ref Callbacks, Children->PairId(set.Owner), out var motion);
+        Children->HoldSunk(ref set, known, motion, Pool);
     }
 
     void Complete(int parent, int patchCount)

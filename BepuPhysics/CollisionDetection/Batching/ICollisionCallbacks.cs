@@ -55,6 +55,10 @@ public interface ICollisionCallbacks
     internal static virtual void RecallPatches<TCallbacks>(ref TCallbacks callbacks, int pairId, out KnownPatches known)
         where TCallbacks : struct, ICollisionCallbacks => known = default;
 
+    /// <summary>Says how deep the contacts of these patches came to be in the last step, and how the shapes moved in it.</summary>
+    internal static virtual void RecallMotion<TCallbacks>(ref TCallbacks callbacks, int pairId, out LastMotion motion)
+        where TCallbacks : struct, ICollisionCallbacks => motion = default;
+
     /// <summary>All children of a pair are complete.</summary>
     /// <param name="callbacks">The callbacks.</param>
     /// <param name="pairId">Id that the pair was added with.</param>

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 using BepuUtilities.Diagnostics;
 
 namespace BepuPhysics.CollisionDetection;
@@ -54,6 +55,18 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
 
     /// <inheritdoc/>
     public readonly float GetDepth(int index) => Read(index).Depth;
+
+    /// <summary>Depth of the deepest contact, m; of no contacts there is none, and it means nothing.</summary>
+    internal readonly float GreatestDepth
+    {
+        get
+        {
+            var depth = Contact0.Depth;
+            for (int i = 1; i < Count; ++i)
+                depth = MathHelper.Max(depth, Read(i).Depth);
+            return depth;
+        }
+    }
 
     /// <inheritdoc/>
     public readonly Vector3 GetNormal(int index) => Normal;

@@ -43,7 +43,7 @@ struct AgreedPair
     {
         OffsetB = manifold.OffsetB;
         Normal = manifold.Normal;
-        Depth = DeepestOf(manifold);
+        Depth = manifold.GreatestDepth;
         Count = (byte)manifold.Count;
         for (int i = 0; i < manifold.Count; ++i)
             Features[i] = manifold.GetFeatureId(i);
@@ -89,15 +89,7 @@ struct AgreedPair
         return Exact.DistanceSquared(manifold.OffsetB, OffsetB) <= Tolerance * Tolerance * body.Reach * body.Reach &&
             Exact.DistanceSquared(manifold.Normal, Normal) <= Tolerance * Tolerance &&
             turn.X * turn.X + turn.Y * turn.Y + turn.Z * turn.Z + turn.W * turn.W <= Tolerance * Tolerance / 4 &&
-            System.MathF.Abs(DeepestOf(manifold) - Depth) <= DepthShare * Tolerance * body.Reach;
-    }
-
-    static float DeepestOf(in ConvexContactManifold manifold)
-    {
-        var depth = manifold.Contact0.Depth;
-        for (int i = 1; i < manifold.Count; ++i)
-            depth = MathHelper.Max(depth, manifold.GetDepth(i));
-        return depth;
+            System.MathF.Abs(manifold.GreatestDepth - Depth) <= DepthShare * Tolerance * body.Reach;
     }
 
     /// <summary>Leaves what was left.</summary>

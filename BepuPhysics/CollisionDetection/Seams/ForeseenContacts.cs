@@ -135,7 +135,7 @@ static class ForeseenContacts
         if (foresight.TestCount > 0)
         {
             var approach = -Exact.Dot(foresight.Way, foresight.Manifold.Normal);
-            var gap = -DepthOf(foresight.Manifold);
+            var gap = -foresight.Manifold.GreatestDepth;
             var touches = gap <= placed.InnerRadius() * Touches;
             if (foresight.Manifold.Count == 0 || (approach <= 0 && !touches))
             {
@@ -180,15 +180,7 @@ static class ForeseenContacts
         for (int i = 0; i < result.Manifold.Count; ++i)
             ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i).Depth += moved;
         result.MoveToParent(offsetB);
-        child.Depth = DepthOf(result.Manifold);
+        child.Depth = result.Manifold.GreatestDepth;
         child.IsTurned = true;
-    }
-
-    static float DepthOf(in ConvexContactManifold manifold)
-    {
-        var depth = manifold.Contact0.Depth;
-        for (int i = 1; i < manifold.Count; ++i)
-            depth = MathHelper.Max(depth, Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i).Depth);
-        return depth;
     }
 }

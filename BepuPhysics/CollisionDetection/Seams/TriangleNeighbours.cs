@@ -133,8 +133,8 @@ static class TriangleNeighbours
         ? new(placed.ShapeA.Read<Triangle>(), placed.OrientationA, placed.ConeA, isA)
         : new(placed.ShapeB.Read<Triangle>(), placed.OrientationB, placed.ConeB, isA);
 
-    // A vector along the normal of a triangle, by the operations that its surface finds it by.
-    static Vector3 FaceVector(in PlacedChildren placed, bool isA)
+    /// <summary>A vector along the normal of a triangle, by the operations that its surface finds it by.</summary>
+    public static Vector3 FaceVector(in PlacedChildren placed, bool isA)
     {
         var triangle = isA ? placed.ShapeA.Read<Triangle>() : placed.ShapeB.Read<Triangle>();
         var orientation = isA ? placed.OrientationA : placed.OrientationB;

@@ -86,9 +86,15 @@ unsafe readonly ref struct ContactRows
     /// <summary>The row that keeps the surfaces apart at a contact.</summary>
     internal ContactRow NormalRow(int contact) => Row(Arm(contact), Normal);
 
+    /// <summary>How A moved since the beginning of the step, as a twist.</summary>
+    internal BodyVelocity MotionOfA => set.Displacements[A];
+
+    /// <summary>How B moved since the beginning of the step, as a twist.</summary>
+    internal BodyVelocity MotionOfB => B >= 0 ? set.Displacements[B] : default;
+
     /// <summary>Distance between the surfaces; negative where they overlap.</summary>
     internal float Gap(int contact, in ContactRow normalRow) =>
-        normalRow.Along(set.Displacements[A], B >= 0 ? set.Displacements[B] : default) - Depth(contact);
+        normalRow.Along(MotionOfA, MotionOfB) - Depth(contact);
 
     /// <summary>Changes the velocity of a body.</summary>
     internal void Push(int body, in BodyVelocity change)

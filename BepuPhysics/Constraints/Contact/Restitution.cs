@@ -172,7 +172,9 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             MathF.Abs(row.Along(pair.GainA, pair.GainB)),
             MathHelper.Max(MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal))));
         var moving = MathF.Sqrt(Exact.LengthSquared(contacts.VelocityA.Linear) + Exact.LengthSquared(contacts.VelocityB.Linear));
-        return MathHelper.Max(RestingSteps * solver.LastSubstepCount * gained, RoundingShare * moving);
+        // What does not come back from its impact may make it at any speed but that at which it rests.
+        var substeps = pair.Coefficient > 0 ? RestingSteps * solver.LastSubstepCount : RestingSteps;
+        return MathHelper.Max(substeps * gained, RoundingShare * moving);
     }
 
     static bool IsLoaded(in BouncingPair pair, in ContactRows contacts)
