@@ -32,20 +32,18 @@ static class FreeRotation
     /// <summary>Turns by the angular velocity, which stays as it is.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static QuaternionWide Turn(in QuaternionWide orientation, in Vector3Wide angular, Vector<float> dt) =>
-        Tidy(QuaternionWide.Concatenate(orientation, FromRotationVector<AnyAngles>(WithoutDust(angular, LeastSpeed) * dt)));
+        Tidy(QuaternionWide.Concatenate(orientation, FromRotationVector(WithoutDust(angular, LeastSpeed) * dt)));
 
     /// <summary>Quaternion of a rotation vector; the identity for zero.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static QuaternionWide FromRotationVector<TAngles>(in Vector3Wide rotation) where TAngles : struct, IAngles
+    static QuaternionWide FromRotationVector(in Vector3Wide rotation)
     {
         var half = rotation * new Vector<float>(0.5f);
         var square = half.LengthSquared();
+        var isSmall = Vector.LessThan(square, new Vector<float>(Wide.SinOverAngleLimit));
         Wide.SinOverAngle(square, out var sin, out var cos);
         var v = half * sin;
         QuaternionWide turn = new(v.X, v.Y, v.Z, cos);
-        if (TAngles.AreSmall)
-            return turn;
-        var isSmall = Vector.LessThan(square, new Vector<float>(Wide.SinOverAngleLimit));
         if (Vector.EqualsAll(isSmall, Vector<int>.AllBitsSet))
             return turn;
         // A copy, so that what all others go on with need not have an address.
@@ -66,24 +64,13 @@ static class FreeRotation
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static QuaternionWide Tidy(in QuaternionWide q)
     {
-        var scale = new Vector<float>(1.5f) - q.LengthSquared() * new Vector<float>(0.5f);
-        QuaternionWide unit;
-        unit.X = WithoutDust(q.X * scale, LeastComponent);
-        unit.Y = WithoutDust(q.Y * scale, LeastComponent);
-        unit.Z = WithoutDust(q.Z * scale, LeastComponent);
-        unit.W = WithoutDust(q.W * scale, LeastComponent);
-        return unit;
+        var unit = q * (new Vector<float>(1.5f) - q.LengthSquared() * new Vector<float>(0.5f));
+        var axis = WithoutDust(new Vector3Wide(unit.X, unit.Y, unit.Z), LeastComponent);
+        return new(axis.X, axis.Y, axis.Z, WithoutDust(unit.W, LeastComponent));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide WithoutDust(in Vector3Wide v, float least)
-    {
-        Vector3Wide clean;
-        clean.X = WithoutDust(v.X, least);
-        clean.Y = WithoutDust(v.Y, least);
-        clean.Z = WithoutDust(v.Z, least);
-        return clean;
-    }
+    static Vector3Wide WithoutDust(in Vector3Wide v, float least) => new(WithoutDust(v.X, least), WithoutDust(v.Y, least), WithoutDust(v.Z, least));
 
     // NaN stays.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -110,41 +97,28 @@ static class FreeRotation
     /// <param name="dt">Time, s.</param>
     /// <param name="orientation">Orientation.</param>
     /// <param name="angular">Angular velocity.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    [MethodImpl(MethodImplOptions.NoInlining)]
     internal static unsafe void Tumble(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
         ref QuaternionWide orientation, ref Vector3Wide angular)
     {
-        if (!TryTumble<SmallAngles>(inverseInertia, frames, indices, dt, ref orientation, ref angular))
-            TryTumble<AnyAngles>(inverseInertia, frames, indices, dt, ref orientation, ref angular);
-    }
-
-    // Nearly all bundles have small angles only: that kernel calls nothing, so what it works with stays in registers. A lane gets the same bits from either.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static unsafe bool TryTumble<TAngles>(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
-        ref QuaternionWide orientation, ref Vector3Wide angular) where TAngles : struct, IAngles
-    {
         var own = WithoutDust(angular, LeastSpeed);
         var tumbles = CanTumble(inverseInertia) & ~Vector.Equals(own.LengthSquared(), Vector<float>.Zero);
-        if (Vector.EqualsAll(tumbles, Vector<int>.Zero))
+        var turned = orientation;
+        if (!Vector.EqualsAll(tumbles, Vector<int>.AllBitsSet))
         {
-            TurnAll(dt, angular, ref orientation);
-            return true;
+            turned = Turn(orientation, angular, dt);
+            if (Vector.EqualsAll(tumbles, Vector<int>.Zero))
+            {
+                orientation = turned;
+                return;
+            }
         }
-        var isTilted = PrincipalAxes.AreTilted(inverseInertia, tumbles);
+        var isTilted = PrincipalAxes.Find(inverseInertia, tumbles, frames, indices, out var toBody, out var principal);
         var tilts = !Vector.EqualsAll(isTilted, Vector<int>.Zero);
-        QuaternionWide toBody = default;
-        Vector3Wide principal = new(inverseInertia.XX, inverseInertia.YY, inverseInertia.ZZ);
         var frame = orientation;
         if (tilts)
-        {
-            // Copies: a local whose address is taken is in memory all the time.
-            FindPrincipal(inverseInertia, isTilted, frames, indices, orientation, out var found, out var foundPrincipal, out var foundFrame);
-            toBody = found;
-            principal = foundPrincipal;
-            frame = foundFrame;
-        }
-        var axes = Matrix3x3Wide.FromQuaternion(frame);
-        var local = axes * own;
+            frame = QuaternionWide.Select(isTilted, QuaternionWide.Concatenate(toBody, orientation), orientation);
+        var local = QuaternionWide.Conjugate(frame) * own;
 
         // Principal axes in cyclic order with the middle one last: a cyclic change of names keeps the frame right-handed.
         var middleX = IsBetween(principal.X, principal.Y, principal.Z);
@@ -154,135 +128,58 @@ static class FreeRotation
 
         // Lanes that do not tumble compute with unit inertia, so that nothing is divided by zero in them. All moments are in units of the middle one.
         var one = Vector<float>.One;
-        var inverseW = Vector.ConditionalSelect(tumbles, principal.Z, one);
-        var inverseU = Vector.ConditionalSelect(tumbles, principal.X, one) / inverseW;
-        var inverseV = Vector.ConditionalSelect(tumbles, principal.Y, one) / inverseW;
+        principal = Vector3Wide.Select(tumbles, principal, new(one, one, one));
+        var inverseU = principal.X / principal.Z;
+        var inverseV = principal.Y / principal.Z;
+        Vector3Wide momentum = new(local.X / inverseU, local.Y / inverseV, local.Z);
+        var about = FromRotationVector((frame * Cycle(momentum, middleY, middleX)) * dt);
+
         var rateU = (inverseU - one) * dt;
         var rateV = (inverseV - one) * dt;
-        Vector3Wide momentum = new(local.X / inverseU, local.Y / inverseV, local.Z);
-        // With unit inertia nothing turns within the body, and the momentum is the angular velocity: those lanes turn as by it alone.
-        var rotation = Vector3Wide.Select(tumbles, Matrix3x3Wide.TransposeTimes(axes, Cycle(momentum, middleY, middleX)), own) * dt;
-        var momentumSquared = momentum.LengthSquared();
-        var angleSquared = momentumSquared * Vector.Abs(rateU * rateV);
-        if (TAngles.AreSmall && !AreSmall(rotation.LengthSquared(), momentumSquared * Wide.Max(rateU * rateU, rateV * rateV), angleSquared))
-            return false;
-        var about = FromRotationVector<TAngles>(rotation);
-
-        Vector3Wide change;
-        QuaternionWide spin;
-        if (TAngles.AreSmall)
-            Rotate(rateU, rateV, momentum, out change, out spin);
-        else
-            RotateInSteps(rateU, rateV, CountInnerSteps(Vector.SquareRoot(angleSquared)), momentum, out change, out spin);
+        var innerSteps = CountInnerSteps(Vector.SquareRoot(momentum.LengthSquared() * Vector.Abs(rateU * rateV)));
+        Rotate(rateU, rateV, innerSteps, momentum, out var change, out var spin);
 
         // What changes is added to what there is: to take the velocity itself to another frame and back would cost it a rounding in each step, always the same
         // one, and a thousandth in a minute.
         Vector3Wide localChange = new(change.X * inverseU, change.Y * inverseV, change.Z);
         localChange += QuaternionWide.Displacement(spin, local + localChange);
-        var changed = about * (own + Matrix3x3Wide.TransposeTimes(axes, Cycle(localChange, middleY, middleX)));
-        angular = Vector3Wide.Select(tumbles, changed, angular);
         var turn = Cycle(new Vector3Wide(spin.X, spin.Y, spin.Z), middleY, middleX);
-        spin.X = turn.X;
-        spin.Y = turn.Y;
-        spin.Z = turn.Z;
-        frame = Tidy(QuaternionWide.Concatenate(QuaternionWide.Concatenate(spin, frame), about));
-        orientation = frame;
+        var before = frame;
+        frame = Tidy(QuaternionWide.Concatenate(QuaternionWide.Concatenate(new(turn.X, turn.Y, turn.Z, spin.W), frame), about));
+        angular = Vector3Wide.Select(tumbles, about * (own + before * Cycle(localChange, middleY, middleX)), angular);
         if (tilts)
-        {
-            var copy = toBody;
-            LeavePrincipal(isTilted, copy, ref orientation);
-        }
-        return true;
+            frame = QuaternionWide.Select(isTilted, Tidy(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame)), frame);
+        orientation = QuaternionWide.Select(tumbles, frame, turned);
     }
 
-    // What few bundles do is not inlined: the kernel is as much as the inliner takes, and what is a call there would be one for all.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void TurnAll(Vector<float> dt, in Vector3Wide angular, ref QuaternionWide orientation) => orientation = Turn(orientation, angular, dt);
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static unsafe void FindPrincipal(in Symmetric3x3Wide inverseInertia, Vector<int> isTilted, PrincipalFrame* frames, Vector<int> indices,
-        in QuaternionWide orientation, out QuaternionWide toBody, out Vector3Wide principal, out QuaternionWide frame)
-    {
-        PrincipalAxes.Find(inverseInertia, isTilted, frames, indices, out toBody, out principal);
-        frame = QuaternionWide.Select(isTilted, QuaternionWide.Concatenate(toBody, orientation), orientation);
-    }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void LeavePrincipal(Vector<int> isTilted, in QuaternionWide toBody, ref QuaternionWide frame) =>
-        frame = QuaternionWide.Select(isTilted, Tidy(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame)), frame);
-
-    /// <summary>What is known of the angles of a bundle.</summary>
-    interface IAngles
-    {
-        /// <summary>Whether no half of any is above .75, and a single inner step will do; a JIT constant.</summary>
-        static abstract bool AreSmall { get; }
-    }
-
-    readonly struct SmallAngles : IAngles
-    {
-        public static bool AreSmall => true;
-    }
-
-    readonly struct AnyAngles : IAngles
-    {
-        public static bool AreSmall => false;
-    }
-
-    // By the squares of the angle about the momentum, of the greatest one within the body that there can be, and of that by which inner steps are counted.
+    // Turns the momentum within the body by u / 2, v, u / 2, as often as there are inner steps. Half-steps in the middle join to whole ones.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static bool AreSmall(Vector<float> about, Vector<float> within, Vector<float> inner)
-    {
-        // Half of an angle is what sines are taken of, and rounding may let the momentum grow.
-        const float greatest = 4 * 0.9f * Wide.SinOverAngleLimit;
-        var small = Vector.LessThan(Wide.Max(about, within), new Vector<float>(greatest)) &
-            Vector.LessThanOrEqual(inner, new Vector<float>(AnglePerInnerStep * AnglePerInnerStep));
-        return Vector.EqualsAll(small, Vector<int>.AllBitsSet);
-    }
-
-    // Turns the momentum within the body by u / 2, v, u / 2. Where no body of the bundle turns about v, as where all are symmetric about u, both halves are by
-    // the same angle: to a lane it is the same as all of it.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Rotate(Vector<float> rateU, Vector<float> rateV, in Vector3Wide momentum, out Vector3Wide change, out QuaternionWide spin)
-    {
-        var zero = Vector<float>.Zero;
-        var half = new Vector<float>(0.5f);
-        change = Vector3Wide.Zero;
-        RotateU<SmallAngles>(rateU * half, momentum, ref change, out var s, out var c);
-        if (Vector.EqualsAll(rateV, zero))
-        {
-            Turn(s, c, momentum.Y + change.Y, momentum.Z + change.Z, ref change.Y, ref change.Z);
-            spin = new(c * s + s * c, zero, zero, c * c - s * s);
-            return;
-        }
-        spin = new(s, zero, zero, c);
-        AppendV<SmallAngles>(rateV, momentum, ref change, ref spin);
-        AppendU<SmallAngles>(rateU * half, momentum, ref change, ref spin);
-    }
-
-    // As often as there are inner steps. Half-steps in the middle join to whole ones.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateInSteps(Vector<float> rateU, Vector<float> rateV, Vector<float> innerSteps, in Vector3Wide momentum, out Vector3Wide change,
+    static void Rotate(Vector<float> rateU, Vector<float> rateV, Vector<float> innerSteps, in Vector3Wide momentum, out Vector3Wide change,
         out QuaternionWide spin)
     {
         var half = new Vector<float>(0.5f);
         var one = Vector<float>.One;
-        rateU /= innerSteps;
-        rateV /= innerSteps;
+        var single = Vector.EqualsAll(innerSteps, one);
+        if (!single)
+        {
+            rateU /= innerSteps;
+            rateV /= innerSteps;
+        }
         change = Vector3Wide.Zero;
-        RotateU<AnyAngles>(rateU * half, momentum, ref change, out var s, out var c);
+        RotateU(rateU * half, momentum, ref change, out var s, out var c);
         spin = new(s, Vector<float>.Zero, Vector<float>.Zero, c);
-        for (var i = one; Vector.LessThanAny(i, innerSteps); i += one)
+        for (var i = one; !single && Vector.LessThanAny(i, innerSteps); i += one)
         {
             var active = Vector.LessThan(i, innerSteps);
             var nextChange = change;
             var nextSpin = spin;
-            AppendV<AnyAngles>(rateV, momentum, ref nextChange, ref nextSpin);
-            AppendU<AnyAngles>(rateU, momentum, ref nextChange, ref nextSpin);
+            AppendV(rateV, momentum, ref nextChange, ref nextSpin);
+            AppendU(rateU, momentum, ref nextChange, ref nextSpin);
             change = Vector3Wide.Select(active, nextChange, change);
             spin = QuaternionWide.Select(active, nextSpin, spin);
         }
-        AppendV<AnyAngles>(rateV, momentum, ref change, ref spin);
-        AppendU<AnyAngles>(rateU * half, momentum, ref change, ref spin);
+        AppendV(rateV, momentum, ref change, ref spin);
+        AppendU(rateU * half, momentum, ref change, ref spin);
     }
 
     // Nothing to conserve for bodies that turn the same way about every axis, or that cannot turn about some.
@@ -308,51 +205,31 @@ static class FreeRotation
 
     // The body turns about its axis u by rate times L_u; L, fixed in the world, turns the other way in the body. Sine and cosine of half the angle.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateU<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
-        where TAngles : struct, IAngles
+    static void RotateU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
     {
-        Halve<TAngles>(rate * (start.X + change.X), out s, out c);
+        Halve(rate * (start.X + change.X), out s, out c);
         Turn(s, c, start.Y + change.Y, start.Z + change.Z, ref change.Y, ref change.Z);
     }
 
     // The product of quaternions, of which the first is a turn about one axis.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AppendU<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin) where TAngles : struct, IAngles
+    static void AppendU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
     {
-        RotateU<TAngles>(rate, start, ref change, out var s, out var c);
+        RotateU(rate, start, ref change, out var s, out var c);
         spin = new(c * spin.X + s * spin.W, c * spin.Y + s * spin.Z, c * spin.Z - s * spin.Y, c * spin.W - s * spin.X);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateV<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
-        where TAngles : struct, IAngles
+    static void AppendV(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
     {
-        Halve<TAngles>(rate * (start.Y + change.Y), out s, out c);
+        Halve(rate * (start.Y + change.Y), out var s, out var c);
         Turn(s, c, start.Z + change.Z, start.X + change.X, ref change.Z, ref change.X);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AppendV<TAngles>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin) where TAngles : struct, IAngles
-    {
-        RotateV<TAngles>(rate, start, ref change, out var s, out var c);
         spin = new(c * spin.X - s * spin.Z, c * spin.Y + s * spin.W, c * spin.Z + s * spin.X, c * spin.W - s * spin.Y);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Halve<TAngles>(Vector<float> angle, out Vector<float> sin, out Vector<float> cos) where TAngles : struct, IAngles
-    {
-        var half = WithoutDust(angle * new Vector<float>(0.5f), LeastPrecession);
-        if (TAngles.AreSmall)
-        {
-            // What SinCos does with such angles.
-            Wide.SinOverAngle(half * half, out sin, out cos);
-            sin *= half;
-        }
-        else
-        {
-            Wide.SinCos(half, out sin, out cos);
-        }
-    }
+    static void Halve(Vector<float> angle, out Vector<float> sin, out Vector<float> cos) =>
+        Wide.SinCos(WithoutDust(angle * new Vector<float>(0.5f), LeastPrecession), out sin, out cos);
 
     // Adds what a vector changes by when it turns: 1 - cos a is 2 sin^2 (a / 2), and loses nothing for small angles.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -370,14 +247,7 @@ static class FreeRotation
         Vector.LessThanOrEqual((x - a) * (x - b), Vector<float>.Zero);
 
     // (y, z, x) in the first lanes, (z, x, y) in the second, unchanged elsewhere. With the masks exchanged it undoes itself.
-    // By components: the inliner takes so much of a kernel, and no more.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide Cycle(in Vector3Wide v, Vector<int> once, Vector<int> twice)
-    {
-        Vector3Wide cycled;
-        cycled.X = Vector.ConditionalSelect(once, v.Y, Vector.ConditionalSelect(twice, v.Z, v.X));
-        cycled.Y = Vector.ConditionalSelect(once, v.Z, Vector.ConditionalSelect(twice, v.X, v.Y));
-        cycled.Z = Vector.ConditionalSelect(once, v.X, Vector.ConditionalSelect(twice, v.Y, v.Z));
-        return cycled;
-    }
+    static Vector3Wide Cycle(in Vector3Wide v, Vector<int> once, Vector<int> twice) => Vector3Wide.Select(
+        once, new(v.Y, v.Z, v.X), Vector3Wide.Select(twice, new(v.Z, v.X, v.Y), v));
 }

@@ -11,26 +11,23 @@ static class PrincipalAxes
     // Each sweep of Jacobi rotations squares the off-diagonal size; four leave less than rounding from any start.
     const int Sweeps = 4;
 
-    /// <summary>Lanes of a mask whose tensor is not diagonal, as that of most shapes is.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static Vector<int> AreTilted(in Symmetric3x3Wide tensor, Vector<int> mask)
-    {
-        var zero = Vector<float>.Zero;
-        return mask & ~(Vector.Equals(tensor.YX, zero) & Vector.Equals(tensor.ZX, zero) & Vector.Equals(tensor.ZY, zero));
-    }
-
-    /// <summary>Principal frames and moments of a bundle of tensors.</summary>
+    /// <summary>Principal frame and moments of a bundle of tensors. Diagonal ones, as of most shapes, cost a comparison.</summary>
     /// <param name="tensor">The tensors.</param>
-    /// <param name="isTilted">Lanes that are not diagonal, and asked for.</param>
+    /// <param name="mask">Lanes that are asked for.</param>
     /// <param name="known">What was found for the bodies before, a row for each; null where there is no room for it.</param>
     /// <param name="indices">Indices of the bodies.</param>
-    /// <param name="toBody">Rotation from the principal frame to the frame of the tensor; the identity in other lanes.</param>
+    /// <param name="toBody">Rotation from the principal frame to the frame of the tensor; the identity where that is diagonal.</param>
     /// <param name="principal">Diagonal of the tensor in the principal frame.</param>
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    internal static unsafe void Find(in Symmetric3x3Wide tensor, Vector<int> isTilted, PrincipalFrame* known, Vector<int> indices, out QuaternionWide toBody,
-        out Vector3Wide principal)
+    /// <returns>Lanes that were asked for and are not diagonal.</returns>
+    internal static unsafe Vector<int> Find(
+        in Symmetric3x3Wide tensor, Vector<int> mask, PrincipalFrame* known, Vector<int> indices, out QuaternionWide toBody, out Vector3Wide principal)
     {
         toBody = QuaternionWide.Identity;
+        principal = new(tensor.XX, tensor.YY, tensor.ZZ);
+        var zero = Vector<float>.Zero;
+        var isTilted = mask & ~(Vector.Equals(tensor.YX, zero) & Vector.Equals(tensor.ZX, zero) & Vector.Equals(tensor.ZY, zero));
+        if (Vector.EqualsAll(isTilted, Vector<int>.Zero))
+            return isTilted;
         var unknown = isTilted;
         if (known != null)
         {
@@ -46,6 +43,7 @@ static class PrincipalAxes
         var axes = Matrix3x3Wide.FromQuaternion(toBody);
         principal = new(
             Vector3Wide.Dot(axes.X, tensor * axes.X), Vector3Wide.Dot(axes.Y, tensor * axes.Y), Vector3Wide.Dot(axes.Z, tensor * axes.Z));
+        return isTilted;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
