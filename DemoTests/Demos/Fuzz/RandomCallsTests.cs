@@ -11,7 +11,7 @@ namespace DemoTests.Runner;
 public class RandomCallsTests
 {
     [Theory]
-    [InlineData(1, 400)]
+    [InlineData(6, 400)]
     [InlineData(2, 400)]
     [InlineData(3, 60)]
     [InlineData(4, 1500)]
