@@ -32,9 +32,9 @@ static class EngineDefaults
     public const LoadPathChoice LoadPath = LoadPathChoice.Off;
 
     /// <summary>How hard the solver works.</summary>
-    public static SolveDescription Solve(RunSettings settings) => settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off }
+    public static SolveDescription Solve(RunSettings settings) => settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off, DirectJoints: false }
         ? new(settings.Iterations, settings.Substeps)
-        : throw new SceneException("this engine has neither relaxation sweeps nor a load path");
+        : throw new SceneException("this engine has neither relaxation sweeps nor a load path nor direct joints");
 
     /// <summary>
     /// Seconds of the last step, as far as the engine was built with its profiler. It counts the prediction of bounds and the last

@@ -33,6 +33,10 @@ public struct SolveDescription
     /// Whether loads of what rests on others are handed down to the ground in one go; <see cref="LoadPathMode.WhereNeeded"/> unless said otherwise.
     /// </summary>
     public LoadPathMode LoadPath;
+    /// <summary>
+    /// Whether all joints of a structure are solved at once, so that none gives way, whatever hangs in it; <see cref="DirectJointsMode.Off"/> unless said otherwise.
+    /// </summary>
+    public DirectJointsMode DirectJoints;
     /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>
     public SubstepVelocityIterationScheduler? VelocityIterationScheduler;
 
@@ -90,7 +94,14 @@ public struct SolveDescription
         ArgumentOutOfRangeException.ThrowIfNegative(RelaxationIterationCount, nameof(RelaxationIterationCount));
         ArgumentOutOfRangeException.ThrowIfLessThan(FallbackBatchThreshold, 1, nameof(FallbackBatchThreshold));
         Check(LoadPath);
+        Check(DirectJoints);
         Governor?.Validate();
+    }
+
+    internal static void Check(DirectJointsMode mode)
+    {
+        if (mode is < DirectJointsMode.Off or > DirectJointsMode.Always)
+            throw new ArgumentOutOfRangeException(nameof(mode), mode, $"{nameof(DirectJoints)}: there is no such mode.");
     }
 
     internal static void Check(LoadPathMode mode)

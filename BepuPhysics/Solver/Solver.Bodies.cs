@@ -124,6 +124,7 @@ public sealed unsafe partial class Solver
             ref var reference = ref Processor(location.TypeId).BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch,
                 constraint.BodyIndexInConstraint);
             reference = reference & ~EncodedBody.IndexMask | newIndex;
+            NoteJointChange(location.TypeId);
         }
     }
 }

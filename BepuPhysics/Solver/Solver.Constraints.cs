@@ -226,6 +226,7 @@ public sealed unsafe partial class Solver
             ref typeBatch, handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool, isWrittenWhole: defersColumns);
         if (defersColumns)
             DeferClearing(batchIndex, ref typeBatch, index);
+        NoteJointChange(typeId);
         return new() { SetIndex = 0, BatchIndex = batchIndex, TypeId = typeId, IndexInTypeBatch = index };
     }
 
@@ -247,7 +248,7 @@ public sealed unsafe partial class Solver
     int FindOrCreateBatch(ref ConstraintSet set, BatchKind kind) => FindBatch(set, kind) is >= 0 and var index ? index : AddBatch(ref set, kind);
 
     /// <summary>Index of the batch of a kind of which there is one; -1 where there is none yet.</summary>
-    static int FindBatch(in ConstraintSet set, BatchKind kind)
+    internal static int FindBatch(in ConstraintSet set, BatchKind kind)
     {
         ref readonly var batches = ref set.Batches;
         for (int i = batches.Count - 1; i >= 0; --i)
@@ -284,6 +285,7 @@ public sealed unsafe partial class Solver
                     batch.DynamicBodies.Remove(bodies.Sets[location.SetIndex].IndexToHandle[reference & EncodedBody.IndexMask].Slot);
             }
         }
+        NoteJointChange(location.TypeId);
         var index = location.IndexInTypeBatch;
         var moved = processor.Remove(ref typeBatch, index, movesColumns: !defersColumns);
         if (moved.Value >= 0)

@@ -85,6 +85,7 @@ public sealed unsafe partial class Solver
             Rest();
             return;
         }
+        ChooseDirectJoints();
         var substepDt = BeginStep(dt);
         var scale = previousSubstepDt > 0 ? substepDt / previousSubstepDt : 1;
         previousSubstepDt = substepDt;
@@ -122,6 +123,7 @@ public sealed unsafe partial class Solver
         // No memory is kept for what sleeps.
         for (int i = 0; i < OptionalStages.Count; ++i)
             OptionalStages[i].EndStep();
+        ForgetDirectJoints();
         endsWithVelocities = false;
         shuffleState = 0;
     }

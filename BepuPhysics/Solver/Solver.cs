@@ -156,8 +156,11 @@ public sealed unsafe partial class Solver
         substepCount = description.SubstepCount;
         relaxationIterationCount = description.RelaxationIterationCount;
         loadPath = description.LoadPath;
+        directJoints = description.DirectJoints;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
         governor = description.Governor;
+        directStage = new DirectStage(this, bodies, pool);
+        OptionalStages.Add(directStage);
         errorStage = new ConstraintErrorStage(this, bodies);
         OptionalStages.Add(errorStage);
         OptionalStages.Add(new BreakStage(this));
@@ -241,6 +244,7 @@ public sealed unsafe partial class Solver
                 DisposeBatch(ref batches[j]);
             batches.Count = 0;
         }
+        ++jointVersion;
         for (int i = 0; i < Locations.Length; ++i)
             Locations[i].SetIndex = -1;
         owners.ReleaseAll();
@@ -273,6 +277,7 @@ public sealed unsafe partial class Solver
         pool.Return(ref Sets);
         pool.Return(ref Locations);
         Edges.Dispose(pool);
+        directStage.Dispose();
         DisposeOptions();
         owners.Dispose(pool);
         HandlePool.Dispose(pool);
@@ -284,6 +289,7 @@ public sealed unsafe partial class Solver
         Sets = default;
         Locations = default;
         Edges = default;
+        directStage.Abandon();
         AbandonOptions();
         owners = default;
         HandlePool = default;

@@ -1,6 +1,8 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -22,6 +24,30 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
         rows.Clear();
         TConstraint.ReadRows(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], rows);
+    }
+
+    /// <inheritdoc/>
+    internal override void AddStiffness(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Buffer<BodyInertia> stiffness)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
+        Gather(references, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out _, out var slots);
+        if (!TConstraint.TryGetGeometricStiffness(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle],
+            ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], out var ofFirst, out var ofLast, out _))
+            return;
+        var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
+        for (int lane = 0; lane < lanes; ++lane)
+        {
+            AddStiffness(references[0][lane], ofFirst, lane, stiffness);
+            AddStiffness(references[TBodies.Count - 1][lane], ofLast, lane, stiffness);
+        }
+    }
+
+    static void AddStiffness(int reference, in Symmetric3x3Wide added, int lane, Buffer<BodyInertia> stiffness)
+    {
+        if ((reference & EncodedBody.KinematicFlag) != 0)
+            return;
+        ref var sum = ref stiffness[reference & EncodedBody.IndexMask].InverseInertiaTensor;
+        sum += Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref Unsafe.AsRef(in added), lane);
     }
 
     /// <inheritdoc/>

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -23,6 +24,14 @@ public abstract unsafe partial class TypeProcessor
     /// <param name="bundle">Index of the bundle in the type batch.</param>
     /// <param name="rows"><see cref="RowCount"/> rows; lanes without a constraint mean nothing.</param>
     internal abstract void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Span<ConstraintRowWide> rows);
+
+    /// <summary>Adds what the loads of a bundle do to the rotation of its bodies (GeometricStiffness.cs), one constraint after the other.</summary>
+    /// <param name="batch">Where the constraints are.</param>
+    /// <param name="bodies">The bodies of the active set.</param>
+    /// <param name="substep">The substep.</param>
+    /// <param name="bundle">Index of the bundle in the type batch.</param>
+    /// <param name="stiffness">Stiffness of each body, N m, world axes.</param>
+    internal abstract void AddStiffness(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Buffer<BodyInertia> stiffness);
 
     /// <summary>Whether constraints of the type have an error that is a distance.</summary>
     internal abstract bool HasError { get; }

@@ -24,6 +24,9 @@ sealed record AccuracySettings
 
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
     public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
+
+    /// <summary>Whether all joints of a structure are solved at once.</summary>
+    public bool DirectJoints { get; init; }
     public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
     public float Friction { get; init; } = .5f;
     public float Restitution { get; init; }
@@ -62,7 +65,7 @@ sealed record AccuracySettings
 
     public override string ToString() =>
         string.Create(CultureInfo.InvariantCulture,
-            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{LoadPathWords}{(Stiff ? " stiff" : "")}");
+            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{LoadPathWords}{(DirectJoints ? " direct" : "")}{(Stiff ? " stiff" : "")}");
 
     string LoadPathWords => LoadPath == EngineDefaults.LoadPath ? "" : $" load path {LoadPath}";
 }

@@ -35,7 +35,12 @@ static class EngineDefaults
 
     /// <summary>How hard the solver works.</summary>
     public static SolveDescription Solve(RunSettings settings) =>
-        new(settings.Iterations, settings.Substeps) { RelaxationIterationCount = settings.Relaxations, LoadPath = (LoadPathMode)settings.LoadPath };
+        new(settings.Iterations, settings.Substeps)
+        {
+            RelaxationIterationCount = settings.Relaxations,
+            LoadPath = (LoadPathMode)settings.LoadPath,
+            DirectJoints = settings.DirectJoints ? DirectJointsMode.Always : DirectJointsMode.Off,
+        };
 
     /// <summary>Seconds of the stages of the last step.</summary>
     public static StageTimes ReadStages(Simulation simulation)

@@ -21,6 +21,9 @@ static class EngineTraits
     /// <summary>Whether loads can be handed down to the ground in one go.</summary>
     public const bool HasLoadPath = true;
 
+    /// <summary>Whether all joints of a structure can be solved at once.</summary>
+    public const bool HasDirectJoints = true;
+
     /// <summary>As in the ready-made callbacks.</summary>
     public const AngularIntegrationMode DefaultAngularMode = AngularIntegrationMode.ConserveMomentumWithGyroscopicTorque;
 
@@ -45,6 +48,7 @@ static class EngineTraits
         {
             RelaxationIterationCount = settings.RelaxationCount,
             LoadPath = (LoadPathMode)settings.LoadPath,
+            DirectJoints = settings.DirectJoints ? DirectJointsMode.Always : DirectJointsMode.Off,
         };
 
     /// <summary>What pairs collide, and how: here bounces are no part of the spring.</summary>

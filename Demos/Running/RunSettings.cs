@@ -22,6 +22,9 @@ public sealed record RunSettings
     /// <summary>Whether loads are handed down to the ground in one go.</summary>
     public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
 
+    /// <summary>Whether all joints of a structure are solved at once.</summary>
+    public bool DirectJoints { get; init; }
+
     public int Threads { get; init; } = 1;
 
     /// <summary>Seed of the scenes that are random.</summary>

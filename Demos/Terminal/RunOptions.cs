@@ -14,6 +14,7 @@ sealed class RunOptions
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
     readonly Option<LoadPathChoice> loadPath = Make("--load-path", "Whether loads are handed down to the ground in one go.", defaults.LoadPath);
+    readonly Option<bool> directJoints = Make<bool>("--direct-joints", "Solve all joints of a structure at once.");
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
@@ -26,7 +27,7 @@ sealed class RunOptions
     public void AddTo(Command command)
     {
         Option[] options =
-            [steps, stepDuration, substeps, iterations, relaxations, loadPath, threads, seed, hashEvery, warmup, sleep, frequency, dampingRatio];
+            [steps, stepDuration, substeps, iterations, relaxations, loadPath, directJoints, threads, seed, hashEvery, warmup, sleep, frequency, dampingRatio];
         foreach (Option option in options)
             command.Options.Add(option);
     }
@@ -40,6 +41,7 @@ sealed class RunOptions
         Iterations = parsed.GetValue(iterations),
         Relaxations = parsed.GetValue(relaxations),
         LoadPath = parsed.GetValue(loadPath),
+        DirectJoints = parsed.GetValue(directJoints),
         Threads = parsed.GetValue(threads),
         Seed = parsed.GetValue(seed),
         HashEvery = parsed.GetValue(hashEvery),

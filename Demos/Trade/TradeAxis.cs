@@ -34,6 +34,9 @@ sealed record TradeAxis(
     // In the order of LoadPathChoice.
     static readonly string[] loadPathWords = ["off", "needed", "always"];
 
+    // One after the other, or all of a structure at once.
+    static readonly string[] jointWords = ["swept", "direct"];
+
     /// <summary>All dials, the first changing slowest.</summary>
     public static IReadOnlyList<TradeAxis> All { get; } =
     [
@@ -57,6 +60,11 @@ sealed record TradeAxis(
             value => value == loadPathWords[(int)EngineDefaults.LoadPath] ? "" : $"load {value}",
             (settings, value) => Array.IndexOf(loadPathWords, value) is >= 0 and int index && (index == 0 || EngineTraits.HasLoadPath)
                 ? settings with { LoadPath = (LoadPathChoice)index } : null),
+        new("joints", $"How joints are solved: {string.Join(", ", jointWords)}.",
+            scene => scene.HasJoints && EngineTraits.HasDirectJoints ? jointWords : [jointWords[0]],
+            value => value == jointWords[0] ? "" : value,
+            (settings, value) => Array.IndexOf(jointWords, value) is >= 0 and int index && (index == 0 || EngineTraits.HasDirectJoints)
+                ? settings with { DirectJoints = index > 0 } : null),
         new("relaxations", "Relaxation sweeps per substep.", _ => EngineTraits.HasRelaxation ? ["0", "1"] : ["0"],
             value => value == "0" ? "" : $"r{value}",
             (settings, value) => Count(value, 0) is int count && (count == 0 || EngineTraits.HasRelaxation)

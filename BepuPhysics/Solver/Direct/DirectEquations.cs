@@ -1,0 +1,289 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>The equations of all structures of joints that are solved at once, in numbers of double precision.</summary>
+// With v the velocities that all else has left, lambda the impulses, K the block of a joint on the diagonal of J M^-1 J^T and s its softness as part of K:
+//
+//   (J M^-1 J^T + s K) x = target - J v - s K lambda,   lambda += x,   v += M^-1 J^T x.
+//
+// Single precision is not enough: in a chain whose end is a million times as heavy as a link all digits are gone before the last pivot. In double precision a
+// true pivot of such a chain is a millionth of its diagonal, and what rounding of J leaves of a row that says what others have said is 1e-14 of it.
+unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, double* jacobians, double* weighted, DirectRow* rows)
+{
+    // Part of what a row has on the diagonal below which its pivot is rounding.
+    const double LeastPivot = 1e-9;
+    /// <summary>Numbers of a body in the Jacobian of a row.</summary>
+    internal const int PerBody = 6;
+
+    readonly DirectNode* nodes = plan.Nodes.Span.Memory;
+    readonly DirectBlock* blocks = plan.Blocks.Span.Memory;
+    readonly int* targets = plan.Targets.Span.Memory;
+    readonly DirectCoupling* couplings = plan.Couplings.Span.Memory;
+    readonly DirectBody* bodies = plan.Bodies.Span.Memory;
+
+    /// <summary>Applies the impulses that are there, times a factor.</summary>
+    internal void WarmStart(in DirectIsland island, double scale)
+    {
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        {
+            ref var node = ref nodes[k];
+            for (int i = 0; i < node.RowCount; ++i)
+            {
+                rows[node.FirstRow + i].Impulse *= scale;
+                Apply(node, i, rows[node.FirstRow + i].Impulse);
+            }
+        }
+    }
+
+    /// <summary>Works out A and factors it. Before all else.</summary>
+    internal void Factor(in DirectIsland island)
+    {
+        for (int i = island.FirstNumber; i < island.EndNumber; ++i)
+            numbers[i] = 0;
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        {
+            Weigh(nodes[k]);
+            AddDiagonal(nodes[k]);
+        }
+        for (int i = island.FirstCoupling; i < island.EndCoupling; ++i)
+            AddCoupling(couplings[i]);
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+            Eliminate(nodes[k]);
+    }
+
+    // M^-1 J^T.
+    void Weigh(in DirectNode node)
+    {
+        var j = jacobians + node.Jacobian;
+        var w = weighted + node.Jacobian;
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            for (int slot = 0; slot < node.BodyCount; ++slot, j += PerBody, w += PerBody)
+            {
+                ref var body = ref bodies[node.Bodies[slot]];
+                for (int i = 0; i < 3; ++i)
+                    w[i] = body.InverseMass * j[i];
+                w[3] = body.InverseInertia[0] * j[3] + body.InverseInertia[1] * j[4] + body.InverseInertia[3] * j[5];
+                w[4] = body.InverseInertia[1] * j[3] + body.InverseInertia[2] * j[4] + body.InverseInertia[4] * j[5];
+                w[5] = body.InverseInertia[3] * j[3] + body.InverseInertia[4] * j[4] + body.InverseInertia[5] * j[5];
+            }
+        }
+    }
+
+    static double Dot(double* a, double* b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
+
+    void AddDiagonal(in DirectNode node)
+    {
+        var block = numbers + node.Diagonal;
+        var stride = node.BodyCount * PerBody;
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            for (int column = 0; column <= row; ++column)
+            {
+                double sum = 0;
+                for (int slot = 0; slot < stride; slot += PerBody)
+                    sum += Dot(jacobians + node.Jacobian + row * stride + slot, weighted + node.Jacobian + column * stride + slot);
+                block[row * node.RowCount + column] = sum * (1 + rows[node.FirstRow].Softness);
+            }
+            rows[node.FirstRow + row].LeastPivot = LeastPivot * block[row * node.RowCount + row];
+        }
+    }
+
+    void AddCoupling(in DirectCoupling coupling)
+    {
+        ref var later = ref nodes[coupling.Later];
+        ref var earlier = ref nodes[coupling.Earlier];
+        var block = numbers + coupling.Place;
+        var j = jacobians + later.Jacobian + coupling.LaterSlot * PerBody;
+        for (int row = 0; row < later.RowCount; ++row, j += later.BodyCount * PerBody)
+        {
+            var w = weighted + earlier.Jacobian + coupling.EarlierSlot * PerBody;
+            for (int column = 0; column < earlier.RowCount; ++column, w += earlier.BodyCount * PerBody)
+                *block++ += Dot(j, w);
+        }
+    }
+
+    void Eliminate(in DirectNode node)
+    {
+        FactorDiagonal(node);
+        var count = node.RowCount;
+        var diagonal = numbers + node.Diagonal;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            // Times the inverse of L^T: what is left is L D.
+            var block = numbers + blocks[a].Place;
+            for (int row = nodes[blocks[a].Node].RowCount; row > 0; --row, block += count)
+            {
+                for (int column = 1; column < count; ++column)
+                {
+                    var value = block[column];
+                    for (int i = 0; i < column; ++i)
+                        value -= block[i] * diagonal[column * count + i];
+                    block[column] = value;
+                }
+            }
+        }
+        var target = targets + node.FirstTarget;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            for (int b = node.FirstBlock; b <= a; ++b)
+                Subtract(node, blocks[a], blocks[b], numbers + *target++);
+        }
+    }
+
+    // L D L^T of a block; a pivot that is rounding is left out, and what its row asks for is left to the rows that say the same.
+    void FactorDiagonal(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var block = numbers + node.Diagonal;
+        for (int column = 0; column < count; ++column)
+        {
+            var pivot = block[column * count + column];
+            for (int i = 0; i < column; ++i)
+                pivot -= block[column * count + i] * block[column * count + i] * block[i * count + i];
+            block[column * count + column] = pivot;
+            ref var inverse = ref rows[node.FirstRow + column].InversePivot;
+            inverse = pivot > rows[node.FirstRow + column].LeastPivot ? 1 / pivot : 0;
+            for (int row = column + 1; row < count; ++row)
+            {
+                var value = block[row * count + column];
+                for (int i = 0; i < column; ++i)
+                    value -= block[row * count + i] * block[column * count + i] * block[i * count + i];
+                block[row * count + column] = value * inverse;
+            }
+        }
+    }
+
+    void Subtract(in DirectNode node, in DirectBlock a, in DirectBlock b, double* target)
+    {
+        var count = node.RowCount;
+        var scaled = stackalloc double[PerBody];
+        var left = numbers + a.Place;
+        var columns = nodes[b.Node].RowCount;
+        for (int row = nodes[a.Node].RowCount; row > 0; --row, left += count)
+        {
+            for (int i = 0; i < count; ++i)
+                scaled[i] = left[i] * rows[node.FirstRow + i].InversePivot;
+            var right = numbers + b.Place;
+            for (int column = columns; column > 0; --column, right += count)
+            {
+                var sum = scaled[0] * right[0];
+                for (int i = 1; i < count; ++i)
+                    sum += scaled[i] * right[i];
+                *target++ -= sum;
+            }
+        }
+    }
+
+    /// <summary>Solves for the changes of the impulses, and applies them.</summary>
+    /// <returns>Whether all are numbers; nothing was changed otherwise.</returns>
+    internal bool Solve(in DirectIsland island)
+    {
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+            Ask(nodes[k]);
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+            GoForward(nodes[k]);
+        for (int k = island.EndNode - 1; k >= island.FirstNode; --k)
+            GoBack(nodes[k]);
+        for (int i = island.FirstRow; i < island.EndRow; ++i)
+        {
+            if (!double.IsFinite(rows[i].X))
+                return false;
+        }
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        {
+            for (int i = 0; i < nodes[k].RowCount; ++i)
+            {
+                ref var row = ref rows[nodes[k].FirstRow + i];
+                row.Impulse += row.X;
+                Apply(nodes[k], i, row.X);
+            }
+        }
+        return true;
+    }
+
+    // target - J v - s K lambda.
+    void Ask(in DirectNode node)
+    {
+        var j = jacobians + node.Jacobian;
+        var softness = rows[node.FirstRow].Softness;
+        var given = stackalloc double[4 * PerBody];
+        for (int i = 0; i < node.BodyCount * PerBody; ++i)
+        {
+            double sum = 0;
+            for (int row = 0; row < node.RowCount && softness > 0; ++row)
+                sum += weighted[node.Jacobian + row * node.BodyCount * PerBody + i] * rows[node.FirstRow + row].Impulse;
+            given[i] = sum * softness;
+        }
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            var x = rows[node.FirstRow + row].Target;
+            for (int slot = 0; slot < node.BodyCount; ++slot, j += PerBody)
+            {
+                ref var body = ref bodies[node.Bodies[slot]];
+                for (int i = 0; i < PerBody; ++i)
+                    x -= j[i] * (body.Velocity[i] + given[slot * PerBody + i]);
+            }
+            rows[node.FirstRow + row].X = x;
+        }
+    }
+
+    void GoForward(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        var diagonal = numbers + node.Diagonal;
+        for (int row = 1; row < count; ++row)
+        {
+            for (int i = 0; i < row; ++i)
+                x[row].X -= diagonal[row * count + i] * x[i].X;
+        }
+        for (int row = 0; row < count; ++row)
+            x[row].X *= x[row].InversePivot;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            var block = numbers + blocks[a].Place;
+            ref var later = ref nodes[blocks[a].Node];
+            for (int row = 0; row < later.RowCount; ++row, block += count)
+            {
+                double sum = 0;
+                for (int i = 0; i < count; ++i)
+                    sum += block[i] * x[i].X;
+                rows[later.FirstRow + row].X -= sum;
+            }
+        }
+    }
+
+    void GoBack(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        var diagonal = numbers + node.Diagonal;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            var block = numbers + blocks[a].Place;
+            ref var later = ref nodes[blocks[a].Node];
+            for (int row = 0; row < later.RowCount; ++row, block += count)
+            {
+                var known = rows[later.FirstRow + row].X;
+                for (int i = 0; i < count; ++i)
+                    x[i].X -= x[i].InversePivot * block[i] * known;
+            }
+        }
+        for (int row = count - 2; row >= 0; --row)
+        {
+            for (int i = row + 1; i < count; ++i)
+                x[row].X -= diagonal[i * count + row] * x[i].X;
+        }
+    }
+
+    void Apply(in DirectNode node, int row, double impulse)
+    {
+        var w = weighted + node.Jacobian + row * node.BodyCount * PerBody;
+        for (int slot = 0; slot < node.BodyCount; ++slot, w += PerBody)
+        {
+            ref var body = ref bodies[node.Bodies[slot]];
+            for (int i = 0; i < PerBody; ++i)
+                body.Velocity[i] += w[i] * impulse;
+        }
+    }
+}

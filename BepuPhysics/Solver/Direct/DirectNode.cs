@@ -1,0 +1,104 @@
+namespace BepuPhysics.Constraints;
+
+/// <summary>A joint of a structure that is solved at once.</summary>
+struct DirectNode
+{
+    /// <summary>Slot of its handle.</summary>
+    public int Slot;
+    /// <summary>Id of its type.</summary>
+    public int TypeId;
+    /// <summary>Index in the type batch.</summary>
+    public int Index;
+    /// <summary>Its structure.</summary>
+    public int Island;
+    /// <summary>Number of its rows.</summary>
+    public int RowCount;
+    /// <summary>Number of its bodies.</summary>
+    public int BodyCount;
+    /// <summary>Place of the first row.</summary>
+    public int FirstRow;
+    /// <summary>Place of its Jacobian: six numbers for each body of each row.</summary>
+    public int Jacobian;
+    /// <summary>Place of its block on the diagonal.</summary>
+    public int Diagonal;
+    /// <summary>First of the blocks below it, those of the joints that are left when it is eliminated, and their number.</summary>
+    public int FirstBlock, BlockCount;
+    /// <summary>First of the places that its elimination changes.</summary>
+    public int FirstTarget;
+    /// <summary>Places of its bodies among those of the plan.</summary>
+    public DirectBodies Bodies;
+}
+
+/// <summary>Up to four numbers of bodies.</summary>
+[System.Runtime.CompilerServices.InlineArray(4)]
+struct DirectBodies
+{
+    int first;
+}
+
+/// <summary>A structure of joints that is solved at once: ranges in the lists of the plan.</summary>
+struct DirectIsland
+{
+    /// <summary>Its joints, in the order of elimination.</summary>
+    public int FirstNode, EndNode;
+    /// <summary>Its bodies, kinematic ones included.</summary>
+    public int FirstBody, EndBody;
+    /// <summary>What couples its joints.</summary>
+    public int FirstCoupling, EndCoupling;
+    /// <summary>Its numbers.</summary>
+    public int FirstNumber, EndNumber;
+    /// <summary>Its rows.</summary>
+    public int FirstRow, EndRow;
+    /// <summary>Whether it has loops, or several ways to the ground.</summary>
+    public bool HasLoops;
+}
+
+/// <summary>A row of such a joint.</summary>
+struct DirectRow
+{
+    /// <summary>J v that it is after, m/s or rad/s.</summary>
+    public double Target;
+    /// <summary>Softness, as part of the joint's own K; zero where it is rigid.</summary>
+    public double Softness;
+    /// <summary>The accumulated impulse.</summary>
+    public double Impulse;
+    /// <summary>What is asked for, then the change of the impulse.</summary>
+    public double X;
+    /// <summary>The pivot up to which it is left out.</summary>
+    public double LeastPivot;
+    /// <summary>One over the pivot, or zero where the rows before say all that this one does.</summary>
+    public double InversePivot;
+}
+
+/// <summary>A block below the diagonal, in the column of the joint that is eliminated first.</summary>
+struct DirectBlock
+{
+    /// <summary>The joint that is eliminated later.</summary>
+    public int Node;
+    /// <summary>Place of its numbers, row by row of the later joint.</summary>
+    public int Place;
+}
+
+/// <summary>A body that two joints have in common: what makes their block.</summary>
+struct DirectCoupling
+{
+    /// <summary>Place of the block's numbers.</summary>
+    public int Place;
+    /// <summary>The joint that is eliminated later, and the one before.</summary>
+    public int Later, Earlier;
+    /// <summary>Which of their bodies it is.</summary>
+    public int LaterSlot, EarlierSlot;
+}
+
+/// <summary>A body of such a structure.</summary>
+unsafe struct DirectBody
+{
+    /// <summary>Index in the active set, with the mark of a kinematic one.</summary>
+    public int Reference;
+    /// <summary>1/kg.</summary>
+    public double InverseMass;
+    /// <summary>Inverse inertia, world axes: XX, YX, YY, ZX, ZY, ZZ.</summary>
+    public fixed double InverseInertia[6];
+    /// <summary>Linear and angular velocity.</summary>
+    public fixed double Velocity[6];
+}

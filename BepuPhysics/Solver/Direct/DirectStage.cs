@@ -1,0 +1,261 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>Solves all joints of a structure at once.</summary>
+// A sweep moves a load over one joint: a chain of a hundred knows its weight after a hundred of them, and until then it stretches. Here the joints of a
+// structure, which the sweeps leave out, are solved together in each substep, after the sweeps over contacts, limits and motors have said what these want. So
+// these see the joints by the impulses of the last substep, and the joints see all that they have done.
+sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
+{
+    const int MaximumBlocks = 16;
+    const int BundlesPerBlock = 8;
+
+    DirectPlan plan;
+    // Which joint each lane of the type batches that are left out is, type batch by type batch.
+    QuickList<int> nodeOfLane;
+    Buffer<double> numbers;
+    Buffer<double> jacobians;
+    Buffer<double> weighted;
+    Buffer<DirectRow> rows;
+    int bundleCount;
+
+    /// <summary>Chooses joints anew.</summary>
+    internal void Replace(in DirectPlan next)
+    {
+        Dispose();
+        plan = next;
+        if (plan.IsEmpty)
+        {
+            plan.Dispose(pool);
+            return;
+        }
+        pool.Take(plan.NumberCount, out numbers);
+        pool.Take(plan.JacobianCount, out jacobians);
+        pool.Take(plan.JacobianCount, out weighted);
+        pool.Take(plan.RowCount, out rows);
+        FindLanes();
+    }
+
+    // After the joints have gone where they are left out.
+    void FindLanes()
+    {
+        ref var batches = ref solver.ActiveSet.Batches;
+        nodeOfLane = new QuickList<int>(16, pool);
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            for (int j = 0; j < batches[i].TypeBatches.Count && batches[i].Kind == BatchKind.Direct; ++j)
+                nodeOfLane.Allocate(batches[i].TypeBatches[j].BundleCount * Vector<float>.Count, pool) = 0;
+        }
+        bundleCount = nodeOfLane.Count / Vector<float>.Count;
+        for (int i = 0; i < plan.Nodes.Count; ++i)
+        {
+            ref var node = ref plan.Nodes[i];
+            ref var location = ref solver.Locations[node.Slot];
+            node.Index = location.IndexInTypeBatch;
+            nodeOfLane[FirstLane(location) + node.Index] = i;
+        }
+    }
+
+    int FirstLane(in ConstraintLocation location)
+    {
+        ref var typeBatches = ref solver.ActiveSet.Batches[location.BatchIndex].TypeBatches;
+        int first = 0;
+        for (int i = 0; typeBatches[i].TypeId != location.TypeId; ++i)
+            first += typeBatches[i].BundleCount * Vector<float>.Count;
+        return first;
+    }
+
+    bool ISolverStage.BeginStep() => !plan.IsEmpty;
+
+    int ISolverStage.GetBlockCount(SolverPoint point) => point switch
+    {
+        SolverPoint.BeforeWarmStart => Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock),
+        SolverPoint.AfterWarmStart or SolverPoint.AfterSolve => IslandBlocks,
+        SolverPoint.LastAfterWarmStart => 1,
+        _ => 0,
+    };
+
+    int IslandBlocks => Math.Min(MaximumBlocks, plan.Islands.Count);
+
+    void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
+    {
+        switch (point)
+        {
+            case SolverPoint.BeforeWarmStart:
+                ReadBundles(substep.Directly(), block);
+                break;
+            case SolverPoint.AfterWarmStart:
+                for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
+                    Begin(plan.Islands[i], substep);
+                break;
+            case SolverPoint.LastAfterWarmStart:
+                if (substep.Index == 0)
+                    AddStiffness(substep);
+                break;
+            case SolverPoint.AfterSolve:
+                for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
+                    Solve(plan.Islands[i]);
+                break;
+        }
+    }
+
+    DirectEquations Equations => new(plan, numbers.Memory, jacobians.Memory, weighted.Memory, rows.Memory);
+
+    ref ConstraintBatch LeftOut => ref solver.ActiveSet.Batches[Solver.FindBatch(solver.ActiveSet, BatchKind.Direct)];
+
+    void ReadBundles(in Substep substep, int block)
+    {
+        var blocks = Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock);
+        var start = bundleCount * block / blocks;
+        var end = bundleCount * (block + 1) / blocks;
+        ref var set = ref bodies.Awake;
+        var awake = new SolverBodies(set);
+        Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectEquations.PerBody];
+        int first = 0;
+        foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
+        {
+            var processor = solver.Processor(batch.TypeId);
+            for (int bundle = Math.Max(0, start - first); bundle < Math.Min(end - first, batch.BundleCount); ++bundle)
+            {
+                var rowsOfBundle = wide[..processor.RowCount];
+                processor.ReadRows(ref batch, awake, substep, bundle, rowsOfBundle);
+                var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
+                for (int lane = 0; lane < lanes; ++lane)
+                    ReadLane(rowsOfBundle, lane, plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]]);
+            }
+            first += batch.BundleCount;
+        }
+    }
+
+    void ReadLane(Span<ConstraintRowWide> wide, int lane, in DirectNode node)
+    {
+        var j = jacobians.Memory + node.Jacobian;
+        for (int i = 0; i < node.RowCount; ++i)
+        {
+            // Bodies of a Jacobian lie side by side, and so do their numbers.
+            ref var numbersOfRow = ref Unsafe.As<RowJacobianWide, Vector<float>>(ref wide[i].A);
+            for (int k = 0; k < node.BodyCount * DirectEquations.PerBody; ++k)
+                *j++ = Unsafe.Add(ref numbersOfRow, k)[lane];
+            // A structure without loops bears joints that do not give at all.
+            var isRigid = wide[i].HardMask[lane] != 0 && !HasLoops(node);
+            ref var row = ref rows[node.FirstRow + i];
+            row.Target = wide[i].TargetVelocity[lane];
+            row.Softness = isRigid ? 0 : (double)wide[i].ImpulseScale[lane] / wide[i].MassScale[lane];
+            row.Impulse = wide[i].Impulse[lane];
+        }
+    }
+
+    bool HasLoops(in DirectNode node) => plan.Islands[node.Island].HasLoops;
+
+    void Begin(in DirectIsland island, in Substep substep)
+    {
+        ReadBodies(island);
+        Equations.Factor(island);
+        Equations.WarmStart(island, substep.WarmStartScale);
+        WriteVelocities(island);
+    }
+
+    void Solve(in DirectIsland island)
+    {
+        ReadVelocities(island);
+        if (!Equations.Solve(island))
+            return;
+        WriteVelocities(island);
+        for (int i = island.FirstNode; i < island.EndNode; ++i)
+        {
+            ref var node = ref plan.Nodes[i];
+            ref var batch = ref LeftOut.TypeBatches[LeftOut.Find(node.TypeId)];
+            for (int row = 0; row < node.RowCount; ++row)
+                solver.Processor(node.TypeId).Impulse(ref batch, node.Index, row) = (float)rows[node.FirstRow + row].Impulse;
+        }
+    }
+
+    void ReadBodies(in DirectIsland island)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = island.FirstBody; i < island.EndBody; ++i)
+        {
+            ref var body = ref plan.Bodies[i];
+            ref var inertia = ref set.WorldInertias[body.Reference & EncodedBody.IndexMask];
+            body.InverseMass = inertia.InverseMass;
+            body.InverseInertia[0] = inertia.InverseInertiaTensor.XX;
+            body.InverseInertia[1] = inertia.InverseInertiaTensor.YX;
+            body.InverseInertia[2] = inertia.InverseInertiaTensor.YY;
+            body.InverseInertia[3] = inertia.InverseInertiaTensor.ZX;
+            body.InverseInertia[4] = inertia.InverseInertiaTensor.ZY;
+            body.InverseInertia[5] = inertia.InverseInertiaTensor.ZZ;
+        }
+        ReadVelocities(island);
+    }
+
+    void ReadVelocities(in DirectIsland island)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = island.FirstBody; i < island.EndBody; ++i)
+        {
+            ref var body = ref plan.Bodies[i];
+            ref var velocity = ref set.MotionStates[body.Reference & EncodedBody.IndexMask].Velocity;
+            body.Velocity[0] = velocity.Linear.X;
+            body.Velocity[1] = velocity.Linear.Y;
+            body.Velocity[2] = velocity.Linear.Z;
+            body.Velocity[3] = velocity.Angular.X;
+            body.Velocity[4] = velocity.Angular.Y;
+            body.Velocity[5] = velocity.Angular.Z;
+        }
+    }
+
+    // Kinematic bodies may be of several structures, and nothing moves them.
+    void WriteVelocities(in DirectIsland island)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = island.FirstBody; i < island.EndBody; ++i)
+        {
+            ref var body = ref plan.Bodies[i];
+            if ((body.Reference & EncodedBody.KinematicFlag) != 0)
+                continue;
+            ref var velocity = ref set.MotionStates[body.Reference & EncodedBody.IndexMask].Velocity;
+            velocity.Linear = new((float)body.Velocity[0], (float)body.Velocity[1], (float)body.Velocity[2]);
+            velocity.Angular = new((float)body.Velocity[3], (float)body.Velocity[4], (float)body.Velocity[5]);
+        }
+    }
+
+    // Several joints of a bundle may be on one body.
+    void AddStiffness(in Substep substep)
+    {
+        ref var set = ref bodies.Awake;
+        var awake = new SolverBodies(set);
+        foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
+        {
+            var processor = solver.Processor(batch.TypeId);
+            for (int bundle = 0; bundle < batch.BundleCount && processor.CarriesPointLoad; ++bundle)
+                processor.AddStiffness(ref batch, awake, substep, bundle, set.Stiffness);
+        }
+    }
+
+    /// <summary>Gives all memory back.</summary>
+    internal void Dispose()
+    {
+        plan.Dispose(pool);
+        if (!numbers.Allocated)
+            return;
+        pool.Return(ref numbers);
+        pool.Return(ref jacobians);
+        pool.Return(ref weighted);
+        pool.Return(ref rows);
+        nodeOfLane.Dispose(pool);
+    }
+
+    /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
+    internal void Abandon()
+    {
+        plan = default;
+        numbers = jacobians = weighted = default;
+        rows = default;
+        nodeOfLane = default;
+    }
+}

@@ -1,0 +1,101 @@
+using System;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>Which joints of a structure move which of its dynamic bodies, both counted from zero.</summary>
+readonly struct JointGraph
+{
+    readonly Buffer<int> bodyStarts;
+    readonly Buffer<int> bodiesOfJoints;
+    readonly Buffer<int> jointStarts;
+    readonly Buffer<int> jointsOfBodies;
+
+    /// <summary>Number of joints.</summary>
+    internal readonly int JointCount;
+    /// <summary>Number of bodies.</summary>
+    internal readonly int BodyCount;
+
+    /// <summary>Arranges a structure.</summary>
+    /// <param name="jointCount">Number of joints.</param>
+    /// <param name="bodyCount">Number of bodies.</param>
+    /// <param name="bodyStarts">Where the bodies of each joint begin; one more than there are joints.</param>
+    /// <param name="bodiesOfJoints">The bodies of the joints.</param>
+    /// <param name="pool">Memory.</param>
+    internal JointGraph(int jointCount, int bodyCount, Buffer<int> bodyStarts, Buffer<int> bodiesOfJoints, BufferPool pool)
+    {
+        JointCount = jointCount;
+        BodyCount = bodyCount;
+        this.bodyStarts = bodyStarts;
+        this.bodiesOfJoints = bodiesOfJoints;
+        var incidences = bodyStarts[jointCount];
+        pool.Take(bodyCount + 2, out jointStarts);
+        pool.Take(Math.Max(1, incidences), out jointsOfBodies);
+        jointStarts.Clear(0, bodyCount + 2);
+        // Counted two places further on, so that filling leaves starts behind.
+        for (int i = 0; i < incidences; ++i)
+            ++jointStarts[bodiesOfJoints[i] + 2];
+        for (int i = 2; i < bodyCount + 2; ++i)
+            jointStarts[i] += jointStarts[i - 1];
+        for (int joint = 0; joint < jointCount; ++joint)
+        {
+            foreach (var body in BodiesOf(joint))
+                jointsOfBodies[jointStarts[body + 1]++] = joint;
+        }
+    }
+
+    /// <summary>Dynamic bodies of a joint.</summary>
+    internal unsafe ReadOnlySpan<int> BodiesOf(int joint) => new(bodiesOfJoints.Memory + bodyStarts[joint], bodyStarts[joint + 1] - bodyStarts[joint]);
+
+    /// <summary>Joints of a dynamic body, in their order.</summary>
+    internal unsafe ReadOnlySpan<int> JointsOf(int body) => new(jointsOfBodies.Memory + jointStarts[body], jointStarts[body + 1] - jointStarts[body]);
+
+    /// <summary>Whether the structure, which hangs together, has loops; the ground counts as one body.</summary>
+    // A tree of joints and bodies has one less link between them than there are of both. Joints that move the same bodies are one.
+    internal bool HasLoops()
+    {
+        int links = 0, joints = 0, grounded = 0;
+        for (int joint = 0; joint < JointCount; ++joint)
+        {
+            if (RepeatsOther(joint))
+                continue;
+            var bodies = BodiesOf(joint).Length;
+            ++joints;
+            links += bodies;
+            grounded += bodies == 1 ? 1 : 0;
+        }
+        return links > joints + BodyCount - 1 || grounded > 1;
+    }
+
+    bool RepeatsOther(int joint)
+    {
+        var bodies = BodiesOf(joint);
+        foreach (var other in JointsOf(bodies[0]))
+        {
+            if (other == joint)
+                return false;
+            if (HasSame(bodies, BodiesOf(other)))
+                return true;
+        }
+        return false;
+    }
+
+    static bool HasSame(ReadOnlySpan<int> a, ReadOnlySpan<int> b)
+    {
+        if (a.Length != b.Length)
+            return false;
+        foreach (var body in a)
+        {
+            if (!b.Contains(body))
+                return false;
+        }
+        return true;
+    }
+
+    internal void Dispose(BufferPool pool)
+    {
+        var (starts, joints) = (jointStarts, jointsOfBodies);
+        pool.Return(ref starts);
+        pool.Return(ref joints);
+    }
+}
