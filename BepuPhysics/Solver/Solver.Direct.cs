@@ -44,7 +44,7 @@ public sealed unsafe partial class Solver
         if (directJoints != DirectJointsMode.Off)
             new DirectChooser(joints, bodies.Awake.Count, pool).Choose(ref plan);
         for (int i = 0; i < joints.Count; ++i)
-            SetSwept(new ConstraintHandle(owners.ValueAt(joints[i].Slot)), !joints[i].IsDirect);
+            SetSwept(joints[i].Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
         directStage.Replace(plan);
         chosenMode = directJoints;
@@ -60,30 +60,47 @@ public sealed unsafe partial class Solver
         chosenVersion = jointVersion - 1;
     }
 
-    // All that may be solved at once, by slots: where they are in memory says nothing.
+    // All that may be solved at once, in the order of the batches, and first what is already: numbers of handles and batches say who was there before, and may
+    // not decide anything.
     QuickList<DirectCandidate> FindJoints()
     {
         var joints = new QuickList<DirectCandidate>(16, pool);
         foreach (ref var batch in ActiveSet.Batches.AsSpan())
         {
-            foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
+            if (batch.Kind == BatchKind.Direct)
+                AddJoints(batch, ref joints);
+        }
+        foreach (ref var batch in ActiveSet.Batches.AsSpan())
+        {
+            if (batch.Kind is BatchKind.Coloured or BatchKind.Fallback)
+                AddJoints(batch, ref joints);
+        }
+        return joints;
+    }
+
+    void AddJoints(in ConstraintBatch batch, ref QuickList<DirectCandidate> joints)
+    {
+        foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
+        {
+            var processor = Processor(typeBatch.TypeId);
+            if (!IsOfJoints(typeBatch) || !IsHeldBothWays(processor))
+                continue;
+            for (int i = 0; i < typeBatch.ConstraintCount; ++i)
             {
-                var processor = Processor(typeBatch.TypeId);
-                if (batch.Kind == BatchKind.Disabled || !IsOfJoints(typeBatch) || !IsHeldBothWays(processor))
-                    continue;
-                for (int i = 0; i < typeBatch.ConstraintCount; ++i)
+                ref var joint = ref joints.Allocate(pool);
+                joint = new() { Handle = typeBatch.IndexToHandle[i] };
+                ref var node = ref joint.Node;
+                node = new()
                 {
-                    ref var joint = ref joints.Allocate(pool);
-                    joint = new() { Slot = typeBatch.IndexToHandle[i].Slot };
-                    ref var node = ref joint.Node;
-                    node = new() { Slot = joint.Slot, TypeId = typeBatch.TypeId, RowCount = processor.RowCount, BodyCount = processor.BodiesPerConstraint };
-                    for (int slot = 0; slot < node.BodyCount; ++slot)
-                        node.Bodies[slot] = processor.BodyReference(ref typeBatch, i, slot) & (EncodedBody.IndexMask | EncodedBody.KinematicFlag);
-                }
+                    Slot = joint.Handle.Slot,
+                    TypeId = typeBatch.TypeId,
+                    RowCount = processor.RowCount,
+                    BodyCount = processor.BodiesPerConstraint,
+                };
+                for (int slot = 0; slot < node.BodyCount; ++slot)
+                    node.Bodies[slot] = processor.BodyReference(ref typeBatch, i, slot) & (EncodedBody.IndexMask | EncodedBody.KinematicFlag);
             }
         }
-        joints.AsSpan().Sort(static (a, b) => a.Slot.CompareTo(b.Slot));
-        return joints;
     }
 
     // Limits, servos and motors have bounds, which sweeps are good at.

@@ -161,6 +161,7 @@ public sealed unsafe partial class Solver
         governor = description.Governor;
         directStage = new DirectStage(this, bodies, pool);
         OptionalStages.Add(directStage);
+        OptionalStages.Add(new DirectLoadStage(this, directStage, bodies));
         errorStage = new ConstraintErrorStage(this, bodies);
         OptionalStages.Add(errorStage);
         OptionalStages.Add(new BreakStage(this));

@@ -119,6 +119,7 @@ sealed class BadInputWorld : IDisposable
         hash.Add(Solver.VelocityIterationCount);
         hash.Add(Solver.RelaxationIterationCount);
         hash.Add((int)Solver.LoadPath);
+        hash.Add((int)Solver.DirectJoints);
         hash.Add(Solver.Governor.HasValue ? 1 : 0);
         hash.Add(Solver.Governor.GetValueOrDefault().TargetError);
         hash.Add(Solver.Governor.GetValueOrDefault().LeastSubstepCount);

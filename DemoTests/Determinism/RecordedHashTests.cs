@@ -38,6 +38,7 @@ public class RecordedHashTests
         ["coins"] = () => Run(SceneLibrary.Load("coins", 1), 120),
         ["fast"] = () => Run(SmallScenes.Fast(seed: 1), 120),
         ["joints"] = () => Run(new RandomScene(5, Ingredients.Contacts | Ingredients.Joints), 60),
+        ["joints at once"] = () => Run(new RandomScene(5, Ingredients.Contacts | Ingredients.Joints), 60, DirectJointsMode.Always),
         ["hubs"] = () => Run(new RandomScene(6, Ingredients.All), 60),
         ["bounces"] = () => Bounce(60),
         ["wave"] = () => Run(SmallScenes.Wave(), 350),
@@ -78,9 +79,10 @@ public class RecordedHashTests
         return world.HashSteps(steps)[^1];
     }
 
-    static ulong Run(RandomScene scene, int steps)
+    static ulong Run(RandomScene scene, int steps, DirectJointsMode joints = DirectJointsMode.Off)
     {
         using var world = new TestWorld();
+        world.Solver.DirectJoints = joints;
         scene.AddTo(world);
         return world.HashSteps(steps)[^1];
     }

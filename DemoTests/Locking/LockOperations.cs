@@ -128,6 +128,7 @@ static class LockOperations
         Change("Solver.SubstepCount", w => w.Simulation.Solver.SubstepCount = 3);
         Change("Solver.VelocityIterationCount", w => w.Simulation.Solver.VelocityIterationCount = 2);
         Change("Solver.RelaxationIterationCount", w => w.Simulation.Solver.RelaxationIterationCount = 1);
+        Change("Solver.DirectJoints", w => w.Simulation.Solver.DirectJoints = DirectJointsMode.Always);
         Change("Solver.LoadPath", w => w.Simulation.Solver.LoadPath = LoadPathMode.Always);
         Change("Solver.Governor", w => w.Simulation.Solver.Governor = new(0.001f, 2, 8));
         Change("Solver.MinimumCapacityPerTypeBatch", w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = 128);

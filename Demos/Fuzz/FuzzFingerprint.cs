@@ -82,6 +82,7 @@ static class FuzzFingerprint
         hash.Add(solver.SubstepCount);
         hash.Add(solver.RelaxationIterationCount);
         hash.Add((int)solver.LoadPath);
+        hash.Add((int)solver.DirectJoints);
         hash.Add(solver.Governor.HasValue ? 1 : 0);
         hash.Add(solver.Governor.GetValueOrDefault().TargetError);
         hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);

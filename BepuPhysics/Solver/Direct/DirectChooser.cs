@@ -7,8 +7,8 @@ namespace BepuPhysics.Constraints;
 /// <summary>A joint that may be solved together with others.</summary>
 struct DirectCandidate
 {
-    /// <summary>Slot of its handle.</summary>
-    public int Slot;
+    /// <summary>Its handle.</summary>
+    public ConstraintHandle Handle;
     /// <summary>Whether it is to be.</summary>
     public bool IsDirect;
     /// <summary>The joint as a plan knows it, with references to its bodies.</summary>
@@ -29,7 +29,7 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         DisjointSets.Begin(structures, bodyCount);
         foreach (ref var joint in joints)
             Join(structures, joint.Node);
-        // Joints of each structure in the order of their slots: chained, with the first of each by the root of its bodies.
+        // Joints of each structure in their order: chained, with the first of each by the root of its bodies.
         pool.Take<int>(bodyCount, out var last);
         pool.Take<int>(joints.Length, out var next);
         pool.Take<int>(joints.Length, out var firsts);

@@ -1,3 +1,6 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>The equations of all structures of joints that are solved at once, in numbers of double precision.</summary>
@@ -7,12 +10,13 @@ namespace BepuPhysics.Constraints;
 //
 // Single precision is not enough: in a chain whose end is a million times as heavy as a link all digits are gone before the last pivot. In double precision a
 // true pivot of such a chain is a millionth of its diagonal, and what rounding of J leaves of a row that says what others have said is 1e-14 of it.
-unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, double* jacobians, double* weighted, DirectRow* rows)
+unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, DirectPair* jacobians, DirectPair* weighted, DirectRow* rows)
 {
     // Part of what a row has on the diagonal below which its pivot is rounding.
     const double LeastPivot = 1e-9;
-    /// <summary>Numbers of a body in the Jacobian of a row.</summary>
-    internal const int PerBody = 6;
+    /// <summary>Most rows of a joint.</summary>
+    internal const int MostRows = 6;
+    const int MostBodies = 4;
 
     readonly DirectNode* nodes = plan.Nodes.Span.Memory;
     readonly DirectBlock* blocks = plan.Blocks.Span.Memory;
@@ -57,32 +61,31 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, doub
         var w = weighted + node.Jacobian;
         for (int row = 0; row < node.RowCount; ++row)
         {
-            for (int slot = 0; slot < node.BodyCount; ++slot, j += PerBody, w += PerBody)
+            for (int slot = 0; slot < node.BodyCount; ++slot, ++j, ++w)
             {
                 ref var body = ref bodies[node.Bodies[slot]];
-                for (int i = 0; i < 3; ++i)
-                    w[i] = body.InverseMass * j[i];
-                w[3] = body.InverseInertia[0] * j[3] + body.InverseInertia[1] * j[4] + body.InverseInertia[3] * j[5];
-                w[4] = body.InverseInertia[1] * j[3] + body.InverseInertia[2] * j[4] + body.InverseInertia[4] * j[5];
-                w[5] = body.InverseInertia[3] * j[3] + body.InverseInertia[4] * j[4] + body.InverseInertia[5] * j[5];
+                w->Linear = j->Linear * body.InverseMass;
+                w->Angular = body.InverseInertiaX * j->Angular[0] + body.InverseInertiaY * j->Angular[1] + body.InverseInertiaZ * j->Angular[2];
             }
         }
     }
 
-    static double Dot(double* a, double* b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
+    // Always in this order, as on every machine.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static double Sum(Vector256<double> v) => v[0] + v[1] + (v[2] + v[3]);
 
     void AddDiagonal(in DirectNode node)
     {
         var block = numbers + node.Diagonal;
-        var stride = node.BodyCount * PerBody;
+        var count = node.BodyCount;
         for (int row = 0; row < node.RowCount; ++row)
         {
             for (int column = 0; column <= row; ++column)
             {
-                double sum = 0;
-                for (int slot = 0; slot < stride; slot += PerBody)
-                    sum += Dot(jacobians + node.Jacobian + row * stride + slot, weighted + node.Jacobian + column * stride + slot);
-                block[row * node.RowCount + column] = sum * (1 + rows[node.FirstRow].Softness);
+                var sum = Vector256<double>.Zero;
+                for (int slot = 0; slot < count; ++slot)
+                    sum += DirectPair.Multiply(jacobians[node.Jacobian + row * count + slot], weighted[node.Jacobian + column * count + slot]);
+                block[row * node.RowCount + column] = Sum(sum) * (1 + rows[node.FirstRow].Softness);
             }
             rows[node.FirstRow + row].LeastPivot = LeastPivot * block[row * node.RowCount + row];
         }
@@ -93,12 +96,12 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, doub
         ref var later = ref nodes[coupling.Later];
         ref var earlier = ref nodes[coupling.Earlier];
         var block = numbers + coupling.Place;
-        var j = jacobians + later.Jacobian + coupling.LaterSlot * PerBody;
-        for (int row = 0; row < later.RowCount; ++row, j += later.BodyCount * PerBody)
+        var j = jacobians + later.Jacobian + coupling.LaterSlot;
+        for (int row = 0; row < later.RowCount; ++row, j += later.BodyCount)
         {
-            var w = weighted + earlier.Jacobian + coupling.EarlierSlot * PerBody;
-            for (int column = 0; column < earlier.RowCount; ++column, w += earlier.BodyCount * PerBody)
-                *block++ += Dot(j, w);
+            var w = weighted + earlier.Jacobian + coupling.EarlierSlot;
+            for (int column = 0; column < earlier.RowCount; ++column, w += earlier.BodyCount)
+                *block++ += Sum(DirectPair.Multiply(*j, *w));
         }
     }
 
@@ -156,7 +159,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, doub
     void Subtract(in DirectNode node, in DirectBlock a, in DirectBlock b, double* target)
     {
         var count = node.RowCount;
-        var scaled = stackalloc double[PerBody];
+        var scaled = stackalloc double[MostRows];
         var left = numbers + a.Place;
         var columns = nodes[b.Node].RowCount;
         for (int row = nodes[a.Node].RowCount; row > 0; --row, left += count)
@@ -206,24 +209,19 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, doub
     {
         var j = jacobians + node.Jacobian;
         var softness = rows[node.FirstRow].Softness;
-        var given = stackalloc double[4 * PerBody];
-        for (int i = 0; i < node.BodyCount * PerBody; ++i)
+        var velocities = stackalloc DirectPair[MostBodies];
+        for (int slot = 0; slot < node.BodyCount; ++slot)
         {
-            double sum = 0;
+            velocities[slot] = bodies[node.Bodies[slot]].Velocity;
             for (int row = 0; row < node.RowCount && softness > 0; ++row)
-                sum += weighted[node.Jacobian + row * node.BodyCount * PerBody + i] * rows[node.FirstRow + row].Impulse;
-            given[i] = sum * softness;
+                velocities[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], softness * rows[node.FirstRow + row].Impulse);
         }
         for (int row = 0; row < node.RowCount; ++row)
         {
-            var x = rows[node.FirstRow + row].Target;
-            for (int slot = 0; slot < node.BodyCount; ++slot, j += PerBody)
-            {
-                ref var body = ref bodies[node.Bodies[slot]];
-                for (int i = 0; i < PerBody; ++i)
-                    x -= j[i] * (body.Velocity[i] + given[slot * PerBody + i]);
-            }
-            rows[node.FirstRow + row].X = x;
+            var sum = Vector256<double>.Zero;
+            for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
+                sum += DirectPair.Multiply(*j, velocities[slot]);
+            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - Sum(sum);
         }
     }
 
@@ -278,12 +276,8 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, doub
 
     void Apply(in DirectNode node, int row, double impulse)
     {
-        var w = weighted + node.Jacobian + row * node.BodyCount * PerBody;
-        for (int slot = 0; slot < node.BodyCount; ++slot, w += PerBody)
-        {
-            ref var body = ref bodies[node.Bodies[slot]];
-            for (int i = 0; i < PerBody; ++i)
-                body.Velocity[i] += w[i] * impulse;
-        }
+        var w = weighted + node.Jacobian + row * node.BodyCount;
+        for (int slot = 0; slot < node.BodyCount; ++slot, ++w)
+            bodies[node.Bodies[slot]].Velocity.Add(*w, impulse);
     }
 }

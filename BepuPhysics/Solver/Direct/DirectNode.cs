@@ -1,3 +1,6 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>A joint of a structure that is solved at once.</summary>
@@ -17,7 +20,7 @@ struct DirectNode
     public int BodyCount;
     /// <summary>Place of the first row.</summary>
     public int FirstRow;
-    /// <summary>Place of its Jacobian: six numbers for each body of each row.</summary>
+    /// <summary>Place of its Jacobian: a pair for each body of each row.</summary>
     public int Jacobian;
     /// <summary>Place of its block on the diagonal.</summary>
     public int Diagonal;
@@ -30,7 +33,7 @@ struct DirectNode
 }
 
 /// <summary>Up to four numbers of bodies.</summary>
-[System.Runtime.CompilerServices.InlineArray(4)]
+[InlineArray(4)]
 struct DirectBodies
 {
     int first;
@@ -90,15 +93,36 @@ struct DirectCoupling
     public int LaterSlot, EarlierSlot;
 }
 
-/// <summary>A body of such a structure.</summary>
-unsafe struct DirectBody
+/// <summary>A linear and an angular part; the fourth number of each is zero.</summary>
+struct DirectPair
 {
-    /// <summary>Index in the active set, with the mark of a kinematic one.</summary>
-    public int Reference;
+    /// <summary>Of the centre of mass.</summary>
+    public Vector256<double> Linear;
+    /// <summary>About it, world axes.</summary>
+    public Vector256<double> Angular;
+
+    /// <summary>Product by numbers.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector256<double> Multiply(in DirectPair a, in DirectPair b) => a.Linear * b.Linear + a.Angular * b.Angular;
+
+    /// <summary>Adds a multiple.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void Add(in DirectPair other, double factor)
+    {
+        Linear += other.Linear * factor;
+        Angular += other.Angular * factor;
+    }
+}
+
+/// <summary>A body of such a structure.</summary>
+struct DirectBody
+{
+    /// <summary>Linear and angular velocity.</summary>
+    public DirectPair Velocity;
+    /// <summary>Columns of the inverse inertia, world axes.</summary>
+    public Vector256<double> InverseInertiaX, InverseInertiaY, InverseInertiaZ;
     /// <summary>1/kg.</summary>
     public double InverseMass;
-    /// <summary>Inverse inertia, world axes: XX, YX, YY, ZX, ZY, ZZ.</summary>
-    public fixed double InverseInertia[6];
-    /// <summary>Linear and angular velocity.</summary>
-    public fixed double Velocity[6];
+    /// <summary>Index in the active set, with the mark of a kinematic one.</summary>
+    public int Reference;
 }

@@ -11,8 +11,9 @@ unsafe struct DirectPlan
 {
     /// <summary>Joints of a structure with loops beyond which it is left to the sweeps: the work grows with a power between two and three.</summary>
     internal const int MostJointsWithLoops = 1024;
-    // Blocks per joint beyond which a structure is left to the sweeps: a hub of many hundred joints.
-    const int MostBlocksPerJoint = 128;
+    // Blocks that an elimination changes, per joint in the mean, beyond which a structure is left to the sweeps: a hub of forty joints, a net of twenty by
+    // twenty.
+    const int MostTargetsPerJoint = 256;
 
     /// <summary>Joints, island by island, in the order of elimination.</summary>
     internal QuickList<DirectNode> Nodes;
@@ -30,7 +31,7 @@ unsafe struct DirectPlan
     internal int NumberCount;
     /// <summary>Rows of all joints.</summary>
     internal int RowCount;
-    /// <summary>Numbers of all Jacobians.</summary>
+    /// <summary>Pairs of all Jacobians.</summary>
     internal int JacobianCount;
 
     /// <summary>Whether any joint is solved at once.</summary>
@@ -132,8 +133,8 @@ unsafe struct DirectPlan
     bool TryArrange(ReadOnlySpan<DirectNode> joints, in JointGraph graph, ReadOnlySpan<int> order, BufferPool pool)
     {
         var first = Nodes.Count;
-        var firstBlock = Blocks.Count;
         var count = order.Length;
+        long targets = 0;
         pool.Take<int>(count * 4, out var scratch);
         var place = scratch.Slice(0, count);
         var firstChild = scratch.Slice(count, count);
@@ -153,7 +154,7 @@ unsafe struct DirectPlan
             node.Diagonal = NumberCount;
             node.FirstBlock = Blocks.Count;
             RowCount += node.RowCount;
-            JacobianCount += node.RowCount * node.BodyCount * 6;
+            JacobianCount += node.RowCount * node.BodyCount;
             NumberCount += node.RowCount * node.RowCount;
             seenBy[k] = k;
             foreach (var body in graph.BodiesOf(order[k]))
@@ -176,7 +177,8 @@ unsafe struct DirectPlan
                 nextChild[k] = firstChild[parent];
                 firstChild[parent] = k;
             }
-            fits = Blocks.Count - firstBlock <= (long)MostBlocksPerJoint * count;
+            targets += node.BlockCount * (node.BlockCount + 1) / 2;
+            fits = targets <= (long)MostTargetsPerJoint * count;
         }
         pool.Return(ref scratch);
         if (fits)

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -19,8 +20,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
     // Which joint each lane of the type batches that are left out is, type batch by type batch.
     QuickList<int> nodeOfLane;
     Buffer<double> numbers;
-    Buffer<double> jacobians;
-    Buffer<double> weighted;
+    Buffer<DirectPair> jacobians;
+    Buffer<DirectPair> weighted;
     Buffer<DirectRow> rows;
     int bundleCount;
 
@@ -70,13 +71,15 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         return first;
     }
 
-    bool ISolverStage.BeginStep() => !plan.IsEmpty;
+    /// <summary>Whether there is any joint to solve.</summary>
+    internal bool HasJoints => !plan.IsEmpty;
+
+    bool ISolverStage.BeginStep() => HasJoints;
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
         SolverPoint.BeforeWarmStart => Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock),
         SolverPoint.AfterWarmStart or SolverPoint.AfterSolve => IslandBlocks,
-        SolverPoint.LastAfterWarmStart => 1,
         _ => 0,
     };
 
@@ -93,10 +96,6 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
                 for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
                     Begin(plan.Islands[i], substep);
                 break;
-            case SolverPoint.LastAfterWarmStart:
-                if (substep.Index == 0)
-                    AddStiffness(substep);
-                break;
             case SolverPoint.AfterSolve:
                 for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
                     Solve(plan.Islands[i]);
@@ -106,7 +105,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 
     DirectEquations Equations => new(plan, numbers.Memory, jacobians.Memory, weighted.Memory, rows.Memory);
 
-    ref ConstraintBatch LeftOut => ref solver.ActiveSet.Batches[Solver.FindBatch(solver.ActiveSet, BatchKind.Direct)];
+    internal ref ConstraintBatch LeftOut => ref solver.ActiveSet.Batches[Solver.FindBatch(solver.ActiveSet, BatchKind.Direct)];
 
     void ReadBundles(in Substep substep, int block)
     {
@@ -115,7 +114,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         var end = bundleCount * (block + 1) / blocks;
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
-        Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectEquations.PerBody];
+        Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectEquations.MostRows];
         int first = 0;
         foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
         {
@@ -137,10 +136,13 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         var j = jacobians.Memory + node.Jacobian;
         for (int i = 0; i < node.RowCount; ++i)
         {
-            // Bodies of a Jacobian lie side by side, and so do their numbers.
-            ref var numbersOfRow = ref Unsafe.As<RowJacobianWide, Vector<float>>(ref wide[i].A);
-            for (int k = 0; k < node.BodyCount * DirectEquations.PerBody; ++k)
-                *j++ = Unsafe.Add(ref numbersOfRow, k)[lane];
+            // Bodies of a Jacobian lie side by side.
+            for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
+            {
+                ref var ofBody = ref wide[i].Of(slot);
+                j->Linear = ReadLane(ofBody.Linear, lane);
+                j->Angular = ReadLane(ofBody.Angular, lane);
+            }
             // A structure without loops bears joints that do not give at all.
             var isRigid = wide[i].HardMask[lane] != 0 && !HasLoops(node);
             ref var row = ref rows[node.FirstRow + i];
@@ -149,6 +151,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
             row.Impulse = wide[i].Impulse[lane];
         }
     }
+
+    static Vector256<double> ReadLane(in Vector3Wide wide, int lane) => Vector256.Create(wide.X[lane], wide.Y[lane], wide.Z[lane], 0d);
 
     bool HasLoops(in DirectNode node) => plan.Islands[node.Island].HasLoops;
 
@@ -183,12 +187,10 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
             ref var body = ref plan.Bodies[i];
             ref var inertia = ref set.WorldInertias[body.Reference & EncodedBody.IndexMask];
             body.InverseMass = inertia.InverseMass;
-            body.InverseInertia[0] = inertia.InverseInertiaTensor.XX;
-            body.InverseInertia[1] = inertia.InverseInertiaTensor.YX;
-            body.InverseInertia[2] = inertia.InverseInertiaTensor.YY;
-            body.InverseInertia[3] = inertia.InverseInertiaTensor.ZX;
-            body.InverseInertia[4] = inertia.InverseInertiaTensor.ZY;
-            body.InverseInertia[5] = inertia.InverseInertiaTensor.ZZ;
+            ref var tensor = ref inertia.InverseInertiaTensor;
+            body.InverseInertiaX = Vector256.Create(tensor.XX, tensor.YX, tensor.ZX, 0d);
+            body.InverseInertiaY = Vector256.Create(tensor.YX, tensor.YY, tensor.ZY, 0d);
+            body.InverseInertiaZ = Vector256.Create(tensor.ZX, tensor.ZY, tensor.ZZ, 0d);
         }
         ReadVelocities(island);
     }
@@ -200,12 +202,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         {
             ref var body = ref plan.Bodies[i];
             ref var velocity = ref set.MotionStates[body.Reference & EncodedBody.IndexMask].Velocity;
-            body.Velocity[0] = velocity.Linear.X;
-            body.Velocity[1] = velocity.Linear.Y;
-            body.Velocity[2] = velocity.Linear.Z;
-            body.Velocity[3] = velocity.Angular.X;
-            body.Velocity[4] = velocity.Angular.Y;
-            body.Velocity[5] = velocity.Angular.Z;
+            body.Velocity.Linear = Widen(velocity.Linear);
+            body.Velocity.Angular = Widen(velocity.Angular);
         }
     }
 
@@ -219,23 +217,14 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
             if ((body.Reference & EncodedBody.KinematicFlag) != 0)
                 continue;
             ref var velocity = ref set.MotionStates[body.Reference & EncodedBody.IndexMask].Velocity;
-            velocity.Linear = new((float)body.Velocity[0], (float)body.Velocity[1], (float)body.Velocity[2]);
-            velocity.Angular = new((float)body.Velocity[3], (float)body.Velocity[4], (float)body.Velocity[5]);
+            velocity.Linear = Narrow(body.Velocity.Linear);
+            velocity.Angular = Narrow(body.Velocity.Angular);
         }
     }
 
-    // Several joints of a bundle may be on one body.
-    void AddStiffness(in Substep substep)
-    {
-        ref var set = ref bodies.Awake;
-        var awake = new SolverBodies(set);
-        foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
-        {
-            var processor = solver.Processor(batch.TypeId);
-            for (int bundle = 0; bundle < batch.BundleCount && processor.CarriesPointLoad; ++bundle)
-                processor.AddStiffness(ref batch, awake, substep, bundle, set.Stiffness);
-        }
-    }
+    static Vector256<double> Widen(Vector3 v) => Vector256.Create(v.X, v.Y, v.Z, 0d);
+
+    static Vector3 Narrow(Vector256<double> v) => new((float)v[0], (float)v[1], (float)v[2]);
 
     /// <summary>Gives all memory back.</summary>
     internal void Dispose()
@@ -254,7 +243,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
     internal void Abandon()
     {
         plan = default;
-        numbers = jacobians = weighted = default;
+        numbers = default;
+        jacobians = weighted = default;
         rows = default;
         nodeOfLane = default;
     }

@@ -12,6 +12,7 @@ static class SolverOperations
         new("Solver.SubstepCount", 2, w => w.Simulation.Solver.SubstepCount = Few(w)),
         new("Solver.RelaxationIterationCount", 2, w => w.Simulation.Solver.RelaxationIterationCount = Few(w)),
         new("Solver.LoadPath", 2, w => w.Simulation.Solver.LoadPath = Mode(w)),
+        new("Solver.DirectJoints", 2, w => w.Simulation.Solver.DirectJoints = JointMode(w)),
         new("Solver.Governor", 2, Govern),
         new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
         new("Solver.VelocityIterationScheduler", 2, Schedule),
@@ -31,6 +32,13 @@ static class SolverOperations
     static LoadPathMode Mode(FuzzWorld w)
     {
         var mode = w.Random.Percent(90) ? (LoadPathMode)w.Random.Below(3) : (LoadPathMode)w.Random.Of((ReadOnlySpan<int>)[-1, 3, int.MaxValue]);
+        w.Tell($"{mode}");
+        return mode;
+    }
+
+    static DirectJointsMode JointMode(FuzzWorld w)
+    {
+        var mode = (DirectJointsMode)(w.Random.Percent(90) ? w.Random.Below(2) : w.Random.Of((ReadOnlySpan<int>)[-1, 2, int.MaxValue]));
         w.Tell($"{mode}");
         return mode;
     }
