@@ -51,45 +51,14 @@ readonly struct JointGraph
     internal unsafe ReadOnlySpan<int> JointsOf(int body) => new(jointsOfBodies.Memory + jointStarts[body], jointStarts[body + 1] - jointStarts[body]);
 
     /// <summary>Whether the structure, which hangs together, has loops; the ground counts as one body.</summary>
-    // A tree of joints and bodies has one less link between them than there are of both. Joints that move the same bodies are one.
+    // A tree of joints and bodies has one less link between them than there are of both. Two joints between the same two bodies are a loop as well: they may
+    // say nearly the same, and hard rows would take what they are off by for speed.
     internal bool HasLoops()
     {
-        int links = 0, joints = 0, grounded = 0;
+        var grounded = 0;
         for (int joint = 0; joint < JointCount; ++joint)
-        {
-            if (RepeatsOther(joint))
-                continue;
-            var bodies = BodiesOf(joint).Length;
-            ++joints;
-            links += bodies;
-            grounded += bodies == 1 ? 1 : 0;
-        }
-        return links > joints + BodyCount - 1 || grounded > 1;
-    }
-
-    bool RepeatsOther(int joint)
-    {
-        var bodies = BodiesOf(joint);
-        foreach (var other in JointsOf(bodies[0]))
-        {
-            if (other == joint)
-                return false;
-            if (HasSame(bodies, BodiesOf(other)))
-                return true;
-        }
-        return false;
-    }
-
-    static bool HasSame(ReadOnlySpan<int> a, ReadOnlySpan<int> b)
-    {
-        if (a.Length != b.Length)
-            return false;
-        foreach (var body in a)
-        {
-            if (!b.Contains(body))
-                return false;
-        }
-        return true;
+            grounded += BodiesOf(joint).Length == 1 ? 1 : 0;
+        return bodyStarts[JointCount] > JointCount + BodyCount - 1 || grounded > 1;
     }
 
     internal void Dispose(BufferPool pool)
