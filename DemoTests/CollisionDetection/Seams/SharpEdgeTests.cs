@@ -48,8 +48,9 @@ public class SharpEdgeTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// The lower edge in front meets the wall and cannot go down, so that the body turns about it, and keeps its angular momentum about it. Of a centre x behind and
-    /// y above the edge and a radius of gyration k, it turns at v y / (k^2 + x^2 + y^2): of a cube 3/8 of the speed is left, whatever the height of the lip.
+    /// The lower edge in front meets the wall and cannot go down, so that the body turns about it, and keeps its angular momentum about it. With the centre x
+    /// behind and y above the edge and a radius of gyration k, it turns at v y / (k^2 + x^2 + y^2): of a cube 3/8 of the speed is left, whatever
+    /// the height of the lip.
     /// </summary>
     [Theory]
     [InlineData(.5f, .5f, false), InlineData(.8f, .2f, false), InlineData(.8f, .2f, true), InlineData(.3f, .6f, false)]
