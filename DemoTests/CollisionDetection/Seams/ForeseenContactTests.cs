@@ -121,6 +121,28 @@ public class ForeseenContactTests(ITestOutputHelper output)
         }
     }
 
+    /// <summary>What comes down on the floor within the step in which it gets to a lip does not meet that lower than the floor lets it.</summary>
+    [Theory, InlineData(.001f), InlineData(.005f)]
+    public void What_comes_down_before_a_lip_meets_it_from_the_floor(float lip)
+    {
+        const float Radius = .1f, Speed = 5;
+        foreach (var phase in Phases)
+        {
+            using var world = new ClusterWorld(isCluster: true);
+            world.Behaviour.Friction = 0;
+            AddLip(world, isMesh: false, lip);
+            // It is over the edge of the lip after a step; on the floor after half of that, or sooner.
+            var place = new Vector3(1 - MathF.Sqrt(2 * Radius * lip) - (.9f + .1f * phase) * Speed / 60, Radius + (.1f + .4f * phase) * 2 / 60, 0);
+            var ball = world.AddBody(new Sphere(Radius), new RigidPose(place), new BodyVelocity(new Vector3(Speed, -2, 0)));
+            for (int i = 0; i < 3; ++i)
+                world.Step(validate: false);
+            var left = world.Simulation.Bodies[ball].Velocity.Linear.X / Speed;
+            var (least, _) = LeftOf(SeamMover.SmallSphere, lip / Radius, 0);
+            output.WriteLine($"{lip} m, {phase}: {left} of {least}");
+            Assert.InRange(left, least - .25f * (1 - least) - 2e-3f, 1);
+        }
+    }
+
     /// <summary>What goes past a post on the floor by a millimetre goes straight on; what is a millimetre nearer does not.</summary>
     [Theory]
     [InlineData(SeamMover.SmallSphere, .1f), InlineData(SeamMover.RollingCylinder, .2f), InlineData(SeamMover.RollingCapsule, .6f)]
