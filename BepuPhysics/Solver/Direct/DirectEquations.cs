@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.Constraints;
@@ -70,10 +69,6 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         }
     }
 
-    // Always in this order, as on every machine.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static double Sum(Vector256<double> v) => v[0] + v[1] + (v[2] + v[3]);
-
     void AddDiagonal(in DirectNode node)
     {
         var block = numbers + node.Diagonal;
@@ -85,7 +80,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
                 var sum = Vector256<double>.Zero;
                 for (int slot = 0; slot < count; ++slot)
                     sum += DirectPair.Multiply(jacobians[node.Jacobian + row * count + slot], weighted[node.Jacobian + column * count + slot]);
-                block[row * node.RowCount + column] = Sum(sum) * (1 + rows[node.FirstRow].Softness);
+                block[row * node.RowCount + column] = DirectPair.Sum(sum) * (1 + rows[node.FirstRow].Softness);
             }
             rows[node.FirstRow + row].LeastPivot = LeastPivot * block[row * node.RowCount + row];
         }
@@ -101,7 +96,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         {
             var w = weighted + earlier.Jacobian + coupling.EarlierSlot;
             for (int column = 0; column < earlier.RowCount; ++column, w += earlier.BodyCount)
-                *block++ += Sum(DirectPair.Multiply(*j, *w));
+                *block++ += DirectPair.Sum(DirectPair.Multiply(*j, *w));
         }
     }
 
@@ -221,7 +216,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
             var sum = Vector256<double>.Zero;
             for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
                 sum += DirectPair.Multiply(*j, velocities[slot]);
-            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - Sum(sum);
+            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - DirectPair.Sum(sum);
         }
     }
 

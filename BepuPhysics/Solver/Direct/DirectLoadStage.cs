@@ -1,4 +1,3 @@
-using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 

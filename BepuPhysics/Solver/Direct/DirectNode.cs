@@ -105,6 +105,14 @@ struct DirectPair
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector256<double> Multiply(in DirectPair a, in DirectPair b) => a.Linear * b.Linear + a.Angular * b.Angular;
 
+    /// <summary>Square of the angular part.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static double AngularLengthSquared(in DirectPair pair) => Sum(pair.Angular * pair.Angular);
+
+    /// <summary>Sum of the numbers, always in this order.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static double Sum(Vector256<double> v) => v[0] + v[1] + (v[2] + v[3]);
+
     /// <summary>Adds a multiple.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void Add(in DirectPair other, double factor)

@@ -125,7 +125,12 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
                 processor.ReadRows(ref batch, awake, substep, bundle, rowsOfBundle);
                 var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
                 for (int lane = 0; lane < lanes; ++lane)
-                    ReadLane(rowsOfBundle, lane, plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]]);
+                {
+                    ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
+                    ReadLane(rowsOfBundle, lane, node);
+                    if (rowsOfBundle[0].HardMask[lane] != 0)
+                        Correction.Limit(node, processor, jacobians.Memory + node.Jacobian, rows.Memory + node.FirstRow, plan.Bodies, set.LocalInertias, substep.Dt);
+                }
             }
             first += batch.BundleCount;
         }
