@@ -31,6 +31,10 @@ public struct Rows4(in Vector3Wide linear, Vector<float> angular) : IRows<Rows4>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows4 Min(in Rows4 a, in Rows4 b) => new(Rows3.Min(new(a.Linear), new(b.Linear)).V, Wide.Min(a.Angular, b.Angular));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows4 Select(Vector<int> mask, in Rows4 a, in Rows4 b) => new(
+        Vector3Wide.Select(mask, a.Linear, b.Linear), Wide.Select(mask, a.Angular, b.Angular));
 }
 
 /// <summary>A symmetric 4 x 4 matrix over <see cref="Rows4"/>: [Linear, Coupling; Coupling^T, Angular].</summary>

@@ -145,6 +145,7 @@ public static partial class Wide
     /// Angle in [-pi, pi] radians from the X axis to a point. Error at most 4e-7 at any scale of finite coordinates. Zero (with the
     /// sign of <paramref name="y"/>) for the origin; NaN where a coordinate is NaN or both are infinite.
     /// </summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Atan2(Vector<float> y, Vector<float> x)
     {
         var absoluteX = Vector.Abs(x);

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>Axis times angle of a rotation, the shorter way, at most half a turn.</summary>
@@ -50,6 +53,9 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 // K = I^-1, the inverse inertia
 struct OneBodyAngularRows : IJacobian<OneBodyAngularRows, OneBody, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Angular | BodyAccess.InverseInertia;
+
     /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows6, RowMatrix6>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct PointAndAxesRows : IPointJacobian<PointAndAxesRows, TwoBodies, Rows4, RowMatrix4>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>

@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowMatrix2>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>A direction fixed to A, at right angles to the axis.</summary>

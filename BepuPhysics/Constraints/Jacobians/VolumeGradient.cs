@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 // K = the sum of g g / m
 struct VolumeGradient : IJacobian<VolumeGradient, FourBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Position | BodyAccess.Linear | BodyAccess.InverseMass;
+
     /// <summary>Derivatives by the position of B, C and D; that by A is what is missing to zero.</summary>
     public Vector3Wide B, C, D;
     /// <summary>Six times the volume.</summary>
