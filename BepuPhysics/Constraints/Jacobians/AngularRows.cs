@@ -24,7 +24,7 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
     {
         var axis = new Vector3Wide(q.X, q.Y, q.Z);
         var sine = axis.Length();
-        var halfAngle = Wide.Atan2(sine, Vector.Abs(q.W));
+        var halfAngle = Wide.AtanOfQuarter(sine, Vector.Abs(q.W));
         // Where the sine is zero, or its square too small for a float, so is the angle.
         return axis * (Wide.Sign(q.W) * Wide.DivideOrZero(halfAngle + halfAngle, sine));
     }

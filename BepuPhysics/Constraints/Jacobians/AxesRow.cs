@@ -43,6 +43,11 @@ struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
         }
     }
 
+    /// <summary>What the angle between the axes lacks to a quarter turn, radians; negative where it is more.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<float> LackOfQuarterTurn(in AxesRow row) =>
+        Wide.CopySign(Wide.AtanOfQuarter(Vector.Abs(row.Cosine), row.Sine), row.Cosine);
+
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in AxesRow row, in TwoBodies bodies, out Rows1 velocity) =>

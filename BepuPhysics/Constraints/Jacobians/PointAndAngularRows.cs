@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
 
@@ -44,9 +45,23 @@ struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void InverseEffectiveMass(in PointAndAngularRows rows, in TwoBodies bodies, out RowMatrix6 inverseMass)
     {
-        inverseMass.Linear = PointRows.InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);
-        inverseMass.Coupling =
-            Matrix3x3Wide.Skew(-rows.OffsetA, bodies.A.InverseInertia) + Matrix3x3Wide.Skew(-rows.OffsetB, bodies.B.InverseInertia);
+        var linear = Symmetric3x3Wide.SkewSandwich(rows.OffsetA, bodies.A.InverseInertia);
+        var coupling = Matrix3x3Wide.Skew(-rows.OffsetA, bodies.A.InverseInertia);
+        var arm = rows.OffsetB;
+        var hasArm = ~(Vector.Equals(arm.X, Vector<float>.Zero) & Vector.Equals(arm.Y, Vector<float>.Zero) & Vector.Equals(arm.Z, Vector<float>.Zero));
+        // Hardly any has: B is held by its centre.
+        if (!Vector.EqualsAll(hasArm, Vector<int>.Zero))
+        {
+            // Lane by lane, so that zeros have the same signs beside others.
+            var linearB = Symmetric3x3Wide.SkewSandwich(arm, bodies.B.InverseInertia);
+            var couplingB = Matrix3x3Wide.Skew(-arm, bodies.B.InverseInertia);
+            linear = Symmetric3x3Wide.Select(hasArm, linear + linearB, linear);
+            coupling.X = Vector3Wide.Select(hasArm, coupling.X + couplingB.X, coupling.X);
+            coupling.Y = Vector3Wide.Select(hasArm, coupling.Y + couplingB.Y, coupling.Y);
+            coupling.Z = Vector3Wide.Select(hasArm, coupling.Z + couplingB.Z, coupling.Z);
+        }
+        inverseMass.Linear = Symmetric3x3Wide.AddDiagonal(linear, bodies.A.InverseMass + bodies.B.InverseMass);
+        inverseMass.Coupling = coupling;
         inverseMass.Angular = bodies.A.InverseInertia + bodies.B.InverseInertia;
     }
 

@@ -31,7 +31,8 @@ struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowM
         var y = Vector3Wide.Dot(tangentY, axisB);
         var z = Vector3Wide.Dot(Vector3Wide.Cross(tangentX, tangentY), axisB);
         var sine = Vector.SquareRoot(x * x + y * y);
-        var angle = Wide.Atan2(sine, z);
+        var angle = Wide.AtanOfQuarter(sine, Vector.Abs(z));
+        angle = Wide.Select(Vector.LessThan(z, Vector<float>.Zero), new Vector<float>(MathHelper.Pi) - angle, angle);
         var aligned = Vector.Equals(sine, Vector<float>.Zero);
         var scale = Wide.DivideOrZero(angle, sine);
         return new(Wide.Select(aligned, angle, y * scale), -x * scale);
