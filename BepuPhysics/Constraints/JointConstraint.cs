@@ -11,9 +11,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     where TJoint : unmanaged, IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 {
     /// <inheritdoc/>
-    public static BodyAccess WarmStartAccess => TJoint.Access;
+    public static BodyAccess WarmStartAccess
+    {
+        // A call otherwise, and what it says would not be known when the loops are compiled.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.Access;
+    }
     /// <inheritdoc/>
-    public static BodyAccess SolveAccess => TJoint.Access | TJoint.ErrorAccess | BodyAccess.Hub;
+    public static BodyAccess SolveAccess
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.Access | TJoint.ErrorAccess | BodyAccess.Hub;
+    }
 
     /// <inheritdoc/>
     public static bool CarriesPointLoad => TJoint.HoldsPoints;

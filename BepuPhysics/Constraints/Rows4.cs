@@ -49,8 +49,7 @@ public struct RowMatrix4 : IRowMatrix<RowMatrix4, Rows4>
 
     /// <inheritdoc/>
     // By the Schur complement of the angular row: (L - c c^T / a) x = u - c v / a, then y = (v - c x) / a.
-    // A JIT root of its own: with it, a joint's kernel has more locals than the JIT tracks, and the rest would live in memory.
-    [MethodImpl(MethodImplOptions.NoInlining)]
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows4 Solve(in RowMatrix4 matrix, in Rows4 rightSide)
     {
         // Zero where nothing can turn: then the coupling is zero as well.

@@ -10,6 +10,8 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     const int FloatsPerRow = Rows8.Count;
     const int FloatsPerHalf = Transpose.FloatsPerHalf;
     const int FloatsPerMotion = 16;
+    // Sixteen lanes read and write whole rows: what a loop of them takes of the inliner is near its end, and all that is said of halves counts.
+    const int GreatestCountOfHalves = 8;
 
     /// <summary>The bodies of a set.</summary>
     internal SolverBodies(in BodySet set) : this(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory) { }
@@ -24,12 +26,12 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     internal void Gather(in RowOffsets references, BodyAccess access, in Substep substep, out SolverBodyWide body)
     {
         Unsafe.SkipInit(out body);
-        if ((access & BodyAccess.Pose) == BodyAccess.Orientation)
+        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Pose) == BodyAccess.Orientation)
         {
             var row = Transpose.GatherHalf(motions, FloatsPerMotion, references);
             body.Orientation = new(row.X, row.Y, row.Z, row.W);
         }
-        else if ((access & BodyAccess.Pose) == BodyAccess.Position)
+        else if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Pose) == BodyAccess.Position)
         {
             var row = Transpose.GatherHalf(motions + FloatsPerHalf, FloatsPerMotion, references);
             body.Position = new(row.X, row.Y, row.Z);
@@ -40,12 +42,12 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
             body.Orientation = new(row.R0, row.R1, row.R2, row.R3);
             body.Position = new(row.R4, row.R5, row.R6);
         }
-        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
+        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Linear)
         {
             var row = Transpose.GatherHalf(motions + FloatsPerRow, FloatsPerMotion, references);
             body.Linear = new(row.X, row.Y, row.Z);
         }
-        else if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
+        else if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Angular)
         {
             var row = Transpose.GatherHalf(motions + FloatsPerRow + FloatsPerHalf, FloatsPerMotion, references);
             body.Angular = new(row.X, row.Y, row.Z);
@@ -56,7 +58,7 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
             body.Linear = new(row.R0, row.R1, row.R2);
             body.Angular = new(row.R4, row.R5, row.R6);
         }
-        if ((access & BodyAccess.Mass) == BodyAccess.InverseMass)
+        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Mass) == BodyAccess.InverseMass)
         {
             body.InverseMass = Transpose.GatherHalf(inertias + FloatsPerHalf, FloatsPerRow, references).Z;
         }
@@ -102,12 +104,12 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void ScatterVelocity(in RowOffsets references, BodyAccess access, in SolverBodyWide body)
     {
-        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
+        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Linear)
         {
             ScatterHalf(references, motions + FloatsPerRow, body.Linear);
             return;
         }
-        if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
+        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Angular)
         {
             ScatterHalf(references, motions + FloatsPerRow + FloatsPerHalf, body.Angular);
             return;

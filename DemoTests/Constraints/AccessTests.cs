@@ -3,7 +3,6 @@ using System.Numerics;
 using System.Reflection;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
-using BepuPhysics;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Memory;
