@@ -10,8 +10,6 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     const int FloatsPerRow = Rows8.Count;
     const int FloatsPerHalf = Transpose.FloatsPerHalf;
     const int FloatsPerMotion = 16;
-    // Sixteen lanes read and write whole rows: what a loop of them takes of the inliner is near its end, and all that is said of halves counts.
-    const int GreatestCountOfHalves = 8;
 
     /// <summary>The bodies of a set.</summary>
     internal SolverBodies(in BodySet set) : this(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory) { }
@@ -26,15 +24,13 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     internal void Gather(in RowOffsets references, BodyAccess access, in Substep substep, out SolverBodyWide body)
     {
         Unsafe.SkipInit(out body);
-        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Pose) == BodyAccess.Orientation)
+        if ((access & BodyAccess.Pose) == BodyAccess.Orientation)
         {
-            var row = Transpose.GatherHalf(motions, FloatsPerMotion, references);
-            body.Orientation = new(row.X, row.Y, row.Z, row.W);
+            ReadFour(motions, references, out body.Orientation);
         }
-        else if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Pose) == BodyAccess.Position)
+        else if ((access & BodyAccess.Pose) == BodyAccess.Position)
         {
-            var row = Transpose.GatherHalf(motions + FloatsPerHalf, FloatsPerMotion, references);
-            body.Position = new(row.X, row.Y, row.Z);
+            ReadThree(motions + FloatsPerHalf, references, out body.Position);
         }
         else if ((access & BodyAccess.Pose) != 0)
         {
@@ -42,15 +38,13 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
             body.Orientation = new(row.R0, row.R1, row.R2, row.R3);
             body.Position = new(row.R4, row.R5, row.R6);
         }
-        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Linear)
+        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
         {
-            var row = Transpose.GatherHalf(motions + FloatsPerRow, FloatsPerMotion, references);
-            body.Linear = new(row.X, row.Y, row.Z);
+            ReadThree(motions + FloatsPerRow, references, out body.Linear);
         }
-        else if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Angular)
+        else if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
         {
-            var row = Transpose.GatherHalf(motions + FloatsPerRow + FloatsPerHalf, FloatsPerMotion, references);
-            body.Angular = new(row.X, row.Y, row.Z);
+            ReadThree(motions + FloatsPerRow + FloatsPerHalf, references, out body.Angular);
         }
         else if ((access & BodyAccess.Velocity) != 0)
         {
@@ -58,9 +52,9 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
             body.Linear = new(row.R0, row.R1, row.R2);
             body.Angular = new(row.R4, row.R5, row.R6);
         }
-        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Mass) == BodyAccess.InverseMass)
+        if ((access & BodyAccess.Mass) == BodyAccess.InverseMass)
         {
-            body.InverseMass = Transpose.GatherHalf(inertias + FloatsPerHalf, FloatsPerRow, references).Z;
+            ReadInverseMass(references, out body.InverseMass);
         }
         else if ((access & BodyAccess.Mass) != 0)
         {
@@ -104,14 +98,14 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal void ScatterVelocity(in RowOffsets references, BodyAccess access, in SolverBodyWide body)
     {
-        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Linear)
+        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
         {
-            ScatterHalf(references, motions + FloatsPerRow, body.Linear);
+            WriteThree(motions + FloatsPerRow, references, body.Linear);
             return;
         }
-        if (Vector<float>.Count <= GreatestCountOfHalves && (access & BodyAccess.Velocity) == BodyAccess.Angular)
+        if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
         {
-            ScatterHalf(references, motions + FloatsPerRow + FloatsPerHalf, body.Angular);
+            WriteThree(motions + FloatsPerRow + FloatsPerHalf, references, body.Angular);
             return;
         }
         Rows8 row;
@@ -126,8 +120,27 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, references);
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ScatterHalf(in RowOffsets references, float* halves, in Vector3Wide v) =>
+    // Halves of rows are moved by calls: of all that a loop could read and write, the inliner takes up what is left out as well, and then no more.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ReadFour(float* halves, in RowOffsets references, out QuaternionWide q)
+    {
+        var row = Transpose.GatherHalf(halves, FloatsPerMotion, references);
+        q = new(row.X, row.Y, row.Z, row.W);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ReadThree(float* halves, in RowOffsets references, out Vector3Wide v)
+    {
+        var row = Transpose.GatherHalf(halves, FloatsPerMotion, references);
+        v = new(row.X, row.Y, row.Z);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ReadInverseMass(in RowOffsets references, out Vector<float> inverseMass) =>
+        inverseMass = Transpose.GatherHalf(inertias + FloatsPerHalf, FloatsPerRow, references).Z;
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void WriteThree(float* halves, in RowOffsets references, in Vector3Wide v) =>
         Transpose.ScatterHalf(new(v.X, v.Y, v.Z, Vector<float>.Zero), halves, FloatsPerMotion, references);
 }
 
