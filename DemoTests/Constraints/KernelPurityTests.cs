@@ -108,7 +108,8 @@ public unsafe class KernelPurityTests
             processor.Solve(ref batch, bodies, substep, 0, batch.BundleCount);
         }
 
-        if (!isSolveAlone && order.Length == ConstraintCount && processor.CarriesPointLoad && !JointTypes.All.Single(type => type.Id == typeId).Name.EndsWith("Motor"))
+        var isMotor = processor.CarriesPointLoad && JointTypes.All.Single(type => type.Id == typeId).Name.EndsWith("Motor");
+        if (!isSolveAlone && order.Length == ConstraintCount && processor.CarriesPointLoad && !isMotor)
         {
             var marked = Enumerable.Range(0, ConstraintCount).Count(i => (processor.BodyReference(ref batch, i, 0) & EncodedBody.TurnFlag) != 0);
             Assert.InRange(marked, 1, ConstraintCount / 2);
