@@ -33,7 +33,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         ApplyWhere(~isIdle, geometry, ref bodies, change);
     }
 
-    // A single row: whether it has anything to do is clear before it is solved.
+    // A single row: whether it has anything to do is clear before it is solved. (No limit has four bodies.)
     static bool CanBeIdle
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -48,7 +48,7 @@ struct VolumeGradient : IJacobian<VolumeGradient, FourBodies, Rows1, Rows1>
         return Wide.Clamp(error, -greatest, greatest);
     }
 
-    // A third of the exponent, and of the mantissa as if it were its logarithm: within 6 %.
+    // A third of the exponent, and of the mantissa as if it were its logarithm: within 6 %. Integers hold what is converted: all processors do it alike.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<float> RoughCubeRoot(Vector<float> value) => Vector.AsVectorSingle(
         Vector.ConvertToInt32Native(Vector.ConvertToSingle(Vector.AsVectorInt32(value)) * new Vector<float>(1 / 3f)) + new Vector<int>(0x2A514067));
