@@ -39,6 +39,14 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <param name="row">Number of the row.</param>
     static virtual bool IsLinear(int row) => true;
 
+    /// <summary>
+    /// What is read of the bodies by all parts but <see cref="PositionError"/> and <see cref="TargetVelocity"/>; of velocities, what is written too.
+    /// </summary>
+    static virtual BodyAccess Access => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <summary>What <see cref="PositionError"/> and <see cref="TargetVelocity"/> read besides.</summary>
+    static virtual BodyAccess ErrorAccess => BodyAccess.None;
+
     /// <summary>Lever arms and axes for the current poses.</summary>
     static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);
 

@@ -11,9 +11,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     where TJoint : unmanaged, IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
 {
     /// <inheritdoc/>
-    public static BodyAccess WarmStartAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+    public static BodyAccess WarmStartAccess
+    {
+        // A call otherwise, and what it says would not be known when the loops are compiled.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.Access;
+    }
     /// <inheritdoc/>
-    public static BodyAccess SolveAccess => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass | BodyAccess.Hub;
+    public static BodyAccess SolveAccess
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.Access | TJoint.ErrorAccess | BodyAccess.Hub;
+    }
 
     /// <inheritdoc/>
     public static bool CarriesPointLoad => TJoint.HoldsPoints;
@@ -72,12 +81,14 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     }
 
     /// <inheritdoc/>
-    // Two kernels of which the JIT keeps one: a branch inside would take locals that the largest joint has none left of.
+    // Three kernels of which the JIT keeps one: a branch inside would take locals that the largest joint has none left of.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
     {
         if (TJoint.Kind == RowKind.Motor)
             SolveVelocity(ref bodies, substep, ref prestep, ref impulses);
+        else if (TJoint.Kind == RowKind.Inequality)
+            SolveLimit(ref bodies, substep, ref prestep, ref impulses);
         else
             SolvePosition(ref bodies, substep, ref prestep, ref impulses);
     }
@@ -93,12 +104,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-        var isHub = BodySlots.At(ref bodies, 0).HubMask;
-        if (TBodies.Count > 1) isHub |= BodySlots.At(ref bodies, 1).HubMask;
-        if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
-        if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
-        var limits = TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints;
-        var softness = TJoint.Spring(prestep).ForSubstep(substep, limits, substep.Hubs, isHub);
+        var softness = Softness(ref bodies, substep, prestep);
 
         if (CarriesPointLoad && !substep.IsRelaxation)
         {
@@ -115,31 +121,32 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             }
         }
         var wanted = error * -softness.ErrorToVelocity;
-        if (TJoint.Kind == RowKind.Inequality)
-        {
-            // Slack that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
-            // The first is the smaller of the two where C > 0, the second where C < 0, since ErrorToVelocity < 1 / h.
-            wanted = TRows.Min(wanted, error * new Vector<float>(-substep.InverseDt));
-        }
         if (TJoint.Kind == RowKind.Servo)
             wanted = LimitSpeed(error, wanted, substep, TJoint.Servo(prestep));
 
         var change = TMass.Solve(inverseMass, (wanted - velocity) * softness.MassScale) - impulses * softness.ImpulseScale;
-        if (TJoint.Kind == RowKind.Equality)
+        if (TJoint.Kind == RowKind.Servo)
         {
-            impulses += change;
+            var sum = LimitLength(impulses + change, TJoint.Servo(prestep).MaximumForce * substep.Dt);
+            change = sum - impulses;
+            impulses = sum;
         }
         else
         {
-            var previous = impulses;
             impulses += change;
-            if (TJoint.Kind == RowKind.Inequality)
-                impulses = TRows.ClampToPositive(impulses);
-            else
-                impulses *= LimitFactor(TRows.Length(impulses), TJoint.Servo(prestep).MaximumForce * substep.Dt);
-            change = impulses - previous;
         }
         TJoint.ApplyImpulse(geometry, ref bodies, change);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static SoftnessWide Softness(ref TBodies bodies, in Substep substep, in TPrestep prestep)
+    {
+        var isHub = BodySlots.At(ref bodies, 0).HubMask;
+        if (TBodies.Count > 1) isHub |= BodySlots.At(ref bodies, 1).HubMask;
+        if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
+        if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
+        var limits = TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints;
+        return TJoint.Spring(prestep).ForSubstep(substep, limits, substep.Hubs, isHub);
     }
 
     // What correcting all of C does to rotations is M^-1 J^T K^-1 C.
@@ -167,26 +174,35 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
         var motor = TJoint.Motor(prestep);
         var softness = motor.ForSubstep(substep);
-        var previous = impulses;
-        impulses += TMass.Solve(inverseMass, (wanted - velocity) * softness.MassScale) - impulses * softness.ImpulseScale;
-        impulses *= LimitFactor(TRows.Length(impulses), motor.MaximumForce * substep.Dt);
-        TJoint.ApplyImpulse(geometry, ref bodies, impulses - previous);
+        var sum = impulses + (TMass.Solve(inverseMass, (wanted - velocity) * softness.MassScale) - impulses * softness.ImpulseScale);
+        sum = LimitLength(sum, motor.MaximumForce * substep.Dt);
+        var change = sum - impulses;
+        impulses = sum;
+        TJoint.ApplyImpulse(geometry, ref bodies, change);
     }
 
     // The speed of approach is at least the base speed, as long as that does not overshoot within the substep, and at most the maximum.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static TRows LimitSpeed(in TRows error, in TRows wanted, in Substep substep, in ServoSettingsWide servo)
     {
+        // Most have no such limits, and need none of their roots and divisions.
+        var isLimited = Vector.GreaterThan(servo.BaseSpeed, Vector<float>.Zero) | Vector.LessThan(servo.MaximumSpeed, new Vector<float>(float.MaxValue));
+        if (Vector.EqualsAll(isLimited, Vector<int>.Zero))
+            return wanted;
         var errorLength = TRows.Length(error);
         var speed = TRows.Length(wanted);
         var baseSpeed = Wide.Min(servo.BaseSpeed, errorLength * substep.InverseDt);
         var limited = Wide.Min(Wide.Max(speed, baseSpeed), servo.MaximumSpeed);
         var scale = Vector.ConditionalSelect(Vector.GreaterThan(errorLength, Vector<float>.Zero), limited / errorLength, Vector<float>.Zero);
-        return error * -scale;
+        return TRows.Select(isLimited, error * -scale, wanted);
     }
 
-    // Factor that brings a length down to a maximum; 1 where it is below.
+    // Brings a length down to a maximum. Most are below: then neither the division nor the product has to be waited for.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> LimitFactor(Vector<float> length, Vector<float> maximum) =>
-        Vector.ConditionalSelect(Vector.GreaterThan(length, maximum), maximum / length, Vector<float>.One);
+    static TRows LimitLength(in TRows rows, Vector<float> maximum)
+    {
+        var length = TRows.Length(rows);
+        var isLonger = Vector.GreaterThan(length, maximum);
+        return Vector.EqualsAll(isLonger, Vector<int>.Zero) ? rows : rows * Wide.Select(isLonger, maximum / length, Vector<float>.One);
+    }
 }

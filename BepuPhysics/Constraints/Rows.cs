@@ -19,6 +19,8 @@ public interface IRows<TRows> where TRows : unmanaged, IRows<TRows>
     static abstract TRows ClampToPositive(in TRows a);
     /// <summary>Row by row, the smaller of two values.</summary>
     static abstract TRows Min(in TRows a, in TRows b);
+    /// <summary>The first in lanes where the mask is set, the second elsewhere.</summary>
+    static abstract TRows Select(Vector<int> mask, in TRows a, in TRows b);
 }
 
 /// <summary>A symmetric matrix over the rows of a constraint: the inverse of its effective mass, K = J M^-1 J^T.</summary>
@@ -55,6 +57,9 @@ public struct Rows1(Vector<float> x) : IRows<Rows1>, IRowMatrix<Rows1, Rows1>
     public static Rows1 Min(in Rows1 a, in Rows1 b) => new(Wide.Min(a.X, b.X));
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows1 Select(Vector<int> mask, in Rows1 a, in Rows1 b) => new(Wide.Select(mask, a.X, b.X));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows1 Solve(in Rows1 matrix, in Rows1 rightSide) =>
         new(Vector.ConditionalSelect(Vector.GreaterThan(matrix.X, Vector<float>.Zero), rightSide.X / matrix.X, Vector<float>.Zero));
 }
@@ -86,6 +91,9 @@ public struct Rows3(in Vector3Wide v) : IRows<Rows3>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows3 Min(in Rows3 a, in Rows3 b) =>
         new(new(Wide.Min(a.V.X, b.V.X), Wide.Min(a.V.Y, b.V.Y), Wide.Min(a.V.Z, b.V.Z)));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows3 Select(Vector<int> mask, in Rows3 a, in Rows3 b) => new(Vector3Wide.Select(mask, a.V, b.V));
 }
 
 /// <summary>A symmetric 3 x 3 matrix over three rows.</summary>

@@ -29,6 +29,9 @@ public struct Rows2(in Vector2Wide v) : IRows<Rows2>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows2 Min(in Rows2 a, in Rows2 b) => new(new(Wide.Min(a.V.X, b.V.X), Wide.Min(a.V.Y, b.V.Y)));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows2 Select(Vector<int> mask, in Rows2 a, in Rows2 b) => new(Vector2Wide.Select(mask, a.V, b.V));
 }
 
 /// <summary>A symmetric 2 x 2 matrix over two rows.</summary>

@@ -31,6 +31,10 @@ public struct Rows4(in Vector3Wide linear, Vector<float> angular) : IRows<Rows4>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows4 Min(in Rows4 a, in Rows4 b) => new(Rows3.Min(new(a.Linear), new(b.Linear)).V, Wide.Min(a.Angular, b.Angular));
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows4 Select(Vector<int> mask, in Rows4 a, in Rows4 b) => new(
+        Vector3Wide.Select(mask, a.Linear, b.Linear), Wide.Select(mask, a.Angular, b.Angular));
 }
 
 /// <summary>A symmetric 4 x 4 matrix over <see cref="Rows4"/>: [Linear, Coupling; Coupling^T, Angular].</summary>
@@ -45,8 +49,7 @@ public struct RowMatrix4 : IRowMatrix<RowMatrix4, Rows4>
 
     /// <inheritdoc/>
     // By the Schur complement of the angular row: (L - c c^T / a) x = u - c v / a, then y = (v - c x) / a.
-    // A JIT root of its own: with it, a joint's kernel has more locals than the JIT tracks, and the rest would live in memory.
-    [MethodImpl(MethodImplOptions.NoInlining)]
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows4 Solve(in RowMatrix4 matrix, in Rows4 rightSide)
     {
         // Zero where nothing can turn: then the coupling is zero as well.

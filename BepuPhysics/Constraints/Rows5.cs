@@ -33,6 +33,10 @@ public struct Rows5(in Vector3Wide linear, in Vector2Wide angular) : IRows<Rows5
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows5 Min(in Rows5 a, in Rows5 b) => new(
         Rows3.Min(new(a.Linear), new(b.Linear)).V, Rows2.Min(new(a.Angular), new(b.Angular)).V);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows5 Select(Vector<int> mask, in Rows5 a, in Rows5 b) => new(
+        Vector3Wide.Select(mask, a.Linear, b.Linear), Vector2Wide.Select(mask, a.Angular, b.Angular));
 }
 
 /// <summary>A symmetric 5 x 5 matrix over <see cref="Rows5"/>: [Linear, Coupling^T; Coupling, Angular].</summary>

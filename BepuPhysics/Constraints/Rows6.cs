@@ -33,6 +33,10 @@ public struct Rows6(in Vector3Wide linear, in Vector3Wide angular) : IRows<Rows6
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Rows6 Min(in Rows6 a, in Rows6 b) => new(
         Rows3.Min(new(a.Linear), new(b.Linear)).V, Rows3.Min(new(a.Angular), new(b.Angular)).V);
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Rows6 Select(Vector<int> mask, in Rows6 a, in Rows6 b) => new(
+        Vector3Wide.Select(mask, a.Linear, b.Linear), Vector3Wide.Select(mask, a.Angular, b.Angular));
 }
 
 /// <summary>A symmetric 6 x 6 matrix over <see cref="Rows6"/>: [Linear, Coupling; Coupling^T, Angular].</summary>

@@ -95,7 +95,7 @@ public struct SpringSettingsWide : IWide<SpringSettings>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<float> Least(float limit, float hubLimit, Vector<int> hubMask) =>
-        Wide.Select(hubMask, new Vector<float>(MathHelper.Min(limit, hubLimit)), new Vector<float>(limit));
+        Wide.Select(hubMask, Wide.Min(new Vector<float>(limit), new Vector<float>(hubLimit)), new Vector<float>(limit));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly SoftnessWide ForSubstep(in Substep substep, Vector<float> rigidFrequencyDt, Vector<float> greatestFrequencyDt)

@@ -30,22 +30,34 @@ public struct SolverBodyWide
     public Vector<int> TurnMask;
 }
 
-/// <summary>Parts of a body that a constraint reads. Folded away by the JIT.</summary>
+/// <summary>Parts of a body that a constraint reads, and of its velocities those that it writes. Folded away by the JIT.</summary>
 [Flags]
 public enum BodyAccess
 {
     /// <summary>Nothing.</summary>
     None = 0,
+    /// <summary>Position.</summary>
+    Position = 1,
+    /// <summary>Orientation.</summary>
+    Orientation = 2,
     /// <summary>Position and orientation.</summary>
-    Pose = 1,
+    Pose = Position | Orientation,
+    /// <summary>Linear velocity; read and written.</summary>
+    Linear = 4,
+    /// <summary>Angular velocity; read and written.</summary>
+    Angular = 8,
     /// <summary>Velocities.</summary>
-    Velocity = 2,
+    Velocity = Linear | Angular,
+    /// <summary>Inverse mass.</summary>
+    InverseMass = 16,
+    /// <summary>Inverse inertia.</summary>
+    InverseInertia = 32,
     /// <summary>Inverse mass and inertia.</summary>
-    Mass = 4,
+    Mass = InverseMass | InverseInertia,
     /// <summary>Translation and rotation since collision detection; read only where there can be any.</summary>
-    Displacement = 8,
+    Displacement = 64,
     /// <summary>Whether the body is a hub of joints.</summary>
-    Hub = 16,
+    Hub = 128,
 }
 
 /// <summary>The one to four bodies that a constraint connects.</summary>

@@ -7,7 +7,8 @@ namespace BepuPhysics.Constraints;
 /// <summary>The bodies of the active set as the solver reads and writes them: rows of eight floats, so that each is one transpose.</summary>
 unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements, BodyInertia* stiffness)
 {
-    const int FloatsPerRow = 8;
+    const int FloatsPerRow = Rows8.Count;
+    const int FloatsPerHalf = Transpose.FloatsPerHalf;
     const int FloatsPerMotion = 16;
 
     /// <summary>The bodies of a set.</summary>
@@ -23,19 +24,39 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
     internal void Gather(in RowOffsets references, BodyAccess access, in Substep substep, out SolverBodyWide body)
     {
         Unsafe.SkipInit(out body);
-        if ((access & BodyAccess.Pose) != 0)
+        if ((access & BodyAccess.Pose) == BodyAccess.Orientation)
+        {
+            ReadFour(motions, references, out body.Orientation);
+        }
+        else if ((access & BodyAccess.Pose) == BodyAccess.Position)
+        {
+            ReadThree(motions + FloatsPerHalf, references, out body.Position);
+        }
+        else if ((access & BodyAccess.Pose) != 0)
         {
             var row = Transpose.Gather(motions, FloatsPerMotion, references);
             body.Orientation = new(row.R0, row.R1, row.R2, row.R3);
             body.Position = new(row.R4, row.R5, row.R6);
         }
-        if ((access & BodyAccess.Velocity) != 0)
+        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
+        {
+            ReadThree(motions + FloatsPerRow, references, out body.Linear);
+        }
+        else if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
+        {
+            ReadThree(motions + FloatsPerRow + FloatsPerHalf, references, out body.Angular);
+        }
+        else if ((access & BodyAccess.Velocity) != 0)
         {
             var row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, references);
             body.Linear = new(row.R0, row.R1, row.R2);
             body.Angular = new(row.R4, row.R5, row.R6);
         }
-        if ((access & BodyAccess.Mass) != 0)
+        if ((access & BodyAccess.Mass) == BodyAccess.InverseMass)
+        {
+            ReadInverseMass(references, out body.InverseMass);
+        }
+        else if ((access & BodyAccess.Mass) != 0)
         {
             var row = Transpose.Gather(inertias, FloatsPerRow, references);
             body.InverseInertia.XX = row.R0;
@@ -73,10 +94,20 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         Transpose.Scatter(row, stiffness, FloatsPerRow, references);
     }
 
-    /// <summary>Writes the velocities of a bundle of bodies, except for kinematics and unused lanes.</summary>
+    /// <summary>Writes the velocities of a bundle of bodies that are asked for, except for kinematics and unused lanes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal void ScatterVelocity(in RowOffsets references, in SolverBodyWide body)
+    internal void ScatterVelocity(in RowOffsets references, BodyAccess access, in SolverBodyWide body)
     {
+        if ((access & BodyAccess.Velocity) == BodyAccess.Linear)
+        {
+            WriteThree(motions + FloatsPerRow, references, body.Linear);
+            return;
+        }
+        if ((access & BodyAccess.Velocity) == BodyAccess.Angular)
+        {
+            WriteThree(motions + FloatsPerRow + FloatsPerHalf, references, body.Angular);
+            return;
+        }
         Rows8 row;
         row.R0 = body.Linear.X;
         row.R1 = body.Linear.Y;
@@ -88,6 +119,29 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         row.R7 = Vector<float>.Zero;
         Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, references);
     }
+
+    // Halves of rows are moved by calls: of all that a loop could read and write, the inliner takes up what is left out as well, and then no more.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ReadFour(float* halves, in RowOffsets references, out QuaternionWide q)
+    {
+        var row = Transpose.GatherHalf(halves, FloatsPerMotion, references);
+        q = new(row.X, row.Y, row.Z, row.W);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ReadThree(float* halves, in RowOffsets references, out Vector3Wide v)
+    {
+        var row = Transpose.GatherHalf(halves, FloatsPerMotion, references);
+        v = new(row.X, row.Y, row.Z);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ReadInverseMass(in RowOffsets references, out Vector<float> inverseMass) =>
+        inverseMass = Transpose.GatherHalf(inertias + FloatsPerHalf, FloatsPerRow, references).Z;
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void WriteThree(float* halves, in RowOffsets references, in Vector3Wide v) =>
+        Transpose.ScatterHalf(new(v.X, v.Y, v.Z, Vector<float>.Zero), halves, FloatsPerMotion, references);
 }
 
 /// <summary>Bodies of the fallback batch, in which a body may occur any number of times.</summary>

@@ -28,7 +28,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         {
             Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out var rows, out var slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(rows, bodies, ref slots);
+            Scatter(rows, bodies, TConstraint.WarmStartAccess, ref slots);
             if (TConstraint.CarriesPointLoad && substep.Index == 0)
                 LookAtLoad(references, bodies, substep, slots, prestep[i], impulses[i]);
         }
@@ -45,7 +45,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         {
             Gather(references, places, bodies, TConstraint.SolveAccess, substep, out var rows, out var slots);
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(rows, bodies, ref slots);
+            Scatter(rows, bodies, TConstraint.SolveAccess, ref slots);
         }
     }
 
@@ -58,7 +58,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out _, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess | SplitAccess, substep, out _, out var slots);
             ScaleInverseMass(i, split, ref slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
@@ -74,7 +74,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
+            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess | SplitAccess, substep, out _, out var slots);
             ScaleInverseMass(i, split, ref slots);
             // Constraints of split bodies do not see each other's impulses until the parts are joined.
             BodySlots.At(ref slots, 0).HubMask = new(-1);
@@ -147,12 +147,12 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter(in SlotRows rows, in SolverBodies bodies, ref TBodies slots)
+    static void Scatter(in SlotRows rows, in SolverBodies bodies, BodyAccess access, ref TBodies slots)
     {
-        Scatter(bodies, rows.A, BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1) Scatter(bodies, rows.B, BodySlots.At(ref slots, 1));
-        if (TBodies.Count > 2) Scatter(bodies, rows.C, BodySlots.At(ref slots, 2));
-        if (TBodies.Count > 3) Scatter(bodies, rows.D, BodySlots.At(ref slots, 3));
+        Scatter(bodies, rows.A, access, BodySlots.At(ref slots, 0));
+        if (TBodies.Count > 1) Scatter(bodies, rows.B, access, BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) Scatter(bodies, rows.C, access, BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) Scatter(bodies, rows.D, access, BodySlots.At(ref slots, 3));
     }
 
     // More than two bodies of sixteen lanes are beyond what the inliner takes for a loop, and each part of their gathers would be a call.
@@ -176,16 +176,17 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         bodies.Gather(rows, access, substep, out body);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter(in SolverBodies bodies, in RowOffsets rows, in SolverBodyWide body)
+    static void Scatter(in SolverBodies bodies, in RowOffsets rows, BodyAccess access, in SolverBodyWide body)
     {
         if (IsGatheredByCalls)
-            ScatterByCall(bodies, rows, body);
+            ScatterByCall(bodies, rows, access, body);
         else
-            bodies.ScatterVelocity(rows, body);
+            bodies.ScatterVelocity(rows, access, body);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ScatterByCall(in SolverBodies bodies, in RowOffsets rows, in SolverBodyWide body) => bodies.ScatterVelocity(rows, body);
+    static void ScatterByCall(in SolverBodies bodies, in RowOffsets rows, BodyAccess access, in SolverBodyWide body) =>
+        bodies.ScatterVelocity(rows, access, body);
 
     // What gathers and scatters know of a reference: all of it, but for joints that make hubs, which have flags in theirs. Read once
     // per loop: one call more in the loop and the JIT inlines none of them.
@@ -203,6 +204,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> TurnMask(Vector<int> references) =>
         Vector.Equals(references & new Vector<int>(EncodedBody.TurnFlag | int.MinValue), new(EncodedBody.TurnFlag));
+
+    // What is split and put together again is the whole body, whatever the constraint reads of it.
+    const BodyAccess SplitAccess = BodyAccess.Velocity | BodyAccess.Mass;
 
     static void ScaleInverseMass(int bundle, in SplitBodies split, ref TBodies slots)
     {

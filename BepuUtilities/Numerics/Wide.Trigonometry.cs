@@ -145,16 +145,24 @@ public static partial class Wide
     /// Angle in [-pi, pi] radians from the X axis to a point. Error at most 4e-7 at any scale of finite coordinates. Zero (with the
     /// sign of <paramref name="y"/>) for the origin; NaN where a coordinate is NaN or both are infinite.
     /// </summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector<float> Atan2(Vector<float> y, Vector<float> x)
     {
-        var absoluteX = Vector.Abs(x);
-        var absoluteY = Vector.Abs(y);
-        var isSteep = Vector.GreaterThan(absoluteY, absoluteX);
-        var larger = Select(isSteep, absoluteY, absoluteX);
-        var smaller = Select(isSteep, absoluteX, absoluteY);
+        var angle = AtanOfQuarter(Vector.Abs(y), Vector.Abs(x));
+        angle = Select(Vector.LessThan(x, Vector<float>.Zero), new Vector<float>(MathHelper.Pi) - angle, angle);
+        return CopySign(angle, y);
+    }
+
+    /// <summary>As <see cref="Atan2"/>, for coordinates without signs: an angle from 0 to a quarter turn.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> AtanOfQuarter(Vector<float> y, Vector<float> x)
+    {
+        var isSteep = Vector.GreaterThan(y, x);
+        var larger = Select(isSteep, y, x);
+        var smaller = Select(isSteep, x, y);
 
         // atan on [0, 1]. A coordinate that is NaN makes the comparison false and stays in one of the two operands.
-        var a = Select(Vector.Equals(absoluteX + absoluteY, Vector<float>.Zero), Vector<float>.Zero, smaller / larger);
+        var a = Select(Vector.Equals(x + y, Vector<float>.Zero), Vector<float>.Zero, smaller / larger);
         var z = a * a;
         var p = new Vector<float>(0.0026222244f);
         p = p * z + new Vector<float>(-0.015132463f);
@@ -166,8 +174,6 @@ public static partial class Wide
         p = p * z + new Vector<float>(-0.33332986f);
         var angle = a + a * z * p;
 
-        angle = Select(isSteep, new Vector<float>(MathHelper.PiOver2) - angle, angle);
-        angle = Select(Vector.LessThan(x, Vector<float>.Zero), new Vector<float>(MathHelper.Pi) - angle, angle);
-        return CopySign(angle, y);
+        return Select(isSteep, new Vector<float>(MathHelper.PiOver2) - angle, angle);
     }
 }

@@ -52,7 +52,7 @@ public sealed unsafe class TransposeTests : IDisposable
         return new(lanes);
     }
 
-    static ReadOnlySpan<byte> Bits(in Rows8 values) => MemoryMarshal.AsBytes(new ReadOnlySpan<Rows8>(in values));
+    static ReadOnlySpan<byte> Bits<T>(in T values) where T : unmanaged => MemoryMarshal.AsBytes(new ReadOnlySpan<T>(in values));
 
     [Theory]
     [InlineData(8), InlineData(16)]
@@ -120,6 +120,29 @@ public sealed unsafe class TransposeTests : IDisposable
             var offsets = new RowOffsets(new Vector<int>(index | 1 << 30));
             for (int lane = 0; lane < Vector<int>.Count; ++lane)
                 Assert.Equal((long)index * stride * sizeof(float), (byte*)offsets.Row(rows, stride, lane) - (byte*)rows);
+        }
+    }
+
+    [Theory]
+    [InlineData(8), InlineData(16)]
+    public void HalvesAreTheLaneLoop(int stride)
+    {
+        var samples = new WideSamples(6);
+        for (int i = 0; i < 2000; ++i)
+        {
+            Fill(samples);
+            var indices = Indices(samples, RowCount * 16 / stride, withFlags: i % 2 == 0);
+            var offsets = new RowOffsets(indices);
+            var half = i / 2 % 2 * Transpose.FloatsPerHalf;
+            var fast = Transpose.GatherHalf(rows + half, stride, offsets);
+            var loop = Transpose.GatherHalfByLanes(rows + half, stride, indices);
+            Assert.True(Bits(fast).SequenceEqual(Bits(loop)));
+            var whole = Transpose.GatherByLanes(rows, stride, indices);
+            Assert.Equal((whole[half], whole[half + 1], whole[half + 2], whole[half + 3]).ToString(), (fast.X, fast.Y, fast.Z, fast.W).ToString());
+            Vector4Wide values = new(samples.Numbers(), samples.Numbers(), samples.Numbers(), samples.Numbers());
+            Transpose.ScatterHalf(values, rows + half, stride, offsets);
+            Transpose.ScatterHalfByLanes(values, copy + half, stride, indices);
+            Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
         }
     }
 

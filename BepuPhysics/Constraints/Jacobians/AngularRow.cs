@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct AngularRow : IJacobian<AngularRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>Angular Jacobian of A; of B it is the opposite. A unit vector where nothing else is said.</summary>

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>Axis times angle of a rotation, the shorter way, at most half a turn.</summary>
@@ -21,7 +24,7 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
     {
         var axis = new Vector3Wide(q.X, q.Y, q.Z);
         var sine = axis.Length();
-        var halfAngle = Wide.Atan2(sine, Vector.Abs(q.W));
+        var halfAngle = Wide.AtanOfQuarter(sine, Vector.Abs(q.W));
         // Where the sine is zero, or its square too small for a float, so is the angle.
         return axis * (Wide.Sign(q.W) * Wide.DivideOrZero(halfAngle + halfAngle, sine));
     }
@@ -50,6 +53,9 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
 // K = I^-1, the inverse inertia
 struct OneBodyAngularRows : IJacobian<OneBodyAngularRows, OneBody, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Angular | BodyAccess.InverseInertia;
+
     /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 

@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 // Bodies in a line have no n: it is a direction at right angles to the longer of b and c by definition, so that they can be pushed apart.
 struct AreaGradient : IJacobian<AreaGradient, ThreeBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Position | BodyAccess.Linear | BodyAccess.InverseMass;
+
     // Squares of areas lose digits below this: what floats can hold, no size of a thing.
     const float LeastAreaSquared = 1e-30f;
 

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     // Radians. Rounding of two unit vectors of floats turns them by a fifth of this.
@@ -31,10 +34,19 @@ struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
         var cross = Vector3Wide.Cross(axisA, axisB);
         row.Sine = cross.Length();
         row.Cosine = Vector3Wide.Dot(axisA, axisB);
-        Vector3Wide.BuildOrthonormalBasis(axisA, out var perpendicular, out _);
+        row.Axis = cross * (Vector<float>.One / row.Sine);
         var isParallel = Vector.LessThan(row.Sine, new Vector<float>(ParallelSine));
-        row.Axis = Vector3Wide.Select(isParallel, perpendicular, cross * (Vector<float>.One / row.Sine));
+        if (!Vector.EqualsAll(isParallel, Vector<int>.Zero))
+        {
+            Vector3Wide.BuildOrthonormalBasis(axisA, out var perpendicular, out _);
+            row.Axis = Vector3Wide.Select(isParallel, perpendicular, row.Axis);
+        }
     }
+
+    /// <summary>What the angle between the axes lacks to a quarter turn, radians; negative where it is more.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<float> LackOfQuarterTurn(in AxesRow row) =>
+        Wide.CopySign(Wide.AtanOfQuarter(Vector.Abs(row.Cosine), row.Sine), row.Cosine);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -9,6 +9,9 @@ namespace BepuPhysics.Constraints;
 // K = 1/mA + 1/mB
 struct CenterRow : IJacobian<CenterRow, TwoBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Position | BodyAccess.Linear | BodyAccess.InverseMass;
+
     /// <summary>Direction of the impulse on A; a unit vector.</summary>
     public Vector3Wide Direction;
     /// <summary>What the row measures, m; what that is, the joint says.</summary>

@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 struct GearRow : IJacobian<GearRow, TwoBodies, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>The axis; a unit vector.</summary>

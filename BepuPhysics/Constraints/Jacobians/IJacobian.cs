@@ -15,6 +15,9 @@ interface IJacobian<TJacobian, TBodies, TRows, TMass>
     /// <summary>Whether a row is along a direction; it is about an axis otherwise.</summary>
     static virtual bool IsLinear(int row) => true;
 
+    /// <summary>What rows of this kind read of bodies, their joint's preparation included; of velocities, what they write too.</summary>
+    static virtual BodyAccess Access => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+
     /// <summary>J v.</summary>
     static abstract void RelativeVelocity(in TJacobian jacobian, in TBodies bodies, out TRows velocity);
 
@@ -43,6 +46,12 @@ interface IJacobianJoint<TBodies, TPrestep, TJacobian, TRows, TMass> : IJoint<TB
 {
     static bool IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.IsLinear(int row) => TJacobian.IsLinear(row);
 
+    static BodyAccess IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.Access
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJacobian.Access;
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.RelativeVelocity(in TJacobian geometry, in TBodies bodies, out TRows velocity) =>
         TJacobian.RelativeVelocity(geometry, bodies, out velocity);
@@ -63,6 +72,12 @@ interface IPointJoint<TBodies, TPrestep, TJacobian, TRows, TMass> : IJacobianJoi
     where TRows : unmanaged, IRows<TRows> where TMass : unmanaged, IRowMatrix<TMass, TRows>
 {
     static bool IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.HoldsPoints => true;
+
+    static BodyAccess IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.ErrorAccess
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => BodyAccess.Position;
+    }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void IJoint<TBodies, TPrestep, TJacobian, TRows, TMass>.PointLoad(

@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
 
@@ -9,6 +10,9 @@ namespace BepuPhysics.Constraints;
 // K = [ KL, -skew(rA) IA^-1 - skew(rB) IB^-1 ; the transpose, IA^-1 + IB^-1 ],  KL as for a point
 struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows6, RowMatrix6>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
     /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
 
@@ -41,9 +45,23 @@ struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void InverseEffectiveMass(in PointAndAngularRows rows, in TwoBodies bodies, out RowMatrix6 inverseMass)
     {
-        inverseMass.Linear = PointRows.InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);
-        inverseMass.Coupling =
-            Matrix3x3Wide.Skew(-rows.OffsetA, bodies.A.InverseInertia) + Matrix3x3Wide.Skew(-rows.OffsetB, bodies.B.InverseInertia);
+        var linear = Symmetric3x3Wide.SkewSandwich(rows.OffsetA, bodies.A.InverseInertia);
+        var coupling = Matrix3x3Wide.Skew(-rows.OffsetA, bodies.A.InverseInertia);
+        var arm = rows.OffsetB;
+        var hasArm = ~(Vector.Equals(arm.X, Vector<float>.Zero) & Vector.Equals(arm.Y, Vector<float>.Zero) & Vector.Equals(arm.Z, Vector<float>.Zero));
+        // Hardly any has: B is held by its centre.
+        if (!Vector.EqualsAll(hasArm, Vector<int>.Zero))
+        {
+            // Lane by lane, so that zeros have the same signs beside others.
+            var linearB = Symmetric3x3Wide.SkewSandwich(arm, bodies.B.InverseInertia);
+            var couplingB = Matrix3x3Wide.Skew(-arm, bodies.B.InverseInertia);
+            linear = Symmetric3x3Wide.Select(hasArm, linear + linearB, linear);
+            coupling.X = Vector3Wide.Select(hasArm, coupling.X + couplingB.X, coupling.X);
+            coupling.Y = Vector3Wide.Select(hasArm, coupling.Y + couplingB.Y, coupling.Y);
+            coupling.Z = Vector3Wide.Select(hasArm, coupling.Z + couplingB.Z, coupling.Z);
+        }
+        inverseMass.Linear = Symmetric3x3Wide.AddDiagonal(linear, bodies.A.InverseMass + bodies.B.InverseMass);
+        inverseMass.Coupling = coupling;
         inverseMass.Angular = bodies.A.InverseInertia + bodies.B.InverseInertia;
     }
 

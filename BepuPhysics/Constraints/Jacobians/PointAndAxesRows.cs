@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 struct PointAndAxesRows : IPointJacobian<PointAndAxesRows, TwoBodies, Rows4, RowMatrix4>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>
@@ -40,8 +43,7 @@ struct PointAndAxesRows : IPointJacobian<PointAndAxesRows, TwoBodies, Rows4, Row
     }
 
     /// <inheritdoc/>
-    // A JIT root of its own: with it, the kernel has more locals than the JIT tracks. What it reads and writes is in memory anyway.
-    [MethodImpl(MethodImplOptions.NoInlining)]
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in PointAndAxesRows rows, in TwoBodies bodies, out RowMatrix4 inverseMass)
     {
         inverseMass.Linear = PointRows.InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);

@@ -12,6 +12,9 @@ namespace BepuPhysics.Constraints;
 struct PointAndTangentRows : IPointJacobian<PointAndTangentRows, TwoBodies, Rows5, RowMatrix5>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
 
     /// <inheritdoc cref="PointRows.OffsetA"/>

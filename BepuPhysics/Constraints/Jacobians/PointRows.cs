@@ -8,6 +8,9 @@ namespace BepuPhysics.Constraints;
 // K = (1/mA + 1/mB) I + skew(rA) IA^-1 skew(rA)^T + skew(rB) IB^-1 skew(rB)^T
 struct PointRows : IPointJacobian<PointRows, TwoBodies, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
     /// <summary>From the centre of A to its point, world axes.</summary>
     public Vector3Wide OffsetA;
     /// <summary>From the centre of B to its point, world axes.</summary>
@@ -62,6 +65,9 @@ struct PointRows : IPointJacobian<PointRows, TwoBodies, Rows3, RowMatrix3>
 // K = 1/m I + skew(r) I^-1 skew(r)^T
 struct OneBodyPointRows : IJacobian<OneBodyPointRows, OneBody, Rows3, RowMatrix3>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+
     /// <summary>From the centre of the body to the point, world axes.</summary>
     public Vector3Wide Offset;
 

@@ -11,6 +11,9 @@ namespace BepuPhysics.Constraints;
 struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowMatrix2>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Angular | BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     public static bool IsLinear(int row) => false;
 
     /// <summary>A direction fixed to A, at right angles to the axis.</summary>
@@ -28,7 +31,8 @@ struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowM
         var y = Vector3Wide.Dot(tangentY, axisB);
         var z = Vector3Wide.Dot(Vector3Wide.Cross(tangentX, tangentY), axisB);
         var sine = Vector.SquareRoot(x * x + y * y);
-        var angle = Wide.Atan2(sine, z);
+        var angle = Wide.AtanOfQuarter(sine, Vector.Abs(z));
+        angle = Wide.Select(Vector.LessThan(z, Vector<float>.Zero), new Vector<float>(MathHelper.Pi) - angle, angle);
         var aligned = Vector.Equals(sine, Vector<float>.Zero);
         var scale = Wide.DivideOrZero(angle, sine);
         return new(Wide.Select(aligned, angle, y * scale), -x * scale);

@@ -35,7 +35,7 @@ struct TwistAngle
         get
         {
             // The two quaternions of a rotation give angles a turn apart; with W not negative the angle is within half a turn.
-            var half = Wide.Atan2(q.Z * Wide.Sign(q.W), Vector.Abs(q.W));
+            var half = Wide.CopySign(Wide.AtanOfQuarter(Vector.Abs(q.Z), Vector.Abs(q.W)), q.Z * Wide.Sign(q.W));
             return half + half;
         }
     }

@@ -10,6 +10,9 @@ namespace BepuPhysics.Constraints;
 // K = the sum of g g / m
 struct VolumeGradient : IJacobian<VolumeGradient, FourBodies, Rows1, Rows1>
 {
+    /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Position | BodyAccess.Linear | BodyAccess.InverseMass;
+
     /// <summary>Derivatives by the position of B, C and D; that by A is what is missing to zero.</summary>
     public Vector3Wide B, C, D;
     /// <summary>Six times the volume.</summary>
@@ -45,10 +48,10 @@ struct VolumeGradient : IJacobian<VolumeGradient, FourBodies, Rows1, Rows1>
         return Wide.Clamp(error, -greatest, greatest);
     }
 
-    // A third of the exponent, and of the mantissa as if it were its logarithm: within 6 %.
+    // A third of the exponent, and of the mantissa as if it were its logarithm: within 6 %. Integers hold what is converted: all processors do it alike.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<float> RoughCubeRoot(Vector<float> value) => Vector.AsVectorSingle(
-        Vector.ConvertToInt32(Vector.ConvertToSingle(Vector.AsVectorInt32(value)) * new Vector<float>(1 / 3f)) + new Vector<int>(0x2A514067));
+        Vector.ConvertToInt32Native(Vector.ConvertToSingle(Vector.AsVectorInt32(value)) * new Vector<float>(1 / 3f)) + new Vector<int>(0x2A514067));
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

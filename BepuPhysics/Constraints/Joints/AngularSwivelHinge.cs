@@ -54,7 +54,7 @@ readonly struct AngularSwivelHingeJoint : IJacobianJoint<TwoBodies, AngularSwive
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void PositionError(in TwoBodies bodies, in AngularSwivelHingeWide prestep, in AxesRow geometry, out Rows1 error) =>
-        error.X = Wide.Atan2(geometry.Cosine, geometry.Sine);
+        error.X = AxesRow.LackOfQuarterTurn(geometry);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

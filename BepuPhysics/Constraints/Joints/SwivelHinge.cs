@@ -68,7 +68,7 @@ readonly struct SwivelHingeJoint : IPointJoint<TwoBodies, SwivelHingeWide, Point
     public static void PositionError(in TwoBodies bodies, in SwivelHingeWide prestep, in PointAndAxesRows geometry, out Rows4 error)
     {
         error.Linear = PointRows.Separation(bodies, geometry.OffsetA, geometry.OffsetB);
-        error.Angular = Wide.Atan2(geometry.Axes.Cosine, geometry.Axes.Sine);
+        error.Angular = AxesRow.LackOfQuarterTurn(geometry.Axes);
     }
 
     /// <inheritdoc/>

@@ -43,6 +43,9 @@ readonly struct AngularMotorJoint :
     IJacobianJoint<TwoBodies, AngularMotorWide, AngularRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess ErrorAccess => BodyAccess.Orientation;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Prepare(in TwoBodies bodies, in AngularMotorWide prestep, out AngularRows geometry) => geometry = default;
 

@@ -48,6 +48,9 @@ readonly struct BallSocketMotorJoint :
     IJacobianJoint<TwoBodies, BallSocketMotorWide, PointRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess Access => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Prepare(in TwoBodies bodies, in BallSocketMotorWide prestep, out PointRows geometry)
     {

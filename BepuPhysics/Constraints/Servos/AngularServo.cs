@@ -46,6 +46,8 @@ struct AngularServoWide : IWide<AngularServo>
 readonly struct AngularServoJoint : IJacobianJoint<TwoBodies, AngularServoWide, AngularRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess ErrorAccess => BodyAccess.Orientation;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
 
     /// <inheritdoc/>

@@ -46,6 +46,8 @@ struct OneBodyAngularServoWide : IWide<OneBodyAngularServo>
 readonly struct OneBodyAngularServoJoint : IJacobianJoint<OneBody, OneBodyAngularServoWide, OneBodyAngularRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess ErrorAccess => BodyAccess.Orientation;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
 
     /// <inheritdoc/>

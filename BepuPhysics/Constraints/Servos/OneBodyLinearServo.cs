@@ -52,6 +52,8 @@ struct OneBodyLinearServoWide : IWide<OneBodyLinearServo>
 readonly struct OneBodyLinearServoJoint : IJacobianJoint<OneBody, OneBodyLinearServoWide, OneBodyPointRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static BodyAccess ErrorAccess => BodyAccess.Position;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
 
     /// <inheritdoc/>
