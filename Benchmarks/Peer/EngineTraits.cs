@@ -46,9 +46,10 @@ static class EngineTraits
     /// <summary>Its default is its cheapest.</summary>
     public static string[] TradedModes => ["default"];
 
-    public static SolveDescription Solve(AccuracySettings settings) => settings is { RelaxationCount: 0, LoadPath: Running.LoadPathChoice.Off, DirectJoints: false }
-        ? new(settings.VelocityIterationCount, settings.SubstepCount)
-        : throw new SceneException("this engine has neither relaxation sweeps nor a load path nor direct joints");
+    public static SolveDescription Solve(AccuracySettings settings) =>
+        settings is { RelaxationCount: 0, LoadPath: Running.LoadPathChoice.Off, DirectJoints: false }
+            ? new(settings.VelocityIterationCount, settings.SubstepCount)
+            : throw new SceneException("this engine has neither relaxation sweeps nor a load path nor direct joints");
 
     /// <summary>It has no coefficient of restitution; its way to bounce is a spring without damping.</summary>
     public static WorldContacts Contacts(AccuracySettings settings)

@@ -92,7 +92,11 @@ public sealed unsafe class Quarantine
         ref var set = ref bodies.Awake;
         ref var motion = ref set.MotionStates[index];
         if (!Soundness.IsSound(motion.Pose))
+        {
             motion.Pose = set.SoundPoses[index];
+            // A bounce moves it along.
+            set.Origins[index].Position = motion.Pose.Position;
+        }
         motion.Velocity = default;
         set.Forget(index);
         bodies.ForgetImpulses(index);

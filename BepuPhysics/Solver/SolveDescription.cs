@@ -34,7 +34,8 @@ public struct SolveDescription
     /// </summary>
     public LoadPathMode LoadPath;
     /// <summary>
-    /// Whether all joints of a structure are solved at once, so that none gives way, whatever hangs in it; <see cref="DirectJointsMode.Off"/> unless said otherwise.
+    /// Whether all joints of a structure are solved at once, so that none gives way, whatever hangs in it; <see cref="DirectJointsMode.Off"/> unless said
+    /// otherwise.
     /// </summary>
     public DirectJointsMode DirectJoints;
     /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>

@@ -89,7 +89,7 @@ public sealed unsafe partial class Solver
             {
                 ref var joint = ref joints.Allocate(pool);
                 joint = new() { Handle = typeBatch.IndexToHandle[i] };
-                ref var node = ref joint.Node;
+                ref var node = ref joint.Joint;
                 node = new()
                 {
                     Slot = joint.Handle.Slot,

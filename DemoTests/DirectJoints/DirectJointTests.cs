@@ -41,7 +41,8 @@ public class DirectJointTests(ITestOutputHelper output)
                 handles.Add(i == 0 ? world.AddKinematic(new Sphere(radius), pose) : world.AddDynamic(new Sphere(radius), mass, pose));
                 var velocity = new BodyVelocity(Direction(), Direction());
                 world.Bodies[handles[i]].Velocity = velocity;
-                reference.AddBody(i == 0 ? 0 : 1d / mass, i == 0 ? 0 : 2.5 / mass / (radius * radius), [.. Numbers(velocity.Linear), .. Numbers(velocity.Angular)]);
+                reference.AddBody(
+                    i == 0 ? 0 : 1d / mass, i == 0 ? 0 : 2.5 / mass / (radius * radius), [.. Numbers(velocity.Linear), .. Numbers(velocity.Angular)]);
             }
             for (int i = 1; i < 15 + loops; ++i)
             {
@@ -251,7 +252,8 @@ public class DirectJointTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Parts that a game puts together a metre apart come together, and are thrown about no worse than by sweeps: without a limit 300 MJ were left of such a start.
+    /// Parts that a game puts together a metre apart come together, and are thrown about no worse than by sweeps: without a limit 300 MJ were left of such
+    /// a start.
     /// </summary>
     [Theory]
     [InlineData(1)]
@@ -277,7 +279,10 @@ public class DirectJointTests(ITestOutputHelper output)
             var mass = MathF.Exp(3 * random.NextSingle() - 1.5f);
             parts.Add((world.AddDynamic(box, mass, new RigidPose(new Vector3(0, i, 0) + TestWorld.Scatter(random, 2))), mass));
             if (i > 0)
-                world.Solver.Add(parts[random.Next(i)].Handle, parts[i].Handle, new BallSocket { LocalOffsetA = new(0, .5f, 0), LocalOffsetB = new(0, -.5f, 0) });
+            {
+                var socket = new BallSocket { LocalOffsetA = new(0, .5f, 0), LocalOffsetB = new(0, -.5f, 0) };
+                world.Solver.Add(parts[random.Next(i)].Handle, parts[i].Handle, socket);
+            }
         }
         world.Step(120);
         return parts.Sum(part => .5f * part.Mass * world.Bodies[part.Handle].Velocity.Linear.LengthSquared());

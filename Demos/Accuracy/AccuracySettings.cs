@@ -65,7 +65,11 @@ sealed record AccuracySettings
 
     public override string ToString() =>
         string.Create(CultureInfo.InvariantCulture,
-            $"s{SubstepCount} i{VelocityIterationCount}{(RelaxationCount > 0 ? $" r{RelaxationCount}" : "")}{LoadPathWords}{(DirectJoints ? " direct" : "")}{(Stiff ? " stiff" : "")}");
+            $"s{SubstepCount} i{VelocityIterationCount}{RelaxationWord}{LoadPathWords}{JointWord}{(Stiff ? " stiff" : "")}");
+
+    string RelaxationWord => RelaxationCount > 0 ? string.Create(CultureInfo.InvariantCulture, $" r{RelaxationCount}") : "";
+
+    string JointWord => DirectJoints ? " direct" : "";
 
     string LoadPathWords => LoadPath == EngineDefaults.LoadPath ? "" : $" load path {LoadPath}";
 }

@@ -24,6 +24,9 @@ sealed record TradeAxis(
     /// <summary>What leaves a dial as the engine has it.</summary>
     public const string Default = "default";
 
+    /// <summary>Joints one after the other.</summary>
+    public const string Swept = "swept";
+
     const int MostSweeps = 1024;
 
     static readonly AngularIntegrationMode[] modes = [AngularIntegrationMode.Nonconserving, AngularIntegrationMode.ConserveMomentum,
@@ -35,7 +38,7 @@ sealed record TradeAxis(
     static readonly string[] loadPathWords = ["off", "needed", "always"];
 
     // One after the other, or all of a structure at once.
-    static readonly string[] jointWords = ["swept", "direct"];
+    static readonly string[] jointWords = [Swept, "direct"];
 
     /// <summary>All dials, the first changing slowest.</summary>
     public static IReadOnlyList<TradeAxis> All { get; } =

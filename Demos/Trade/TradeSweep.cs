@@ -62,7 +62,7 @@ sealed class TradeSweep
             string[] own = ownValues[axis.Name];
             string[] values = asked.TryGetValue(axis.Name, out string[]? chosen) ? chosen : own;
             // An engine that has only one value of a dial has no such dial.
-            if (own.Length == 1 && own[0] == "0")
+            if (own is ["0"] or [TradeAxis.Swept])
                 values = own;
             places = [.. places.SelectMany(place => values.Select(value => new Dictionary<string, string>(place) { [axis.Name] = value }))];
         }

@@ -5,9 +5,9 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.Constraints;
 
 /// <summary>How far a joint that is off corrects itself in a substep.</summary>
-// All that it is off by, as a rule. But velocities are solved for as bodies lie: what turns a body far, or moves it by its own size, brings its joints somewhere
-// else than it was meant to, they are further off than before, and the next correction is greater. A game that puts the parts of a ragdoll together a foot
-// apart, or moves one of them, has such errors; what a joint is off by after a substep of any motion that a substep can follow is far below.
+// All that it is off by, as a rule. But velocities are solved for as bodies lie: what turns a body far, or moves it by its own size, brings its joints
+// somewhere else than it was meant to, they are further off than before, and the next correction is greater. A game that puts the parts of a ragdoll together
+// a foot apart, or moves one of them, has such errors; what a joint is off by after a substep of any motion that a substep can follow is far below.
 static unsafe class Correction
 {
     // Of a body's size, its radius of gyration about the joint; and of a radian.
@@ -15,7 +15,8 @@ static unsafe class Correction
 
     /// <summary>Lessens what the rows of a joint are after.</summary>
     internal static void Limit(
-        in DirectNode node, TypeProcessor processor, DirectPair* jacobian, DirectRow* rows, in QuickList<DirectBody> bodies, Buffer<BodyInertia> inertias, float dt)
+        in DirectNode node, TypeProcessor processor, DirectPair* jacobian, DirectRow* rows, in QuickList<DirectBody> bodies,
+        Buffer<BodyInertia> inertias, float dt)
     {
         double linear = 0, angular = 0;
         for (int row = 0; row < node.RowCount; ++row)

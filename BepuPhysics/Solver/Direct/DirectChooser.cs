@@ -12,7 +12,7 @@ struct DirectCandidate
     /// <summary>Whether it is to be.</summary>
     public bool IsDirect;
     /// <summary>The joint as a plan knows it, with references to its bodies.</summary>
-    public DirectNode Node;
+    public DirectNode Joint;
 }
 
 /// <summary>Finds what hangs together by joints, and makes a plan for each such structure.</summary>
@@ -28,7 +28,7 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         pool.Take<int>(bodyCount, out var structures);
         DisjointSets.Begin(structures, bodyCount);
         foreach (ref var joint in joints)
-            Join(structures, joint.Node);
+            Join(structures, joint.Joint);
         // Joints of each structure in their order: chained, with the first of each by the root of its bodies.
         pool.Take<int>(bodyCount, out var last);
         pool.Take<int>(joints.Length, out var next);
@@ -38,7 +38,7 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         for (int i = 0; i < joints.Length; ++i)
         {
             next[i] = -1;
-            ref var lastOfStructure = ref last[DisjointSets.Root(structures, FirstDynamic(joints[i].Node))];
+            ref var lastOfStructure = ref last[DisjointSets.Root(structures, FirstDynamic(joints[i].Joint))];
             if (lastOfStructure >= 0)
                 next[lastOfStructure] = i;
             else
@@ -83,12 +83,12 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         var references = new QuickList<int>(16, pool);
         for (int i = first; i >= 0; i = next[i])
         {
-            nodes.Add(joints[i].Node, pool);
-            Number(joints[i].Node, ofDynamic: true, placeOf, ref references);
+            nodes.Add(joints[i].Joint, pool);
+            Number(joints[i].Joint, ofDynamic: true, placeOf, ref references);
         }
         var dynamicCount = references.Count;
         for (int i = first; i >= 0; i = next[i])
-            Number(joints[i].Node, ofDynamic: false, placeOf, ref references);
+            Number(joints[i].Joint, ofDynamic: false, placeOf, ref references);
         foreach (ref var node in nodes.AsSpan())
         {
             for (int slot = 0; slot < node.BodyCount; ++slot)

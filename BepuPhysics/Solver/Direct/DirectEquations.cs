@@ -109,7 +109,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         {
             // Times the inverse of L^T: what is left is L D.
             var block = numbers + blocks[a].Place;
-            for (int row = nodes[blocks[a].Node].RowCount; row > 0; --row, block += count)
+            for (int row = nodes[blocks[a].Joint].RowCount; row > 0; --row, block += count)
             {
                 for (int column = 1; column < count; ++column)
                 {
@@ -156,8 +156,8 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         var count = node.RowCount;
         var scaled = stackalloc double[MostRows];
         var left = numbers + a.Place;
-        var columns = nodes[b.Node].RowCount;
-        for (int row = nodes[a.Node].RowCount; row > 0; --row, left += count)
+        var columns = nodes[b.Joint].RowCount;
+        for (int row = nodes[a.Joint].RowCount; row > 0; --row, left += count)
         {
             for (int i = 0; i < count; ++i)
                 scaled[i] = left[i] * rows[node.FirstRow + i].InversePivot;
@@ -173,8 +173,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
     }
 
     /// <summary>Solves for the changes of the impulses, and applies them.</summary>
-    /// <returns>Whether all are numbers; nothing was changed otherwise.</returns>
-    internal bool Solve(in DirectIsland island)
+    internal void Solve(in DirectIsland island)
     {
         for (int k = island.FirstNode; k < island.EndNode; ++k)
             Ask(nodes[k]);
@@ -182,11 +181,6 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
             GoForward(nodes[k]);
         for (int k = island.EndNode - 1; k >= island.FirstNode; --k)
             GoBack(nodes[k]);
-        for (int i = island.FirstRow; i < island.EndRow; ++i)
-        {
-            if (!double.IsFinite(rows[i].X))
-                return false;
-        }
         for (int k = island.FirstNode; k < island.EndNode; ++k)
         {
             for (int i = 0; i < nodes[k].RowCount; ++i)
@@ -196,7 +190,6 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
                 Apply(nodes[k], i, row.X);
             }
         }
-        return true;
     }
 
     // target - J v - s K lambda.
@@ -235,7 +228,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
             var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Node];
+            ref var later = ref nodes[blocks[a].Joint];
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 double sum = 0;
@@ -254,7 +247,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
             var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Node];
+            ref var later = ref nodes[blocks[a].Joint];
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 var known = rows[later.FirstRow + row].X;

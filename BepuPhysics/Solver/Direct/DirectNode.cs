@@ -77,7 +77,7 @@ struct DirectRow
 struct DirectBlock
 {
     /// <summary>The joint that is eliminated later.</summary>
-    public int Node;
+    public int Joint;
     /// <summary>Place of its numbers, row by row of the later joint.</summary>
     public int Place;
 }

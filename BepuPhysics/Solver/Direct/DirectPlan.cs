@@ -166,14 +166,14 @@ unsafe struct DirectPlan
             {
                 var (start, end) = (Nodes[first + child].FirstBlock, Nodes[first + child].FirstBlock + Nodes[first + child].BlockCount);
                 for (int i = start; i < end; ++i)
-                    AddBlock(Blocks[i].Node - first, k, seenBy, first, pool);
+                    AddBlock(Blocks[i].Joint - first, k, seenBy, first, pool);
             }
             node.BlockCount = Blocks.Count - node.FirstBlock;
             Nodes.Add(node, pool);
             SortBlocks(node);
             if (node.BlockCount > 0)
             {
-                var parent = Blocks[node.FirstBlock].Node - first;
+                var parent = Blocks[node.FirstBlock].Joint - first;
                 nextChild[k] = firstChild[parent];
                 firstChild[parent] = k;
             }
@@ -194,11 +194,11 @@ unsafe struct DirectPlan
         if (place <= k || seenBy[place] == k)
             return;
         seenBy[place] = k;
-        Blocks.Add(new() { Node = first + place }, pool);
+        Blocks.Add(new() { Joint = first + place }, pool);
     }
 
     readonly void SortBlocks(in DirectNode node) =>
-        new Span<DirectBlock>(Blocks.Span.Memory + node.FirstBlock, node.BlockCount).Sort(static (a, b) => a.Node.CompareTo(b.Node));
+        new Span<DirectBlock>(Blocks.Span.Memory + node.FirstBlock, node.BlockCount).Sort(static (a, b) => a.Joint.CompareTo(b.Joint));
 
     void PlaceBlocks(int first)
     {
@@ -208,7 +208,7 @@ unsafe struct DirectPlan
             for (int i = node.FirstBlock; i < node.FirstBlock + node.BlockCount; ++i)
             {
                 Blocks[i].Place = NumberCount;
-                NumberCount += node.RowCount * Nodes[Blocks[i].Node].RowCount;
+                NumberCount += node.RowCount * Nodes[Blocks[i].Joint].RowCount;
             }
         }
     }
@@ -227,10 +227,10 @@ unsafe struct DirectPlan
             Targets.Count += node.BlockCount * (node.BlockCount + 1) / 2;
             for (int b = 0; b < node.BlockCount; ++b)
             {
-                var earlier = Blocks[node.FirstBlock + b].Node;
+                var earlier = Blocks[node.FirstBlock + b].Joint;
                 ReadPlaces(earlier, first, placeOf);
                 for (int a = b; a < node.BlockCount; ++a)
-                    Targets[node.FirstTarget + a * (a + 1) / 2 + b] = placeOf[Blocks[node.FirstBlock + a].Node - first];
+                    Targets[node.FirstTarget + a * (a + 1) / 2 + b] = placeOf[Blocks[node.FirstBlock + a].Joint - first];
             }
         }
         pool.Return(ref placeOf);
@@ -241,7 +241,7 @@ unsafe struct DirectPlan
         ref var node = ref Nodes[column];
         placeOf[column - first] = node.Diagonal;
         for (int i = node.FirstBlock; i < node.FirstBlock + node.BlockCount; ++i)
-            placeOf[Blocks[i].Node - first] = Blocks[i].Place;
+            placeOf[Blocks[i].Joint - first] = Blocks[i].Place;
     }
 
     // Bodies of the nodes become places in the list of the plan.
@@ -252,7 +252,7 @@ unsafe struct DirectPlan
             ref var earlier = ref Nodes[k];
             for (int i = earlier.FirstBlock; i < earlier.FirstBlock + earlier.BlockCount; ++i)
             {
-                ref var later = ref Nodes[Blocks[i].Node];
+                ref var later = ref Nodes[Blocks[i].Joint];
                 for (int slot = 0; slot < earlier.BodyCount; ++slot)
                 {
                     for (int laterSlot = 0; laterSlot < later.BodyCount; ++laterSlot)
@@ -262,7 +262,7 @@ unsafe struct DirectPlan
                         Couplings.Add(new()
                         {
                             Place = Blocks[i].Place,
-                            Later = Blocks[i].Node,
+                            Later = Blocks[i].Joint,
                             Earlier = k,
                             LaterSlot = laterSlot,
                             EarlierSlot = slot,

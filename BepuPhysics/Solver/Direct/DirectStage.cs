@@ -15,6 +15,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 {
     const int MaximumBlocks = 16;
     const int BundlesPerBlock = 8;
+    // Square of the speed from which on bodies are stopped.
+    const double GreatestSquare = 1e25;
 
     DirectPlan plan;
     // Which joint each lane of the type batches that are left out is, type batch by type batch.
@@ -129,7 +131,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
                     ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
                     ReadLane(rowsOfBundle, lane, node);
                     if (rowsOfBundle[0].HardMask[lane] != 0)
-                        Correction.Limit(node, processor, jacobians.Memory + node.Jacobian, rows.Memory + node.FirstRow, plan.Bodies, set.LocalInertias, substep.Dt);
+                        Limit(node, processor, set.LocalInertias, substep.Dt);
                 }
             }
             first += batch.BundleCount;
@@ -157,24 +159,52 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         }
     }
 
+    void Limit(in DirectNode node, TypeProcessor processor, Buffer<BodyInertia> inertias, float dt) =>
+        Correction.Limit(node, processor, jacobians.Memory + node.Jacobian, rows.Memory + node.FirstRow, plan.Bodies, inertias, dt);
+
     static Vector256<double> ReadLane(in Vector3Wide wide, int lane) => Vector256.Create(wide.X[lane], wide.Y[lane], wide.Z[lane], 0d);
 
     bool HasLoops(in DirectNode node) => plan.Islands[node.Island].HasLoops;
 
+    // What is beyond all numbers is not written into a whole structure because of one of its bodies: that one will be stopped.
     void Begin(in DirectIsland island, in Substep substep)
     {
         ReadBodies(island);
         Equations.Factor(island);
         Equations.WarmStart(island, substep.WarmStartScale);
-        WriteVelocities(island);
+        if (IsSound(island))
+        {
+            WriteVelocities(island);
+            return;
+        }
+        for (int i = island.FirstRow; i < island.EndRow; ++i)
+            rows[i].Impulse = 0;
+        WriteImpulses(island);
     }
 
     void Solve(in DirectIsland island)
     {
         ReadVelocities(island);
-        if (!Equations.Solve(island))
+        Equations.Solve(island);
+        if (!IsSound(island))
             return;
         WriteVelocities(island);
+        WriteImpulses(island);
+    }
+
+    // No comparison holds of what is no number.
+    bool IsSound(in DirectIsland island)
+    {
+        for (int i = island.FirstBody; i < island.EndBody; ++i)
+        {
+            if (!(DirectPair.Sum(DirectPair.Multiply(plan.Bodies[i].Velocity, plan.Bodies[i].Velocity)) <= GreatestSquare))
+                return false;
+        }
+        return true;
+    }
+
+    void WriteImpulses(in DirectIsland island)
+    {
         for (int i = island.FirstNode; i < island.EndNode; ++i)
         {
             ref var node = ref plan.Nodes[i];

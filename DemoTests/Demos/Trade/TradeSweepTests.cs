@@ -54,6 +54,7 @@ public sealed class TradeSweepTests
             ["mode"] = ["default"],
             ["spring"] = ["default"],
             ["load-path"] = ["off"],
+            ["joints"] = ["swept"],
             ["relaxations"] = ["0"],
             ["iterations"] = ["1"],
             ["substeps"] = ["1", "2", "4"],
