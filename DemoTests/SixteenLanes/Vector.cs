@@ -86,6 +86,7 @@ public static class Vector
     public static Vector<float> Floor(Vector<float> a) => Vector512.Floor(a);
     public static Vector<float> ConvertToSingle(Vector<int> a) => Vector512.ConvertToSingle((Vector512<int>)a);
     public static Vector<int> ConvertToInt32(Vector<float> a) => Vector512.ConvertToInt32(a);
+    public static Vector<int> ConvertToInt32Native(Vector<float> a) => Vector512.ConvertToInt32Native(a);
     public static Vector<int> AsVectorInt32(Vector<float> a) => ((Vector512<float>)a).AsInt32();
     public static Vector<float> AsVectorSingle(Vector<int> a) => ((Vector512<int>)a).AsSingle();
 

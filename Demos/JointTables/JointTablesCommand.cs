@@ -22,11 +22,7 @@ static class JointTablesCommand
             Description = $"Of {string.Join(", ", JointTable.All.Select(table => table.Name))} [default: all].",
             Arity = ArgumentArity.ZeroOrMore,
         };
-        var peer = new Option<string?>("--peer")
-        {
-            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure beside.",
-            HelpName = "FOLDER",
-        };
+        Option<string?> peer = PeerProgram.CreateOption("measure beside");
         var page = new Option<string?>("--page") { Description = "Page to write the tables to.", HelpName = "FILE" };
         var rows = new Option<bool>(RowsOption) { Description = "Writes rows for a program, as they come.", Hidden = true };
         var command = new Command(Word, "Measures pendulums, linkages and loaded chains over substeps and sweeps.");

@@ -26,11 +26,7 @@ static class LevelCommand
             DefaultValueFactory = _ => 3,
         };
         var threads = new Option<int>(ThreadOption) { Description = "Threads to build with; rays are cast by one.", DefaultValueFactory = _ => 1 };
-        var peer = new Option<string?>("--peer")
-        {
-            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure beside.",
-            HelpName = "FOLDER",
-        };
+        Option<string?> peer = PeerProgram.CreateOption("measure beside");
         var row = new Option<bool>(RowOption) { Description = "Writes a row for a program.", Hidden = true };
         var command = new Command(Word, "Measures what a mesh of 131,072 triangles costs: to build, and per ray.") { repetitions, runs, threads, peer, row };
         command.SetAction(parsed => guard(parsed, () =>

@@ -18,11 +18,7 @@ static class MemoryCommand
         var bodies = new Option<int>("--bodies") { Description = "Boxes that lie on a ground, apart from each other.", DefaultValueFactory = _ => 100_000 };
         var steps = new Option<int>("--steps") { Description = "Steps before memory is looked at.", DefaultValueFactory = _ => 600 };
         var threads = new Option<int>("--threads") { Description = "Threads that step.", DefaultValueFactory = _ => 1 };
-        var peer = new Option<string?>("--peer")
-        {
-            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure beside.",
-            HelpName = "FOLDER",
-        };
+        Option<string?> peer = PeerProgram.CreateOption("measure beside");
         var row = new Option<bool>(RowOption) { Description = "Writes a row for a program.", Hidden = true };
         var command = new Command(Word, "Measures the memory that a body takes: resident, at most, held by pools, and lent by them.")
         {

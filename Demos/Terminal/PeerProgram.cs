@@ -1,4 +1,5 @@
 using System;
+using System.CommandLine;
 using System.Diagnostics;
 using System.IO;
 using Demos.Scenes;
@@ -8,6 +9,14 @@ namespace Demos.Terminal;
 /// <summary>The program of <c>Benchmarks/Peer</c>: these sources, compiled against the bepuphysics2 of a folder.</summary>
 public static class PeerProgram
 {
+    /// <summary>The option that says where the peer is.</summary>
+    /// <param name="purpose">What it is for: to ...</param>
+    internal static Option<string?> CreateOption(string purpose) => new("--peer")
+    {
+        Description = $"Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to {purpose}.",
+        HelpName = "FOLDER",
+    };
+
     /// <summary>Path of the assembly: a built program as it is, or one that is built for the engine of a folder.</summary>
     /// <param name="programOrFolder">A .dll, or what holds the peer's BepuPhysics.dll and BepuUtilities.dll.</param>
     /// <exception cref="SceneException">There is no such engine in the folder, or the program does not compile against it.</exception>

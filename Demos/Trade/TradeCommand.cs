@@ -23,11 +23,7 @@ static class TradeCommand
             Arity = ArgumentArity.OneOrMore,
         };
         var runs = new Option<int>("--runs") { Description = "Runs of each setting.", DefaultValueFactory = _ => DefaultRuns };
-        var peer = new Option<string?>("--peer")
-        {
-            Description = "Folder with bepuphysics2's BepuPhysics.dll and BepuUtilities.dll, or a built peer program (.dll), to measure in turn with.",
-            HelpName = "FOLDER",
-        };
+        Option<string?> peer = PeerProgram.CreateOption("measure in turn with");
         var output = new Option<string?>("--output") { Description = "Folder for SCENE.svg, SCENE.json and SCENE.md of each scene.", HelpName = "FOLDER" };
         var all = new Option<bool>("--all") { Description = "Prints all settings, not only those on the front." };
         var command = new Command("trade", "Measures error against time of a step over all settings, and shows the settings that nothing beats.");
