@@ -225,6 +225,22 @@ public class DirectJointTests(ITestOutputHelper output)
         Assert.Equal(frequency, found, .02 * frequency);
     }
 
+    /// <summary>A spring may be so soft that floats know nothing of it: what hangs in it falls, and joints beside it hold.</summary>
+    [Fact]
+    public void A_spring_that_does_nothing_harms_nothing()
+    {
+        using var world = new TestWorld(direct);
+        var anchor = world.AddKinematic(new Sphere(.2f), new RigidPose(Vector3.Zero));
+        var a = world.AddDynamic(new Sphere(.2f), 1, new RigidPose(new Vector3(0, -1, 0)));
+        var b = world.AddDynamic(new Sphere(.2f), 1, new RigidPose(new Vector3(0, -2, 0)));
+        world.Solver.Add(anchor, a, new BallSocket { LocalOffsetA = new(0, -1, 0), SpringSettings = new(1e-22f, 1e-20f) });
+        world.Solver.Add(a, b, new BallSocket { LocalOffsetA = new(0, -1, 0) });
+        world.Step(60);
+        var (poseA, poseB) = (world.Bodies[a].Pose, world.Bodies[b].Pose);
+        Assert.Equal(-9.81f / 2, poseA.Position.Y + 1, .1f);
+        Assert.InRange((poseA.Position + Vector3.Transform(new Vector3(0, -1, 0), poseA.Orientation) - poseB.Position).Length(), 0, 1e-3f);
+    }
+
     /// <summary>What cannot turn or move has nothing to solve, and nothing goes wrong.</summary>
     [Fact]
     public void Locked_bodies_and_coincident_anchors_stay_finite()

@@ -15,6 +15,8 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 {
     const int MaximumBlocks = 16;
     const int BundlesPerBlock = 8;
+    // Of a spring that is so soft that it does nothing.
+    const double LeastMassScale = 1e-12;
     // Square of the speed from which on bodies are stopped.
     const double GreatestSquare = 1e25;
 
@@ -154,7 +156,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
             var isRigid = wide[i].HardMask[lane] != 0 && !HasLoops(node);
             ref var row = ref rows[node.FirstRow + i];
             row.Target = wide[i].TargetVelocity[lane];
-            row.Softness = isRigid ? 0 : (double)wide[i].ImpulseScale[lane] / wide[i].MassScale[lane];
+            row.Softness = isRigid ? 0 : wide[i].ImpulseScale[lane] / Math.Max(wide[i].MassScale[lane], LeastMassScale);
             row.Impulse = wide[i].Impulse[lane];
         }
     }
