@@ -132,13 +132,9 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             isHard = Vector.Equals(softness.ImpulseScale, Vector<float>.Zero);
             return;
         }
-        var spring = TJoint.Spring(prestep);
-        isHard = Vector.Equals(spring.AngularFrequency, Vector<float>.Zero);
+        isHard = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
         var slots = bodies;
-        var isHub = Vector<int>.Zero;
-        for (int i = 0; i < TBodies.Count; ++i)
-            isHub |= BodySlots.At(ref slots, i).HubMask;
-        softness = spring.ForSubstep(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints, substep.Hubs, isHub);
+        softness = Softness(ref slots, substep, prestep);
         if (CarriesPointLoad && !substep.IsRelaxation)
         {
             TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);

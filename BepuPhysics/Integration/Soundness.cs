@@ -11,9 +11,6 @@ namespace BepuPhysics;
 /// </remarks>
 static class Soundness
 {
-    /// <summary>Square of the greatest distance from the origin, m, and of the greatest speeds, m/s and rad/s, that count as sound.</summary>
-    const float GreatestSquare = 1e25f;
-
     /// <summary>Lanes with a sound pose and velocity.</summary>
     /// <param name="pose">The poses.</param>
     /// <param name="velocity">The velocities.</param>
@@ -24,7 +21,7 @@ static class Soundness
         var deviation = Vector.Abs(LengthSquared(pose.Orientation) - Vector<float>.One);
         var motion = pose.Position.LengthSquared() + velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
         return Vector.LessThanOrEqual(deviation, new Vector<float>(tolerance)) &
-            Vector.LessThanOrEqual(motion, new Vector<float>(GreatestSquare));
+            Vector.LessThanOrEqual(motion, new Vector<float>(Limits.GreatestSoundSquare));
     }
 
     /// <summary>Lanes with a sound velocity.</summary>
@@ -32,7 +29,7 @@ static class Soundness
     // into NaN took the angular velocity along.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<int> OfVelocities(in BodyVelocityWide velocity) =>
-        Vector.LessThanOrEqual(velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared(), new Vector<float>(GreatestSquare));
+        Vector.LessThanOrEqual(velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared(), new Vector<float>(Limits.GreatestSoundSquare));
 
     /// <summary>Lanes with an inverse inertia of numbers.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -55,12 +52,12 @@ static class Soundness
     static Vector<float> LengthSquared(in QuaternionWide q) => q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W;
 
     /// <summary>Whether one pose is sound.</summary>
-    internal static bool IsSound(in RigidPose pose) => Exact.LengthSquared(pose.Position) <= GreatestSquare &&
+    internal static bool IsSound(in RigidPose pose) => Exact.LengthSquared(pose.Position) <= Limits.GreatestSoundSquare &&
         UnitTolerance.Holds(Exact.Dot(pose.Orientation, pose.Orientation), UnitTolerance.Sound);
 
     /// <summary>Whether one velocity is sound.</summary>
     internal static bool IsSound(in BodyVelocity velocity) =>
-        Exact.LengthSquared(velocity.Linear) + Exact.LengthSquared(velocity.Angular) <= GreatestSquare;
+        Exact.LengthSquared(velocity.Linear) + Exact.LengthSquared(velocity.Angular) <= Limits.GreatestSoundSquare;
 
     /// <summary>Whether one inertia consists of numbers.</summary>
     internal static bool IsSound(in BodyInertia inertia)

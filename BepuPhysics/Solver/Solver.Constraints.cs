@@ -9,7 +9,7 @@ namespace BepuPhysics;
 // Adding, removing and looking at constraints.
 public sealed unsafe partial class Solver
 {
-    const int MaximumBodiesPerConstraint = 4;
+    internal const int MaximumBodiesPerConstraint = 4;
     const int MaximumFloatsPerConstraint = 128;
 
     /// <summary>Adds a constraint on one body.</summary>

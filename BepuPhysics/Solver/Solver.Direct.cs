@@ -44,7 +44,7 @@ public sealed unsafe partial class Solver
         if (directJoints != DirectJointsMode.Off)
             new DirectChooser(joints, bodies.Awake.Count, pool).Choose(ref plan);
         for (int i = 0; i < joints.Count; ++i)
-            SetSwept(joints[i].Handle, !joints[i].IsDirect);
+            SetSwept(joints[i].Joint.Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
         directStage.Replace(plan);
         chosenMode = directJoints;
@@ -88,11 +88,11 @@ public sealed unsafe partial class Solver
             for (int i = 0; i < typeBatch.ConstraintCount; ++i)
             {
                 ref var joint = ref joints.Allocate(pool);
-                joint = new() { Handle = typeBatch.IndexToHandle[i] };
+                joint = default;
                 ref var node = ref joint.Joint;
                 node = new()
                 {
-                    Slot = joint.Handle.Slot,
+                    Handle = typeBatch.IndexToHandle[i],
                     TypeId = typeBatch.TypeId,
                     RowCount = processor.RowCount,
                     BodyCount = processor.BodiesPerConstraint,

@@ -13,6 +13,9 @@ public static class Limits
     public const float MaximumLinearVelocity = 1e7f;
     /// <summary>Greatest component of an angular velocity, rad/s.</summary>
     public const float MaximumAngularVelocity = 1e7f;
+    /// <summary>Square of the greatest distance from the origin, m, and of the greatest speeds, m/s and rad/s, that count as sound.</summary>
+    // Above what a game may describe, and far below overflow.
+    internal const float GreatestSoundSquare = 1e25f;
     /// <summary>Least mass of a body, kg.</summary>
     public const float MinimumMass = 1e-9f;
     /// <summary>Greatest mass of a body, kg; zero inverse mass is that of a body which nothing moves.</summary>

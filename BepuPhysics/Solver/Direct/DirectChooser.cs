@@ -7,8 +7,6 @@ namespace BepuPhysics.Constraints;
 /// <summary>A joint that may be solved together with others.</summary>
 struct DirectCandidate
 {
-    /// <summary>Its handle.</summary>
-    public ConstraintHandle Handle;
     /// <summary>Whether it is to be.</summary>
     public bool IsDirect;
     /// <summary>The joint as a plan knows it, with references to its bodies.</summary>

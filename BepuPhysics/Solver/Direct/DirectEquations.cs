@@ -15,7 +15,6 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
     const double LeastPivot = 1e-9;
     /// <summary>Most rows of a joint.</summary>
     internal const int MostRows = 6;
-    const int MostBodies = 4;
 
     readonly DirectNode* nodes = plan.Nodes.Span.Memory;
     readonly DirectBlock* blocks = plan.Blocks.Span.Memory;
@@ -197,7 +196,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
     {
         var j = jacobians + node.Jacobian;
         var softness = rows[node.FirstRow].Softness;
-        var velocities = stackalloc DirectPair[MostBodies];
+        var velocities = stackalloc DirectPair[Solver.MaximumBodiesPerConstraint];
         for (int slot = 0; slot < node.BodyCount; ++slot)
         {
             velocities[slot] = bodies[node.Bodies[slot]].Velocity;

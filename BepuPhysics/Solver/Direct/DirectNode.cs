@@ -6,8 +6,8 @@ namespace BepuPhysics.Constraints;
 /// <summary>A joint of a structure that is solved at once.</summary>
 struct DirectNode
 {
-    /// <summary>Slot of its handle.</summary>
-    public int Slot;
+    /// <summary>Its handle.</summary>
+    public ConstraintHandle Handle;
     /// <summary>Id of its type.</summary>
     public int TypeId;
     /// <summary>Index in the type batch.</summary>
@@ -32,8 +32,8 @@ struct DirectNode
     public DirectBodies Bodies;
 }
 
-/// <summary>Up to four numbers of bodies.</summary>
-[InlineArray(4)]
+/// <summary>A number for each body of a joint.</summary>
+[InlineArray(Solver.MaximumBodiesPerConstraint)]
 struct DirectBodies
 {
     int first;

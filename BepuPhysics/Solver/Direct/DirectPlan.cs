@@ -58,7 +58,7 @@ unsafe struct DirectPlan
     {
         var before = this;
         pool.Take<int>(joints.Length + 1, out var starts);
-        pool.Take<int>(joints.Length * 4, out var bodies);
+        pool.Take<int>(joints.Length * Solver.MaximumBodiesPerConstraint, out var bodies);
         var graph = GraphOf(joints, dynamicCount, starts, bodies, pool);
         var hasLoops = graph.HasLoops();
         var isAdded = !hasLoops || joints.Length <= MostJointsWithLoops;

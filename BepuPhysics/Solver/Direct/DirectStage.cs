@@ -2,7 +2,6 @@ using System;
 using System.Numerics;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
@@ -17,12 +16,10 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
     const int BundlesPerBlock = 8;
     // Of a spring that is so soft that it does nothing.
     const double LeastMassScale = 1e-12;
-    // Square of the speed from which on bodies are stopped.
-    const double GreatestSquare = 1e25;
 
     DirectPlan plan;
     // Which joint each lane of the type batches that are left out is, type batch by type batch.
-    QuickList<int> nodeOfLane;
+    Buffer<int> nodeOfLane;
     Buffer<double> numbers;
     Buffer<DirectPair> jacobians;
     Buffer<DirectPair> weighted;
@@ -49,28 +46,23 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
     // After the joints have gone where they are left out.
     void FindLanes()
     {
-        ref var batches = ref solver.ActiveSet.Batches;
-        nodeOfLane = new QuickList<int>(16, pool);
-        for (int i = 0; i < batches.Count; ++i)
-        {
-            for (int j = 0; j < batches[i].TypeBatches.Count && batches[i].Kind == BatchKind.Direct; ++j)
-                nodeOfLane.Allocate(batches[i].TypeBatches[j].BundleCount * Vector<float>.Count, pool) = 0;
-        }
-        bundleCount = nodeOfLane.Count / Vector<float>.Count;
+        bundleCount = 0;
+        foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
+            bundleCount += batch.BundleCount;
+        pool.Take(bundleCount * Vector<float>.Count, out nodeOfLane);
         for (int i = 0; i < plan.Nodes.Count; ++i)
         {
             ref var node = ref plan.Nodes[i];
-            ref var location = ref solver.Locations[node.Slot];
-            node.Index = location.IndexInTypeBatch;
-            nodeOfLane[FirstLane(location) + node.Index] = i;
+            node.Index = solver.Locations[node.Handle.Slot].IndexInTypeBatch;
+            nodeOfLane[FirstLane(node.TypeId) + node.Index] = i;
         }
     }
 
-    int FirstLane(in ConstraintLocation location)
+    int FirstLane(int typeId)
     {
-        ref var typeBatches = ref solver.ActiveSet.Batches[location.BatchIndex].TypeBatches;
+        ref var typeBatches = ref LeftOut.TypeBatches;
         int first = 0;
-        for (int i = 0; typeBatches[i].TypeId != location.TypeId; ++i)
+        for (int i = 0; typeBatches[i].TypeId != typeId; ++i)
             first += typeBatches[i].BundleCount * Vector<float>.Count;
         return first;
     }
@@ -82,10 +74,12 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
-        SolverPoint.BeforeWarmStart => Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock),
+        SolverPoint.BeforeWarmStart => BundleBlocks,
         SolverPoint.AfterWarmStart or SolverPoint.AfterSolve => IslandBlocks,
         _ => 0,
     };
+
+    int BundleBlocks => Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock);
 
     int IslandBlocks => Math.Min(MaximumBlocks, plan.Islands.Count);
 
@@ -109,13 +103,13 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 
     DirectEquations Equations => new(plan, numbers.Memory, jacobians.Memory, weighted.Memory, rows.Memory);
 
+    /// <summary>The joints that are solved here, as the sweeps leave them out. There are some.</summary>
     internal ref ConstraintBatch LeftOut => ref solver.ActiveSet.Batches[Solver.FindBatch(solver.ActiveSet, BatchKind.Direct)];
 
     void ReadBundles(in Substep substep, int block)
     {
-        var blocks = Math.Min(MaximumBlocks, (bundleCount + BundlesPerBlock - 1) / BundlesPerBlock);
-        var start = bundleCount * block / blocks;
-        var end = bundleCount * (block + 1) / blocks;
+        var start = bundleCount * block / BundleBlocks;
+        var end = bundleCount * (block + 1) / BundleBlocks;
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectEquations.MostRows];
@@ -199,7 +193,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
     {
         for (int i = island.FirstBody; i < island.EndBody; ++i)
         {
-            if (!(DirectPair.Sum(DirectPair.Multiply(plan.Bodies[i].Velocity, plan.Bodies[i].Velocity)) <= GreatestSquare))
+            if (!(DirectPair.Sum(DirectPair.Multiply(plan.Bodies[i].Velocity, plan.Bodies[i].Velocity)) <= Limits.GreatestSoundSquare))
                 return false;
         }
         return true;
@@ -207,12 +201,14 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
 
     void WriteImpulses(in DirectIsland island)
     {
+        ref var leftOut = ref LeftOut;
         for (int i = island.FirstNode; i < island.EndNode; ++i)
         {
             ref var node = ref plan.Nodes[i];
-            ref var batch = ref LeftOut.TypeBatches[LeftOut.Find(node.TypeId)];
+            ref var batch = ref leftOut.TypeBatches[leftOut.Find(node.TypeId)];
+            var processor = solver.Processor(node.TypeId);
             for (int row = 0; row < node.RowCount; ++row)
-                solver.Processor(node.TypeId).Impulse(ref batch, node.Index, row) = (float)rows[node.FirstRow + row].Impulse;
+                processor.Impulse(ref batch, node.Index, row) = (float)rows[node.FirstRow + row].Impulse;
         }
     }
 
@@ -273,7 +269,7 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
         pool.Return(ref jacobians);
         pool.Return(ref weighted);
         pool.Return(ref rows);
-        nodeOfLane.Dispose(pool);
+        pool.Return(ref nodeOfLane);
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
