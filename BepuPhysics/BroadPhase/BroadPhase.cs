@@ -196,7 +196,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
         else
         {
             ActiveTree.Refit(Pool, dispatcher);
-            ActiveTree.Refine(Pool);
+            ActiveTree.Refine(Pool, dispatcher);
         }
         activeAdditions = 0;
 

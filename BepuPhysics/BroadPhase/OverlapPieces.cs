@@ -84,7 +84,8 @@ unsafe struct OverlapPieces
         }
     }
 
-    /// <summary>Divides the larger side of overlapping pairs until a pair is cheap: its cost grows with the smaller side.</summary>
+    /// <summary>Divides the larger side of overlapping pairs until a pair is cheap: its cost grows with both sides.</summary>
+    // It has as many leaves as the smaller side where two subtrees only meet at a face, but as many as the larger one where the other is a ground.
     void Split(Pair pair, in Tree treeA, in Tree treeB, BufferPool pool)
     {
         var stack = stackalloc ChildPair[2 * Tree.TraversalStackSize];
@@ -95,7 +96,7 @@ unsafe struct OverlapPieces
             var children = stack[--count];
             var leavesA = children.A->LeafCount;
             var leavesB = children.B->LeafCount;
-            if (2 * (leavesA < leavesB ? leavesA : leavesB) <= LeafLimit)
+            if (2 * (leavesA < leavesB ? leavesA : leavesB) <= LeafLimit && (leavesA < leavesB ? leavesB : leavesA) <= LeafLimit)
             {
                 Pairs.Add(new Pair { Children = children, IsStatic = pair.IsStatic }, pool);
                 continue;

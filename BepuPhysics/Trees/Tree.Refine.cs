@@ -1,4 +1,5 @@
 using System;
+using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Trees;
@@ -24,13 +25,16 @@ public unsafe partial struct Tree
     /// must fit (call a refit first).
     /// Leaves the nodes in depth-first order. What is done depends on the tree and the calls before alone.
     /// </summary>
-    public void Refine(BufferPool pool)
+    public void Refine(BufferPool pool) => Refine(pool, null);
+
+    /// <summary>As <see cref="Refine(BufferPool)"/>; where nodes have to be copied, on many threads if the tree is large.</summary>
+    internal void Refine(BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
         if (LeafCount <= 2 || --callsToSkip >= 0)
             return;
         if (!IsDepthFirst)
-            Refit(pool);
+            Refit(pool, dispatcher);
 
         // An eighth of a small tree, at most some hundred leaves; more only where the top of a huge tree asks for larger items.
         var topItemLimit = Clamp(LeafCount / 512, 8, MaximumLeafCount);
@@ -42,7 +46,7 @@ public unsafe partial struct Tree
         if (LeafCount <= subtreeLimit)
             gain = RefineSubtree(0, LeafCount, 0, pool);
         else if (++refinementSlice % SlicesPerTop == 0)
-            gain = RefineTop(topItemLimit, pool);
+            gain = RefineTop(topItemLimit, pool, dispatcher);
         else
             gain = RefineNextSubtrees(subtreeLimit, pool);
 
@@ -111,7 +115,7 @@ public unsafe partial struct Tree
 
     /// <summary>Rebuilds all nodes with more leaves than a limit over the subtrees that have no more, and returns by which part their cost
     /// fell.</summary>
-    float RefineTop(int itemLimit, BufferPool pool)
+    float RefineTop(int itemLimit, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         using var scratch = new BuildScratch(CountItems(itemLimit), pool);
         Gather(0, itemLimit, scratch, out var itemCount, out var highestItem);
@@ -119,15 +123,16 @@ public unsafe partial struct Tree
         if (HalvingHeight(itemCount) > allowedHeight)
         {
             // Only a subtree that is nearly as high as a tree may be leaves no room; a tree like that is best built anew.
-            BinnedBuild(pool);
+            BinnedBuild(pool, dispatcher);
             return 1;
         }
         var before = MeasureCost(scratch.NodeIndices, itemCount - 1);
         TreeBuilder.Build(this, scratch.Items, scratch.Spare, itemCount, scratch.NodeIndices, allowedHeight);
         var after = MeasureCost(scratch.NodeIndices, itemCount - 1);
         // The subtrees stayed where they were, and are in another order if there was anything to gain.
-        if (!AreInOrder(scratch.NodeIndices, itemCount - 1))
-            SortNodes(pool);
+        isDepthFirst = AreInOrder(scratch.NodeIndices, itemCount - 1);
+        if (!isDepthFirst)
+            SortNodes(pool, dispatcher);
         return RelativeGain(before, after);
     }
 

@@ -32,16 +32,37 @@ public unsafe partial struct Tree
     internal void Refit(BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (!IsDepthFirst)
-            SortNodes(pool);
-        if (LeafCount <= 2)
-            return;
-        if (!IsWorthThreads(dispatcher))
+        if (IsWorthThreads(dispatcher))
         {
-            SweepBounds();
+            FitParts(pool, dispatcher!, fitsBounds: true);
             return;
         }
-        var work = new RefitWork { Tree = this, Parts = new TreeParts(this, dispatcher!.ThreadCount, pool) };
+        if (!IsDepthFirst)
+            SortNodes(pool);
+        if (LeafCount > 2)
+            SweepBounds();
+    }
+
+    /// <summary>Brings the nodes into depth-first order if they are not, on many threads if the tree is large. Boxes stay what they are.</summary>
+    void SortNodes(BufferPool pool, IThreadDispatcher? dispatcher)
+    {
+        if (IsWorthThreads(dispatcher))
+            FitParts(pool, dispatcher!, fitsBounds: false);
+        else
+            SortNodes(pool);
+    }
+
+    /// <summary>Whether going over all nodes takes so long that threads are worth waking.</summary>
+    readonly bool IsWorthThreads(IThreadDispatcher? dispatcher) => dispatcher is { ThreadCount: > 1 } && LeafCount >= MinimumLeafCountForThreads;
+
+    // Sorting and fitting are one pass over each part: its nodes are in the cache in between.
+    void FitParts(BufferPool pool, IThreadDispatcher dispatcher, bool fitsBounds)
+    {
+        var work = new RefitWork { Sort = isDepthFirst ? default : new NodeSort(this, pool), FitsBounds = fitsBounds };
+        if (!isDepthFirst)
+            work.Sort.HandOver(ref this);
+        work.Tree = this;
+        work.Parts = new TreeParts(this, dispatcher.ThreadCount, work.Sort, pool);
         try
         {
             StagedWork.Run(ref work, dispatcher);
@@ -49,19 +70,20 @@ public unsafe partial struct Tree
         finally
         {
             work.Parts.Dispose(pool);
+            work.Sort.End(pool);
         }
+        isDepthFirst = true;
     }
-
-    /// <summary>Whether going over all nodes takes so long that threads are worth waking.</summary>
-    readonly bool IsWorthThreads(IThreadDispatcher? dispatcher) => dispatcher is { ThreadCount: > 1 } && LeafCount >= MinimumLeafCountForThreads;
 
     // Subtrees write to nobody's nodes but their own, and to the slots that they hang on.
     struct RefitWork : IStagedWork
     {
         public Tree Tree;
         public TreeParts Parts;
+        public NodeSort Sort;
+        public bool FitsBounds;
 
-        public readonly int StageCount => 2;
+        public readonly int StageCount => FitsBounds ? 2 : 1;
         public readonly int GetBlockCount(int stage) => stage == 0 ? Parts.Parts.Count : 1;
 
         public readonly void Execute(int stage, int block, int workerIndex)
@@ -69,7 +91,10 @@ public unsafe partial struct Tree
             if (stage == 0)
             {
                 var part = Parts.Parts[block];
-                Tree.SweepBounds(part.Start, part.End);
+                if (Sort.IsNeeded)
+                    Sort.Place(part.Start, part.End);
+                if (FitsBounds)
+                    Tree.SweepBounds(part.Start, part.End);
                 return;
             }
             for (var i = Parts.Tops.Count - 1; i > 0; --i)
@@ -130,38 +155,10 @@ public unsafe partial struct Tree
     /// <summary>Copies the nodes into fresh memory in depth-first order.</summary>
     void SortNodes(BufferPool pool)
     {
-        var count = NodeCount;
-        pool.TakeAtLeast<Node>(Nodes.Length, out var sortedNodes);
-        pool.TakeAtLeast<Metanode>(Metanodes.Length, out var sortedMetanodes);
-        var target = (NodeChild*)sortedNodes.Memory;
-        // The place of a node that is still to come holds, in its first index, which node goes there.
-        target[0].Index = 0;
-        sortedMetanodes[0].ParentSlot = -1;
-        for (var node = 0; node < count; ++node)
-        {
-            var source = target[2 * node].Index;
-            sortedNodes[node] = Nodes[source];
-            sortedMetanodes[node].Height = Metanodes[source].Height;
-            var next = node + 1;
-            for (var slot = 2 * node; slot < 2 * node + 2; ++slot)
-            {
-                var index = target[slot].Index;
-                if (index < 0)
-                {
-                    if (target[slot].LeafCount > 0)
-                        Leaves[~index].Slot = slot;
-                    continue;
-                }
-                target[slot].Index = next;
-                target[2 * next].Index = index;
-                sortedMetanodes[next].ParentSlot = slot;
-                next += target[slot].LeafCount - 1;
-            }
-        }
-        pool.Return(ref Nodes);
-        pool.Return(ref Metanodes);
-        Nodes = sortedNodes;
-        Metanodes = sortedMetanodes;
+        var sort = new NodeSort(this, pool);
+        sort.Place(0, NodeCount);
+        sort.HandOver(ref this);
+        sort.End(pool);
         isDepthFirst = true;
     }
 

@@ -20,7 +20,10 @@ unsafe struct TreeParts
     public QuickList<int> Tops;
 
     /// <summary>Cuts a tree of at least two leaves for a number of threads.</summary>
-    public TreeParts(in Tree tree, int threadCount, BufferPool pool)
+    public TreeParts(in Tree tree, int threadCount, BufferPool pool) : this(tree, threadCount, default, pool) { }
+
+    /// <summary>Cuts a tree whose nodes are on their way into order, and places those above its parts.</summary>
+    public TreeParts(in Tree tree, int threadCount, in NodeSort sort, BufferPool pool)
     {
         var leafLimit = tree.LeafCount / (PartsPerThread * threadCount);
         if (leafLimit < LeastLeafLimit)
@@ -34,6 +37,8 @@ unsafe struct TreeParts
         {
             var node = stack[--count];
             Tops.Add(node, pool);
+            if (sort.IsNeeded)
+                sort.Place(node);
             // B first, so that A is the next to be taken.
             for (var slot = 2 * node + 1; slot >= 2 * node; --slot)
             {

@@ -31,7 +31,7 @@ public class StageRunTests
         using var run = new StageRun(SmallScenes.Pile("shape-pile", 12, 8), 0);
         run.Step(8, 2);
 
-        Assert.Equal(6, run.Milliseconds.Count);
+        Assert.Equal(6, run.Times.Milliseconds.Count);
         Assert.Equal(["sleep", "predict", "broad", "narrow", "flush", "solve", "between"], run.Shares.Select(share => share.Name));
         foreach (StageShare share in run.Shares)
         {
@@ -40,6 +40,29 @@ public class StageRunTests
             Assert.InRange(share.SpeedUp(3), share.SpeedUp(0), 16);
         }
         Assert.True(run.Shares.Single(share => share.Name == "solve").Divided > 0);
+    }
+
+    /// <summary>Of runs each stage, and what is on one thread, takes the least by itself.</summary>
+    [Fact]
+    public void The_least_of_several_runs_is_taken_by_stage()
+    {
+        var first = new StageTimes();
+        first.AddStage(0, 4, 400, 300);
+        first.AddStage(1, 2, 50, 30);
+        first.EndStep(7, [10, 900]);
+        var second = new StageTimes();
+        second.AddStage(0, 4, 200, 100);
+        second.AddStage(1, 2, 80, 25);
+        second.EndStep(9, [60, 20]);
+        first.TakeLeast(second);
+
+        StageShare[] shares = first.Sum(["a", "b"]);
+        Assert.Equal([7], first.Milliseconds);
+        Assert.Equal([210, 70], shares.Select(share => share.Total));
+        Assert.Equal([10, 20], shares.Select(share => share.Serial));
+        Assert.Equal(210 / (10 + 100.0), shares[0].SpeedUp(1), 12);
+        Assert.Equal(70 / (20 + 25.0), shares[1].SpeedUp(0), 12);
+        Assert.Throws<System.InvalidOperationException>(() => first.TakeLeast(new StageTimes()));
     }
 
     /// <summary>What goes comes back where it was, and nothing else changes.</summary>

@@ -61,5 +61,45 @@ public class TreeThreadTests
         }
     }
 
+    /// <summary>Leaves that have come and gone leave nodes in any order; sorting them is part of fitting and of refinement.</summary>
+    [Theory]
+    [MemberData(nameof(Kinds))]
+    public void A_tree_is_sorted_and_refined_as_by_one_thread(string kind)
+    {
+        List<byte[]> expected = Churn(kind, null);
+        foreach (int threads in (ReadOnlySpan<int>)[2, 3, 5, 8])
+        {
+            using var dispatcher = new ThreadDispatcher(threads);
+            Assert.Equal(expected, Churn(kind, dispatcher));
+        }
+    }
+
+    static List<byte[]> Churn(string kind, IThreadDispatcher? dispatcher)
+    {
+        const int steps = 20;
+        List<BoundingBox> boxes = Boxes(kind);
+        using var model = new TreeModel(boxes);
+        var trees = new List<byte[]>();
+        var sorted = 0;
+        for (int i = 0; i < steps; ++i)
+        {
+            Move(model);
+            // Nothing comes or goes in some steps: what has to be sorted then is what a rebuilt top has moved.
+            for (int j = 0; j < 30 && i % 3 == 0; ++j)
+            {
+                model.Remove((i * 131 + j * 17) % model.Boxes.Count);
+                model.Add(boxes[(i * 57 + j * 29) % boxes.Count]);
+            }
+            sorted += model.Tree.IsDepthFirst ? 0 : 1;
+            model.Tree.Refit(model.Pool, dispatcher);
+            model.Tree.Refine(model.Pool, dispatcher);
+            Assert.True(model.Tree.IsDepthFirst);
+            model.Validate();
+            trees.Add(TreeBytes.Of(model.Tree));
+        }
+        Assert.True(sorted >= steps / 3);
+        return trees;
+    }
+
     static void Move(TreeModel model) => model.MoveAll(leaf => new Vector3(leaf % 5 - 2, leaf % 3 - 1, leaf % 7 - 3) * .7f);
 }

@@ -17,9 +17,11 @@ sealed class StageRun : IDisposable
     readonly ObservingDispatcher dispatcher;
     readonly Simulation simulation;
     readonly Replacement? replacement;
-    readonly Dictionary<object, StageShare> shares = [];
-    readonly List<StageShare> order = [];
-    readonly List<double> milliseconds = [];
+    readonly List<object> parts = [];
+    readonly List<string> names = [];
+    // Of each part, what was dispatched of it in the present step.
+    readonly double[] dispatched;
+    readonly double[] serial;
     bool isMeasuring;
 
     /// <param name="scene">What to run.</param>
@@ -38,28 +40,32 @@ sealed class StageRun : IDisposable
         Name("flush", SimulationProfiler.Flush);
         Name("solve", simulation.Solver);
         Name("between", simulation);
+        dispatched = new double[parts.Count];
+        serial = new double[parts.Count];
     }
 
-    /// <summary>Parts of the step, in its order.</summary>
-    public IReadOnlyList<StageShare> Shares => order;
+    /// <summary>What was measured.</summary>
+    public StageTimes Times { get; } = new();
 
-    /// <summary>Milliseconds of each step that was measured, changes by the scene included.</summary>
-    public IReadOnlyList<double> Milliseconds => milliseconds;
+    /// <summary>Parts of the step, in its order.</summary>
+    public StageShare[] Shares => Times.Sum(names);
 
     /// <summary>Hash of all bodies.</summary>
     public ulong Hash() => simulation.StateHash();
 
     void Name(string name, object stage)
     {
-        var share = new StageShare(name);
-        shares.Add(stage, share);
-        order.Add(share);
+        names.Add(name);
+        parts.Add(stage);
     }
 
     void OnStageEnded(int blockCount, long ticks, long longestBlockTicks)
     {
-        if (simulation.Profiler.RunningStage is object stage && isMeasuring)
-            shares[stage].AddStage(blockCount, ticks, longestBlockTicks);
+        if (simulation.Profiler.RunningStage is not object stage || !isMeasuring)
+            return;
+        int part = parts.IndexOf(stage);
+        dispatched[part] += ticks;
+        Times.AddStage(part, blockCount, ticks, longestBlockTicks);
     }
 
     /// <summary>Steps, and measures those after the first ones.</summary>
@@ -68,22 +74,22 @@ sealed class StageRun : IDisposable
         for (int i = 0; i < count; ++i)
         {
             isMeasuring = i >= skipped;
+            Array.Clear(dispatched);
             long start = Stopwatch.GetTimestamp();
             replacement?.Step();
             simulation.Timestep(1 / 60f, dispatcher);
             if (!isMeasuring)
                 continue;
-            milliseconds.Add(Stopwatch.GetElapsedTime(start).TotalMilliseconds);
-            double parts = 0;
-            foreach ((object stage, StageShare share) in shares)
+            double milliseconds = Stopwatch.GetElapsedTime(start).TotalMilliseconds;
+            double sum = 0;
+            for (int part = 0; part < parts.Count; ++part)
             {
-                if (stage == simulation)
-                    continue;
-                double ticks = simulation.Profiler[stage] * Stopwatch.Frequency;
-                share.AddTime(ticks);
-                parts += ticks;
+                // The last part is all of the step, of which the others are taken off.
+                double ticks = simulation.Profiler[parts[part]] * Stopwatch.Frequency;
+                serial[part] = parts[part] == simulation ? ticks - sum : ticks - dispatched[part];
+                sum += ticks;
             }
-            shares[simulation].AddTime(simulation.Profiler[simulation] * Stopwatch.Frequency - parts);
+            Times.EndStep(milliseconds, serial);
         }
     }
 
