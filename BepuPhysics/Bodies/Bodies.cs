@@ -318,7 +318,7 @@ public sealed unsafe partial class Bodies
         HandlePool = default;
     }
 
-    void EndUses()
+    internal void EndUses()
     {
         for (int i = 0; i < Sets.Length; ++i)
         {

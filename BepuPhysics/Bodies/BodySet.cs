@@ -77,6 +77,8 @@ public struct BodySet
     internal Buffer<int> Islands;
     /// <summary>Slot of the body that follows each one in its island, after the last the first; only sets of sleeping bodies have it.</summary>
     internal Buffer<int> NextOfIsland;
+    const int LeastCapacity = 64;
+
     // Whether the bodies sleep: what only steps need is not kept of them.
     bool isAsleep;
 
@@ -147,7 +149,7 @@ public struct BodySet
     {
         isAsleep = true;
         if (capacity > Capacity)
-            Resize(Math.Max(Math.Max(64, capacity), 2 * Capacity), pool);
+            Resize(Math.Max(Math.Max(LeastCapacity, capacity), 2 * Capacity), pool);
     }
 
     /// <summary>Appends a body of another set as it is there: what only steps need of it begins with zero. There must be room.</summary>
@@ -218,6 +220,37 @@ public struct BodySet
         var clear = new ClearRows(0, Count);
         VisitColumns(ref clear);
         Count = 0;
+    }
+
+    /// <summary>Copies all bodies out of the set, or others into their place.</summary>
+    internal void CopyState(StateCopy copy)
+    {
+        var count = Count;
+        var columns = (IsAsleep: isAsleep, HasStiffness: Stiffness.Allocated, HasJointCounts: JointCounts.Allocated, HasFrames: PrincipalFrames.Allocated);
+        copy.Value(ref count);
+        copy.Value(ref columns);
+        if (copy.Restores)
+        {
+            Count = 0;
+            isAsleep |= columns.IsAsleep;
+            if (count > Capacity || (columns.HasJointCounts && Capacity == 0))
+                Resize(Math.Max(LeastCapacity, count), copy.Pool);
+            Require(ref Stiffness, columns.HasStiffness, copy.Pool);
+            Require(ref JointCounts, columns.HasJointCounts, copy.Pool);
+            Require(ref PrincipalFrames, columns.HasFrames, copy.Pool);
+            Count = count;
+        }
+        var rows = new CopyColumns(copy, WholeBundles(count));
+        VisitColumns(ref rows);
+    }
+
+    // A column that is there only where it is needed.
+    void Require<T>(ref Buffer<T> column, bool isNeeded, BufferPool pool) where T : unmanaged
+    {
+        if (isNeeded && !column.Allocated)
+            AddColumn(ref column, pool);
+        else if (!isNeeded && column.Allocated)
+            pool.Return(ref column);
     }
 
     internal void Dispose(BufferPool pool)

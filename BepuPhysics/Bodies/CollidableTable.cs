@@ -56,6 +56,22 @@ struct CollidableTable<T>(T usual) where T : unmanaged, IEquatable<T>
     }
 
     /// <summary>Forgets all values and gives the memory back.</summary>
+    internal void CopyState(StateCopy copy)
+    {
+        CopyState(copy, ref bodies);
+        CopyState(copy, ref statics);
+    }
+
+    readonly void CopyState(StateCopy copy, ref Buffer<T> rows)
+    {
+        var isUsed = rows.Allocated;
+        copy.Value(ref isUsed);
+        if (isUsed)
+            copy.Rows(ref rows, rows.Length, usual);
+        else if (rows.Allocated)
+            copy.Pool.Return(ref rows);
+    }
+
     internal void Dispose(BufferPool pool)
     {
         if (bodies.Allocated)

@@ -22,6 +22,15 @@ sealed class CollidableTraits(Bodies bodies, Statics statics, BufferPool pool)
         Listeners.Forget(collidable);
     }
 
+    internal void CopyState(StateCopy copy)
+    {
+        Layers.CopyState(copy);
+        Listeners.CopyState(copy);
+        var count = RemovalCount;
+        copy.Value(ref count);
+        RemovalCount = count;
+    }
+
     /// <summary>Forgets everything and gives the memory back.</summary>
     internal void Clear()
     {

@@ -48,6 +48,14 @@ readonly struct ClearRows(int start, int count) : IColumnVisitor
     public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged => column.Clear(start, count);
 }
 
+/// <summary>Copies the first rows out of columns, or into them.</summary>
+/// <param name="copy">Which of both, and where.</param>
+/// <param name="count">Number of rows. There is room for them.</param>
+readonly struct CopyColumns(StateCopy copy, int count) : IColumnVisitor
+{
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged => copy.CopyRows(column, count * width);
+}
+
 /// <summary>Gives the memory of columns back.</summary>
 /// <param name="pool">Where it came from.</param>
 readonly struct ReturnColumns(BufferPool pool) : IColumnVisitor

@@ -120,5 +120,13 @@ struct ConstraintEdges
     /// <param name="previousShift">Bits that told the body of a constraint then.</param>
     readonly int Rename(int edge, int previousShift) => edge >> previousShift << shift | edge & (1 << previousShift) - 1;
 
+    /// <param name="copy">Where to.</param>
+    /// <param name="constraintSlots">Slots of constraints that were ever in use.</param>
+    internal void CopyState(StateCopy copy, int constraintSlots)
+    {
+        copy.Value(ref shift);
+        copy.Rows(ref edges, constraintSlots << shift);
+    }
+
     internal void Dispose(BufferPool pool) => pool.Return(ref edges);
 }

@@ -122,5 +122,12 @@ struct HandleOwners
             values[slot] = ~slot;
     }
 
+    internal void CopyState(StateCopy copy)
+    {
+        var count = copy.Rows(ref values, values.Length);
+        for (int slot = count; copy.Restores && slot < values.Length; ++slot)
+            values[slot] = ~slot;
+    }
+
     internal void Dispose(BufferPool pool) => pool.Return(ref values);
 }

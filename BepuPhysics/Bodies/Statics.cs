@@ -346,7 +346,7 @@ public sealed unsafe partial class Statics
         HandlePool = default;
     }
 
-    void EndUses()
+    internal void EndUses()
     {
         for (int i = 0; i < Count; ++i)
             shapes.EndUse(StaticsBuffer[i].Shape);

@@ -268,6 +268,20 @@ public sealed unsafe partial class BroadPhase : IDisposable
         RemoveAllLeaves();
     }
 
+    internal void CopyState(StateCopy copy)
+    {
+        ActiveTree.CopyState(copy);
+        StaticTree.CopyState(copy);
+        copy.Rows(ref ActiveLeaves, ActiveTree.LeafCount);
+        copy.Rows(ref StaticLeaves, StaticTree.LeafCount);
+        copy.Value(ref activeAdditions);
+        copy.Value(ref upkeep);
+        if (!copy.Restores)
+            return;
+        FitLeaves(ActiveTree, ref ActiveLeaves);
+        FitLeaves(StaticTree, ref StaticLeaves);
+    }
+
     internal void RemoveAllLeaves()
     {
         ActiveTree.Clear();

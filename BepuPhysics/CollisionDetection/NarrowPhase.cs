@@ -91,6 +91,22 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Restitution.BeginStep();
     }
 
+    /// <param name="copy">Where to.</param>
+    /// <param name="constraintSlots">Slots of constraints that were ever in use.</param>
+    internal void CopyState(StateCopy copy, int constraintSlots)
+    {
+        Pairs.CopyState(copy);
+        AgreedPairs.CopyState(copy);
+        copy.Rows(ref pairOfConstraint, Math.Min(pairOfConstraint.Length, constraintSlots));
+        var (pairCount, skippedPairCount) = (PairCount, SkippedPairCount);
+        copy.Value(ref pairCount);
+        copy.Value(ref skippedPairCount);
+        (PairCount, SkippedPairCount) = (pairCount, skippedPairCount);
+        // What bounces is found in each step.
+        if (copy.Restores)
+            Restitution.BeginStep();
+    }
+
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
     internal void Abandon()
     {

@@ -22,6 +22,9 @@ public interface IPoseIntegrator
 {
     internal void Initialize(Simulation simulation);
 
+    /// <summary>Saves or restores what the integrator keeps from step to step beside the bodies.</summary>
+    internal void CopyState(StateCopy copy);
+
     /// <summary>Tells the callbacks about a time over which velocities will be integrated. Called on the thread that steps.</summary>
     internal void Prepare(float dt);
 

@@ -43,6 +43,8 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Callbacks.Initialize(simulation);
     }
 
+    void IPoseIntegrator.CopyState(StateCopy copy) => copy.Value(ref keepsLostVelocity);
+
     void IPoseIntegrator.Prepare(float dt)
     {
         var mode = Callbacks.AngularIntegrationMode;

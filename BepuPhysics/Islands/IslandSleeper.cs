@@ -232,6 +232,13 @@ public sealed unsafe class IslandSleeper
         found.Add(slot, pool);
     }
 
+    internal void CopyState(StateCopy copy)
+    {
+        copy.Value(ref stepsToWait);
+        copy.Value(ref stepsInVain);
+        copy.Value(ref ripeInVain);
+    }
+
     /// <summary>Begins anew, as a new simulation does.</summary>
     internal void Clear()
     {

@@ -183,6 +183,15 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
         Invariant.Require(bodyCount == bodies.Asleep.Count, "number of sleeping bodies, islands have", bodyCount, bodies.Asleep.Count);
     }
 
+    internal void CopyState(StateCopy copy)
+    {
+        copy.Ids(ref ids);
+        copy.Rows(ref islands, ids.HighestPossiblyClaimedId + 1);
+        var count = Count;
+        copy.Value(ref count);
+        Count = count;
+    }
+
     internal void Dispose()
     {
         slots.Dispose(pool);

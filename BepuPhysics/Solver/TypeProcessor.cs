@@ -187,6 +187,18 @@ public abstract partial class TypeProcessor
         VisitNames(ref batch, ref resizeNames);
     }
 
+    /// <summary>Copies all constraints out of a type batch, or others into one that is empty.</summary>
+    internal void CopyState(ref TypeBatch batch, int minimumCapacity, StateCopy copy)
+    {
+        var count = batch.ConstraintCount;
+        copy.Value(ref count);
+        if (copy.Restores)
+            Resize(ref batch, Math.Max(minimumCapacity, count), copy.Pool);
+        batch.ConstraintCount = count;
+        var bundles = new CopyColumns(copy, batch.BundleCount * Vector<float>.Count);
+        VisitColumns(ref batch, ref bundles);
+    }
+
     internal static int ColumnStart(int floats, int index) =>
         index / Vector<float>.Count * floats * Vector<float>.Count + index % Vector<float>.Count;
 

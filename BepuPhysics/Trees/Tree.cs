@@ -141,6 +141,27 @@ public unsafe partial struct Tree
         callsToSkip = 0;
     }
 
+    /// <summary>Copies the tree as it is, so that it is refined, and visited, as if nothing had been.</summary>
+    internal void CopyState(StateCopy copy)
+    {
+        copy.Value(ref LeafCount);
+        copy.Value(ref isDepthFirst);
+        copy.Value(ref refinementCursor);
+        copy.Value(ref refinementSlice);
+        copy.Value(ref slicesWithoutGain);
+        copy.Value(ref callsToSkip);
+        if (copy.Restores && LeafCount > Leaves.Length)
+        {
+            var leafCount = LeafCount;
+            LeafCount = 0;
+            EnsureCapacity(leafCount, copy.Pool);
+            LeafCount = leafCount;
+        }
+        copy.CopyRows(Nodes, NodeCount);
+        copy.CopyRows(Metanodes, NodeCount);
+        copy.CopyRows(Leaves, LeafCount);
+    }
+
     /// <summary>Gives the memory back to the pool that it came from and leaves an empty tree behind. Calling it twice does no
     /// harm.</summary>
     public void Dispose(BufferPool pool)

@@ -271,6 +271,16 @@ unsafe struct PairCache(int initialCapacity, BufferPool pool)
         Manifolds.Clear();
     }
 
+    public void CopyState(StateCopy copy)
+    {
+        copy.Dictionary(ref Pairs);
+        copy.Rows(ref seen, Pairs.Count, absent: (byte)0);
+        copy.Dictionary(ref Asleep);
+        Histories.CopyState(copy);
+        Parents.CopyState(copy);
+        Manifolds.CopyState(copy);
+    }
+
     public void Dispose(BufferPool pool)
     {
         Pairs.Dispose(pool);

@@ -107,8 +107,3 @@ unsafe partial struct PairHistory
             Transpose.Scatter(Unsafe.Add(ref source, i), SearchOf(histories) + i * Rows8.Count, Stride, indices);
     }
 }
-
-/// <summary>Names the shape of a collidable for as long as it exists: a later one in the same slot has another generation.</summary>
-/// <param name="Shape">Where the shape is.</param>
-/// <param name="Generation">How many shapes were in that place before.</param>
-readonly record struct ShapeIdentity(TypedIndex Shape, int Generation);

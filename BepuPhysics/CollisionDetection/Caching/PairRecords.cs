@@ -66,5 +66,13 @@ unsafe struct PairRecords<T> where T : unmanaged
         this = default;
     }
 
+    public void CopyState(StateCopy copy)
+    {
+        copy.Ids(ref ids);
+        // The first is nobody's.
+        var used = ids.HighestPossiblyClaimedId + 1;
+        copy.Rows(ref records, used == 0 ? 0 : used + 1);
+    }
+
     const int InitialCapacity = 64;
 }

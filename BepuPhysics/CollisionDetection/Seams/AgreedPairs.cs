@@ -197,6 +197,13 @@ struct AgreedPairs
             entries.Clear(0, entries.Length);
     }
 
+    public void CopyState(StateCopy copy)
+    {
+        copy.List(ref pairs);
+        copy.List(ref bodies);
+        copy.Rows(ref entries, entries.Length, absent: default);
+    }
+
     /// <summary>Returns all memory.</summary>
     public void Dispose(BufferPool pool)
     {

@@ -1,0 +1,165 @@
+using System;
+using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics;
+
+// Saving and restoring.
+public sealed unsafe partial class Solver
+{
+    /// <summary>Slots of constraints that were ever in use.</summary>
+    internal int UsedSlotCount => HandlePool.HighestPossiblyClaimedId + 1;
+
+    internal void CopyState(StateCopy copy)
+    {
+        CopySettings(copy);
+        CopyStepLengths(copy);
+        owners.CopyState(copy);
+        copy.Ids(ref HandlePool);
+        copy.Rows(ref Locations, UsedSlotCount, new ConstraintLocation { SetIndex = -1 });
+        Edges.CopyState(copy, UsedSlotCount);
+        if (copy.Restores)
+            EnsureSlots(Locations.Length);
+        CopyOptions(copy);
+        for (int i = 0; i < Sets.Length; ++i)
+            CopySet(ref Sets[i], copy);
+        var asleepOfKinematics = AsleepOfKinematics;
+        copy.Value(ref asleepOfKinematics);
+        AsleepOfKinematics = asleepOfKinematics;
+        copy.Value(ref shuffleState);
+        copy.Value(ref hubsToShuffleForOneSweep);
+        copy.Value(ref hubsToShuffleForSweeps);
+        copy.Value(ref chosenMode);
+        if (!copy.Restores)
+            return;
+        // Which joints are solved at once is found again from where they are.
+        directStage.Replace(default);
+        chosenVersion = jointVersion - 1;
+    }
+
+    void CopySettings(StateCopy copy)
+    {
+        copy.Value(ref velocityIterationCount);
+        copy.Value(ref substepCount);
+        copy.Value(ref relaxationIterationCount);
+        copy.Value(ref loadPath);
+        copy.Value(ref directJoints);
+        copy.Value(ref hasFixedSubstepCount);
+        var isGoverned = governor.HasValue;
+        var settings = governor.GetValueOrDefault();
+        copy.Value(ref isGoverned);
+        copy.Value(ref settings);
+        governor = isGoverned ? settings : null;
+    }
+
+    void CopyStepLengths(StateCopy copy)
+    {
+        copy.Value(ref previousSubstepDt);
+        copy.Value(ref usualDt);
+        copy.Value(ref usualSubstepDt);
+        copy.Value(ref stepsSeen);
+        copy.Value(ref governedCount);
+        copy.Value(ref recentError);
+        var last = (Count: LastSubstepCount, Error: LastConstraintError);
+        copy.Value(ref last);
+        (LastSubstepCount, LastConstraintError) = last;
+    }
+
+    void CopyOptions(StateCopy copy)
+    {
+        copy.Rows(ref apart.Flags, apart.Flags.Length, absent: 0ul);
+        copy.Value(ref apartCount);
+        copy.List(ref breakable);
+        copy.Rows(ref breakablePlaces, breakablePlaces.Length, absent: 0);
+        if (!copy.Restores)
+            return;
+        // What broke in the last step is told of that step alone.
+        broken.Count = 0;
+        if (breakable.Count > broken.Span.Length)
+        {
+            if (!broken.Span.Allocated)
+                broken = new QuickList<BrokenConstraint>(breakable.Count, pool);
+            broken.EnsureCapacity(breakable.Count, pool);
+        }
+    }
+
+    void CopySet(ref ConstraintSet set, StateCopy copy)
+    {
+        var count = set.Batches.Count;
+        copy.Value(ref count);
+        if (copy.Restores)
+        {
+            for (int i = 0; i < set.Batches.Count; ++i)
+                DisposeBatch(ref set.Batches[i]);
+            set.Batches.Count = 0;
+            if (!set.Batches.Span.Allocated && count > 0)
+                set.Batches = new QuickList<ConstraintBatch>(count, pool);
+            for (int i = 0; i < count; ++i)
+                set.Batches.Add(default, pool);
+        }
+        for (int i = 0; i < count; ++i)
+            CopyBatch(ref set.Batches[i], copy);
+    }
+
+    void CopyBatch(ref ConstraintBatch batch, StateCopy copy)
+    {
+        copy.Value(ref batch.Kind);
+        copy.Rows(ref batch.DynamicBodies.Flags, batch.DynamicBodies.Flags.Length, absent: 0ul);
+        var count = batch.TypeBatches.Count;
+        copy.Value(ref count);
+        if (copy.Restores)
+            batch.TypeBatches = new QuickList<TypeBatch>(Math.Max(1, count), pool);
+        for (int i = 0; i < count; ++i)
+        {
+            var typeId = copy.Restores ? 0 : batch.TypeBatches[i].TypeId;
+            copy.Value(ref typeId);
+            Processor(typeId).CopyState(ref batch.FindOrCreate(typeId, pool), minimumCapacityPerTypeBatch, copy);
+        }
+    }
+
+    /// <summary>Lists the types of all constraints, with what they consist of.</summary>
+    internal void CountTypes(ref QuickList<ConstraintLayout> types)
+    {
+        for (int typeId = 0; typeId < MaximumTypeCount; ++typeId)
+        {
+            for (int i = 0; i < Sets.Length; ++i)
+            {
+                if (HasConstraints(Sets[i], typeId))
+                {
+                    types.Add(LayoutOf(typeId), pool);
+                    break;
+                }
+            }
+        }
+    }
+
+    static bool HasConstraints(in ConstraintSet set, int typeId)
+    {
+        for (int i = 0; i < set.Batches.Count; ++i)
+        {
+            if (set.Batches[i].Find(typeId) >= 0)
+                return true;
+        }
+        return false;
+    }
+
+    ConstraintLayout LayoutOf(int typeId) => processors[typeId] is { } processor
+        ? new(typeId, processor.BodiesPerConstraint, processor.PrestepFloats, processor.ImpulseFloats)
+        : new(typeId, 0, 0, 0);
+
+    /// <summary>Refuses constraints of types that are not registered, or that consist of something else.</summary>
+    internal void CheckTypes(in QuickList<ConstraintLayout> types)
+    {
+        foreach (ref var type in types.AsSpan())
+        {
+            if ((uint)type.TypeId >= MaximumTypeCount || LayoutOf(type.TypeId) != type)
+            {
+                throw new InvalidOperationException(
+                    $"The snapshot has constraints of type {type.TypeId}, which is not registered with the solver, or as another one. Nothing was changed.");
+            }
+        }
+    }
+}
+
+/// <summary>What a constraint of a type consists of.</summary>
+readonly record struct ConstraintLayout(int TypeId, int BodyCount, int PrestepFloats, int ImpulseFloats);
