@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
@@ -170,7 +171,8 @@ unsafe readonly struct ContactConstraint
 
     void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter)
     {
-        var coefficient = material.FrictionCoefficient;
+        // The sign says something else: a game may give a negative zero.
+        var coefficient = MathF.Abs(material.FrictionCoefficient);
         Write(ContactPrestepLayout.Friction(contactCount), hasTwoBodies && frictionCenter != default ? -coefficient : coefficient);
         Write(ContactPrestepLayout.Spring(contactCount), material.SpringSettings.AngularFrequency);
         Write(ContactPrestepLayout.Spring(contactCount) + 1, material.SpringSettings.TwiceDampingRatio);

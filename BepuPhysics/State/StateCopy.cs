@@ -1,6 +1,5 @@
 using System;
 using System.Runtime.CompilerServices;
-using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
