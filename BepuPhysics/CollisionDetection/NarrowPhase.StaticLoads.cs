@@ -26,7 +26,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             {
                 ref var result = ref ResultOf(i, j);
                 if (result.Manifold.Count > 0)
-                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), pool);
+                {
+                    var hasTwoBodies = pair.Tested.Pair.B.Mobility != CollidableMobility.Static;
+                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), hasTwoBodies, pool);
+                }
             }
         }
         if (!transfer.Run())

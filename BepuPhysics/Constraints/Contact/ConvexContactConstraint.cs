@@ -10,8 +10,7 @@ namespace BepuPhysics.Constraints.Contact;
 // Friction rows   at the patch centre c, along two tangents                                  |f| <= mu sum(lambda_i)   (Coulomb, for the patch)
 // Twist row       J = [ 0, n, 0, -n ]                                                       |t| <= mu sum(lambda_i |c - c_i|)
 // A patch that lies on several statics side by side has a constraint for each. All of them have friction at the centre of the whole, so that theirs add up to
-// that of one patch on one static; there a single contact has a lever, and twist, too. So has one on kinematic bodies that do not turn: these have an arm that
-// makes no difference, in whose place the centre is written.
+// that of one patch on one static; there a single contact has a lever, and twist, too.
 // Friction is bounded by the sum of the normal impulses, so it does not depend on how many contacts represent the patch, and it is
 // solved after them, so that it knows the load of this very sweep.
 //
@@ -51,7 +50,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(ref prestep), impulses.Friction);
         if (TContacts.Count > 1)
             angularA += prestep.Normal * impulses.Twist;
-        else
+        else if (TBodies.Count == 1)
             WarmStartLoneTwist(ref prestep, impulses.Twist, ref angularA);
         ref var a = ref BodySlots.At(ref bodies, 0);
         a.Linear += linear * a.InverseMass;
@@ -84,16 +83,15 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             load += impulses.Normals[i];
         }
         var center = PatchCenter(ref prestep);
-        var coefficient = Coefficient(ref prestep);
-        SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, coefficient * load, ref impulses.Friction);
+        SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, prestep.Material.FrictionCoefficient * load, ref impulses.Friction);
         if (TContacts.Count > 1)
         {
             var moment = Vector<float>.Zero;
             for (int i = 0; i < TContacts.Count; ++i)
                 moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();
-            SolveTwist(ref bodies, prestep.Normal, coefficient * moment, ref impulses.Twist);
+            SolveTwist(ref bodies, prestep.Normal, prestep.Material.FrictionCoefficient * moment, ref impulses.Twist);
         }
-        else
+        else if (TBodies.Count == 1)
             SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
     }
 
@@ -113,26 +111,16 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var joins = JoinsFriction(ref prestep);
         if (joins == Vector<int>.Zero)
             return;
-        // What B is moved by in the lanes that join is nothing, and in the others left.
-        ref var angular = ref BodySlots.At(ref bodies, 0).Angular;
-        var before = angular;
-        var angularB = TBodies.Count > 1 ? BodySlots.At(ref bodies, 1).Angular : default;
-        var solved = twist;
+        var before = BodySlots.At(ref bodies, 0).Angular;
         var lever = (prestep.Contacts[0].OffsetA - center).Length();
-        SolveTwist(ref bodies, prestep.Normal, Wide.Mask(joins, Coefficient(ref prestep) * load * lever), ref solved);
-        angular = Vector3Wide.Select(joins, angular, before);
-        if (TBodies.Count > 1)
-            BodySlots.At(ref bodies, 1).Angular = angularB;
-        twist = Wide.Select(joins, solved, twist);
+        SolveTwist(ref bodies, prestep.Normal, Wide.Mask(joins, prestep.Material.FrictionCoefficient * load * lever), ref twist);
+        ref var after = ref BodySlots.At(ref bodies, 0).Angular;
+        after = Vector3Wide.Select(joins, after, before);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> JoinsFriction(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
-        ? prestep.Material.SharesFriction : Vector.GreaterThan(prestep.OffsetB.LengthSquared(), Vector<float>.Zero);
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Coefficient(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
-        ? Wide.Abs(prestep.Material.FrictionCoefficient) : prestep.Material.FrictionCoefficient;
+    static Vector<int> JoinsFriction(ref ConvexContactPrestepWide<TContacts> prestep) =>
+        Vector.GreaterThan(prestep.OffsetB.LengthSquared(), Vector<float>.Zero);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveNormal(
@@ -289,14 +277,10 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did; of a patch on several statics,
-    // at that of the whole. Two bodies rarely have one.
+    // at that of the whole.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep)
-    {
-        var own = OwnCenter(ref prestep);
-        var joins = JoinsFriction(ref prestep);
-        return TBodies.Count > 1 && joins == Vector<int>.Zero ? own : Vector3Wide.Select(joins, prestep.OffsetB, own);
-    }
+    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
+        ? OwnCenter(ref prestep) : Vector3Wide.Select(JoinsFriction(ref prestep), prestep.OffsetB, OwnCenter(ref prestep));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector3Wide OwnCenter(ref ConvexContactPrestepWide<TContacts> prestep)
