@@ -27,9 +27,9 @@ public sealed partial class Simulation
 
     /// <summary>Makes the state of the simulation that of a snapshot.</summary>
     /// <remarks>
-    /// All handles mean what they meant then, and those that were given out since mean nothing. Events of the last step are gone. The simulation may be another
-    /// one than that which was saved, if it has the same shapes under the same names and its callbacks do the same. If memory runs out meanwhile, the simulation
-    /// is in no state to go on with, and can only be disposed.
+    /// All handles mean what they meant then, and those that were given out since mean nothing. Events of the last step are gone. The simulation
+    /// may be another one than that which was saved, if it has the same shapes under the same names and its callbacks do the same. If memory runs
+    /// out meanwhile, the simulation is in no state to go on with, and can only be disposed.
     /// </remarks>
     /// <exception cref="InvalidOperationException">
     /// The snapshot holds nothing; a shape that it needs is not there any more, or a type of constraint is not registered; the solver has another fallback
@@ -73,7 +73,8 @@ public sealed partial class Simulation
             if (threshold != Solver.FallbackBatchThreshold)
             {
                 throw new InvalidOperationException(
-                    $"The snapshot is of a solver with a fallback threshold of {threshold} batches; this one has {Solver.FallbackBatchThreshold}. Nothing was changed.");
+                    $"The snapshot is of a solver with a fallback threshold of {threshold} batches; this one has {Solver.FallbackBatchThreshold}. " +
+                    "Nothing was changed.");
             }
             Solver.CheckTypes(types);
             used.CheckExist();

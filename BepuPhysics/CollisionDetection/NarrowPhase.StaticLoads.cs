@@ -1,4 +1,5 @@
 using System;
+using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;

@@ -7,7 +7,8 @@ using BepuUtilities.Memory;
 namespace BepuPhysics;
 
 /// <summary>
-/// The state of a simulation between two steps, by which it, or another one, can go on from there as if nothing had been: bit for bit, for any number of threads.
+/// The state of a simulation between two steps, by which it, or another one, can go on from there as if nothing had been: bit for bit, for any
+/// number of threads.
 /// </summary>
 /// <remarks>
 /// <para>

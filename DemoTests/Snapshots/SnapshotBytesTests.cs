@@ -140,13 +140,14 @@ public class SnapshotBytesTests
         var random = new Random(3);
         for (int i = 0; i < 30; ++i)
             Roll();
-        var (pooled, saved) = (world.PoolBytes, pool.GetTotalAllocatedByteCount());
+        var before = world.PoolBytes + pool.GetTotalAllocatedByteCount();
         Assert.Equal(0, Garbage.Of(() =>
         {
             for (int i = 0; i < 15; ++i)
                 Roll();
         }));
-        Assert.Equal((pooled, saved), (world.PoolBytes, pool.GetTotalAllocatedByteCount()));
+        // What nobody borrows may have gone back to the system meanwhile.
+        Assert.InRange(world.PoolBytes + pool.GetTotalAllocatedByteCount(), 0ul, before);
 
         void Roll()
         {
