@@ -1,5 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
@@ -43,18 +44,18 @@ public sealed partial class Simulation
         var copy = snapshot.Copy;
         copy.BeginRestore(BufferPool);
         CopyNeeds(copy);
-        Bodies.EndUses();
-        Statics.EndUses();
+        var end = new UsesEnd(Shapes);
+        VisitShapes(ref end);
         CopyState(copy);
-        Bodies.BeginUses();
-        Statics.BeginUses();
+        var begin = new UsesBegin(Shapes);
+        VisitShapes(ref begin);
         Quarantine.BeginStep();
     }
 
     // What a simulation must have to take the state: written before all else, so that it can be refused before anything has changed.
     void CopyNeeds(StateCopy copy)
     {
-        var threshold = Solver.FallbackBatchThreshold;
+        var threshold = copy.Value(Solver.FallbackBatchThreshold);
         var types = new QuickList<ConstraintLayout>(16, BufferPool);
         var used = new UsedShapes(Shapes, BufferPool);
         try
@@ -62,10 +63,8 @@ public sealed partial class Simulation
             if (!copy.Restores)
             {
                 Solver.CountTypes(ref types);
-                Bodies.CountShapes(ref used);
-                Statics.CountShapes(ref used);
+                VisitShapes(ref used);
             }
-            copy.Value(ref threshold);
             copy.List(ref types);
             used.CopyState(copy);
             if (!copy.Restores)
@@ -84,6 +83,12 @@ public sealed partial class Simulation
             types.Dispose(BufferPool);
             used.Dispose();
         }
+    }
+
+    void VisitShapes<TVisitor>(ref TVisitor visitor) where TVisitor : struct, IForEach<TypedIndex>
+    {
+        Bodies.VisitShapes(ref visitor);
+        Statics.VisitShapes(ref visitor);
     }
 
     void CopyState(StateCopy copy)

@@ -1,5 +1,3 @@
-using BepuPhysics.Collidables;
-
 namespace BepuPhysics;
 
 // Saving and restoring.
@@ -15,25 +13,5 @@ public sealed partial class Bodies
         copy.Value(ref RipeCount);
         for (int i = 0; i < Sets.Length; ++i)
             Sets[i].CopyState(copy);
-    }
-
-    /// <summary>Notes the shapes of all bodies.</summary>
-    internal void CountShapes(ref UsedShapes used)
-    {
-        for (int i = 0; i < Sets.Length; ++i)
-        {
-            for (int j = 0; j < Sets[i].Count; ++j)
-                used.Add(Sets[i].Collidables[j].Shape);
-        }
-    }
-
-    /// <summary>Counts the bodies among the users of their shapes.</summary>
-    internal void BeginUses()
-    {
-        for (int i = 0; i < Sets.Length; ++i)
-        {
-            for (int j = 0; j < Sets[i].Count; ++j)
-                shapes.BeginUse(Sets[i].Collidables[j].Shape);
-        }
     }
 }

@@ -318,12 +318,19 @@ public sealed unsafe partial class Bodies
         HandlePool = default;
     }
 
-    internal void EndUses()
+    void EndUses()
+    {
+        var end = new UsesEnd(shapes);
+        VisitShapes(ref end);
+    }
+
+    /// <summary>Visits the shape of each body, which may be none.</summary>
+    internal void VisitShapes<TVisitor>(ref TVisitor visitor) where TVisitor : struct, IForEach<TypedIndex>
     {
         for (int i = 0; i < Sets.Length; ++i)
         {
             for (int j = 0; j < Sets[i].Count; ++j)
-                shapes.EndUse(Sets[i].Collidables[j].Shape);
+                visitor.LoopBody(Sets[i].Collidables[j].Shape);
         }
     }
 }

@@ -42,6 +42,9 @@ struct StepOrigin
 /// </remarks>
 public struct BodySet
 {
+    // Bodies that there is room for as soon as there is any.
+    const int LeastCapacity = 64;
+
     /// <summary>Number of bodies.</summary>
     public int Count;
     /// <summary>Handle of each body.</summary>
@@ -77,8 +80,6 @@ public struct BodySet
     internal Buffer<int> Islands;
     /// <summary>Slot of the body that follows each one in its island, after the last the first; only sets of sleeping bodies have it.</summary>
     internal Buffer<int> NextOfIsland;
-    const int LeastCapacity = 64;
-
     // Whether the bodies sleep: what only steps need is not kept of them.
     bool isAsleep;
 
@@ -225,10 +226,9 @@ public struct BodySet
     /// <summary>Copies all bodies out of the set, or others into their place.</summary>
     internal void CopyState(StateCopy copy)
     {
-        var count = Count;
-        var columns = (IsAsleep: isAsleep, HasStiffness: Stiffness.Allocated, HasJointCounts: JointCounts.Allocated, HasFrames: PrincipalFrames.Allocated);
-        copy.Value(ref count);
-        copy.Value(ref columns);
+        var count = copy.Value(Count);
+        var columns = copy.Value(
+            (IsAsleep: isAsleep, HasStiffness: Stiffness.Allocated, HasJointCounts: JointCounts.Allocated, HasFrames: PrincipalFrames.Allocated));
         if (copy.Restores)
         {
             Count = 0;

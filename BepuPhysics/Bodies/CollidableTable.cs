@@ -55,7 +55,6 @@ struct CollidableTable<T>(T usual) where T : unmanaged, IEquatable<T>
         rows.AsSpan()[previous..].Fill(usual);
     }
 
-    /// <summary>Forgets all values and gives the memory back.</summary>
     internal void CopyState(StateCopy copy)
     {
         CopyState(copy, ref bodies);
@@ -64,14 +63,13 @@ struct CollidableTable<T>(T usual) where T : unmanaged, IEquatable<T>
 
     readonly void CopyState(StateCopy copy, ref Buffer<T> rows)
     {
-        var isUsed = rows.Allocated;
-        copy.Value(ref isUsed);
-        if (isUsed)
+        if (copy.Value(rows.Allocated))
             copy.Rows(ref rows, rows.Length, usual);
         else if (rows.Allocated)
             copy.Pool.Return(ref rows);
     }
 
+    /// <summary>Forgets all values and gives the memory back.</summary>
     internal void Dispose(BufferPool pool)
     {
         if (bodies.Allocated)

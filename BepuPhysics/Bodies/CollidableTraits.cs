@@ -26,9 +26,7 @@ sealed class CollidableTraits(Bodies bodies, Statics statics, BufferPool pool)
     {
         Layers.CopyState(copy);
         Listeners.CopyState(copy);
-        var count = RemovalCount;
-        copy.Value(ref count);
-        RemovalCount = count;
+        RemovalCount = copy.Value(RemovalCount);
     }
 
     /// <summary>Forgets everything and gives the memory back.</summary>

@@ -118,15 +118,21 @@ struct HandleOwners
             return;
         var previous = values.Length;
         pool.ResizeToAtLeast(ref values, capacity, previous);
-        for (int slot = previous; slot < values.Length; ++slot)
+        BeginFrom(previous);
+    }
+
+    // Slots that nobody ever had.
+    readonly void BeginFrom(int slot)
+    {
+        for (; slot < values.Length; ++slot)
             values[slot] = ~slot;
     }
 
     internal void CopyState(StateCopy copy)
     {
         var count = copy.Rows(ref values, values.Length);
-        for (int slot = count; copy.Restores && slot < values.Length; ++slot)
-            values[slot] = ~slot;
+        if (copy.Restores)
+            BeginFrom(count);
     }
 
     internal void Dispose(BufferPool pool) => pool.Return(ref values);

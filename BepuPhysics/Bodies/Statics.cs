@@ -346,10 +346,17 @@ public sealed unsafe partial class Statics
         HandlePool = default;
     }
 
-    internal void EndUses()
+    void EndUses()
+    {
+        var end = new UsesEnd(shapes);
+        VisitShapes(ref end);
+        Count = 0;
+    }
+
+    /// <summary>Visits the shape of each static.</summary>
+    internal void VisitShapes<TVisitor>(ref TVisitor visitor) where TVisitor : struct, IForEach<TypedIndex>
     {
         for (int i = 0; i < Count; ++i)
-            shapes.EndUse(StaticsBuffer[i].Shape);
-        Count = 0;
+            visitor.LoopBody(StaticsBuffer[i].Shape);
     }
 }

@@ -208,6 +208,9 @@ public sealed partial class Shapes
     internal bool Exists(int typeIndex, int shapeIndex) =>
         (uint)typeIndex < (uint)batches.Length && batches[typeIndex] is { } batch && batch.Exists(shapeIndex);
 
+    /// <summary>Tells a shape from all others that had its name, or will have it. It must exist.</summary>
+    internal ShapeIdentity Identify(TypedIndex shape) => new(shape, GetBatch(shape.Type).Generation(shape.Index));
+
     /// <summary>Refuses a name that no shape has.</summary>
     /// <param name="shape">Name of a shape.</param>
     /// <param name="name">Name of the argument that it was given as.</param>

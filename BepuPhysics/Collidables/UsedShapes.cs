@@ -1,19 +1,19 @@
 using System;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
 
 /// <summary>The shapes that bodies and statics use, each at least once; one that several in a row use is listed once for them.</summary>
-struct UsedShapes(Shapes shapes, BufferPool pool)
+struct UsedShapes(Shapes shapes, BufferPool pool) : IForEach<TypedIndex>
 {
     QuickList<ShapeIdentity> list = new(64, pool);
 
-    internal void Add(TypedIndex shape)
+    public void LoopBody(TypedIndex shape)
     {
-        if (!shape.Exists || (list.Count > 0 && list[list.Count - 1].Shape == shape))
-            return;
-        list.Add(new(shape, shapes.GetBatch(shape.Type).Generation(shape.Index)), pool);
+        if (shape.Exists && (list.Count == 0 || list[list.Count - 1].Shape != shape))
+            list.Add(shapes.Identify(shape), pool);
     }
 
     internal void CopyState(StateCopy copy) => copy.List(ref list);
@@ -23,7 +23,7 @@ struct UsedShapes(Shapes shapes, BufferPool pool)
     {
         foreach (ref var used in list.AsSpan())
         {
-            if (!shapes.Exists(used.Shape) || shapes.GetBatch(used.Shape.Type).Generation(used.Shape.Index) != used.Generation)
+            if (!shapes.Exists(used.Shape) || shapes.Identify(used.Shape) != used)
             {
                 throw new InvalidOperationException(
                     $"{used.Shape}, which a body or static of the snapshot has, is not there any more, or is another shape: shapes are no part of a " +

@@ -188,11 +188,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         in Quaternion orientationB, float margin, ref ConvexContactManifold manifold)
     {
         ref var history = ref Pairs.Histories.Memory[historyIndex];
-        history.Identify(Identify(shapeA), Identify(shapeB));
+        history.Identify(Simulation.Shapes.Identify(shapeA), Simulation.Shapes.Identify(shapeB));
         return history.TryReuse(offsetB, orientationA, orientationB, margin, ref manifold);
     }
-
-    ShapeIdentity Identify(TypedIndex shape) => new(shape, Simulation.Shapes.GetBatch(shape.Type).Generation(shape.Index));
 
     void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {

@@ -16,7 +16,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (!HasParentHistory(tested))
             return false;
         ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
-        history.Identify(Identify(shapeA), Identify(shapeB));
+        history.Identify(Simulation.Shapes.Identify(shapeA), Simulation.Shapes.Identify(shapeB));
         // What agrees with others of its body may come out otherwise though it has not moved.
         if (Waits(tested))
         {

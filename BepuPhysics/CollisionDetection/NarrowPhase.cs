@@ -98,10 +98,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs.CopyState(copy);
         AgreedPairs.CopyState(copy);
         copy.Rows(ref pairOfConstraint, Math.Min(pairOfConstraint.Length, constraintSlots));
-        var (pairCount, skippedPairCount) = (PairCount, SkippedPairCount);
-        copy.Value(ref pairCount);
-        copy.Value(ref skippedPairCount);
-        (PairCount, SkippedPairCount) = (pairCount, skippedPairCount);
+        PairCount = copy.Value(PairCount);
+        SkippedPairCount = copy.Value(SkippedPairCount);
         // What bounces is found in each step.
         if (copy.Restores)
             Restitution.BeginStep();

@@ -187,9 +187,7 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
     {
         copy.Ids(ref ids);
         copy.Rows(ref islands, ids.HighestPossiblyClaimedId + 1);
-        var count = Count;
-        copy.Value(ref count);
-        Count = count;
+        Count = copy.Value(Count);
     }
 
     internal void Dispose()

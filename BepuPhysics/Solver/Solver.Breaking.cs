@@ -77,7 +77,12 @@ public sealed unsafe partial class Solver
         }
         breakable.Add(new() { Handle = handle, Threshold = threshold }, pool);
         breakablePlaces[handle.Slot] = breakable.Count;
-        // So that a step in which all of them break takes no memory.
+        MakeRoomForBroken();
+    }
+
+    // So that a step in which all of them break takes no memory.
+    void MakeRoomForBroken()
+    {
         if (!broken.Span.Allocated)
             broken = new QuickList<BrokenConstraint>(16, pool);
         broken.EnsureCapacity(breakable.Count, pool);

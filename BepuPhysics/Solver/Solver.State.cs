@@ -23,9 +23,7 @@ public sealed unsafe partial class Solver
         CopyOptions(copy);
         for (int i = 0; i < Sets.Length; ++i)
             CopySet(ref Sets[i], copy);
-        var asleepOfKinematics = AsleepOfKinematics;
-        copy.Value(ref asleepOfKinematics);
-        AsleepOfKinematics = asleepOfKinematics;
+        AsleepOfKinematics = copy.Value(AsleepOfKinematics);
         copy.Value(ref shuffleState);
         copy.Value(ref hubsToShuffleForOneSweep);
         copy.Value(ref hubsToShuffleForSweeps);
@@ -45,10 +43,8 @@ public sealed unsafe partial class Solver
         copy.Value(ref loadPath);
         copy.Value(ref directJoints);
         copy.Value(ref hasFixedSubstepCount);
-        var isGoverned = governor.HasValue;
-        var settings = governor.GetValueOrDefault();
-        copy.Value(ref isGoverned);
-        copy.Value(ref settings);
+        var isGoverned = copy.Value(governor.HasValue);
+        var settings = copy.Value(governor.GetValueOrDefault());
         governor = isGoverned ? settings : null;
     }
 
@@ -60,9 +56,8 @@ public sealed unsafe partial class Solver
         copy.Value(ref stepsSeen);
         copy.Value(ref governedCount);
         copy.Value(ref recentError);
-        var last = (Count: LastSubstepCount, Error: LastConstraintError);
-        copy.Value(ref last);
-        (LastSubstepCount, LastConstraintError) = last;
+        LastSubstepCount = copy.Value(LastSubstepCount);
+        LastConstraintError = copy.Value(LastConstraintError);
     }
 
     void CopyOptions(StateCopy copy)
@@ -75,18 +70,13 @@ public sealed unsafe partial class Solver
             return;
         // What broke in the last step is told of that step alone.
         broken.Count = 0;
-        if (breakable.Count > broken.Span.Length)
-        {
-            if (!broken.Span.Allocated)
-                broken = new QuickList<BrokenConstraint>(breakable.Count, pool);
-            broken.EnsureCapacity(breakable.Count, pool);
-        }
+        if (breakable.Count > 0)
+            MakeRoomForBroken();
     }
 
     void CopySet(ref ConstraintSet set, StateCopy copy)
     {
-        var count = set.Batches.Count;
-        copy.Value(ref count);
+        var count = copy.Value(set.Batches.Count);
         if (copy.Restores)
         {
             for (int i = 0; i < set.Batches.Count; ++i)
@@ -105,14 +95,12 @@ public sealed unsafe partial class Solver
     {
         copy.Value(ref batch.Kind);
         copy.Rows(ref batch.DynamicBodies.Flags, batch.DynamicBodies.Flags.Length, absent: 0ul);
-        var count = batch.TypeBatches.Count;
-        copy.Value(ref count);
+        var count = copy.Value(batch.TypeBatches.Count);
         if (copy.Restores)
             batch.TypeBatches = new QuickList<TypeBatch>(Math.Max(1, count), pool);
         for (int i = 0; i < count; ++i)
         {
-            var typeId = copy.Restores ? 0 : batch.TypeBatches[i].TypeId;
-            copy.Value(ref typeId);
+            var typeId = copy.Value(copy.Restores ? 0 : batch.TypeBatches[i].TypeId);
             Processor(typeId).CopyState(ref batch.FindOrCreate(typeId, pool), minimumCapacityPerTypeBatch, copy);
         }
     }

@@ -190,8 +190,7 @@ public abstract partial class TypeProcessor
     /// <summary>Copies all constraints out of a type batch, or others into one that is empty.</summary>
     internal void CopyState(ref TypeBatch batch, int minimumCapacity, StateCopy copy)
     {
-        var count = batch.ConstraintCount;
-        copy.Value(ref count);
+        var count = copy.Value(batch.ConstraintCount);
         if (copy.Restores)
             Resize(ref batch, Math.Max(minimumCapacity, count), copy.Pool);
         batch.ConstraintCount = count;

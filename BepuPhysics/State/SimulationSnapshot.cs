@@ -17,8 +17,8 @@ namespace BepuPhysics;
 /// snapshot needs them, nor what belongs to the game: callbacks, <see cref="CollidableProperty{T}"/>, events that were told.
 /// </para>
 /// <para>
-/// <see cref="Simulation.Save"/> and <see cref="Simulation.Restore"/> copy memory and take none from the system once there is room for the largest state. About
-/// 400 bytes a body, 250 a pair that touches, and 300 more where shapes are hulls or cylinders.
+/// <see cref="Simulation.Save"/> and <see cref="Simulation.Restore"/> copy memory and take none from the system once there is room for the largest state;
+/// <see cref="ByteCount"/> says how much one took.
 /// </para>
 /// </remarks>
 public sealed class SimulationSnapshot : IDisposable, IBufferPoolUser
@@ -34,8 +34,7 @@ public sealed class SimulationSnapshot : IDisposable, IBufferPoolUser
         public ulong Hash;
         public int Format;
         public int Lanes;
-        public int Length;
-        public int Zero;
+        public long Length;
     }
 
     readonly BufferPool pool;
@@ -92,7 +91,7 @@ public sealed class SimulationSnapshot : IDisposable, IBufferPoolUser
                 $"The snapshot was written with vectors of {header.Lanes} lanes, and here they have {Vector<float>.Count}.", nameof(source));
         }
         var state = source[sizeof(Header)..];
-        if (header.Length != state.Length || header.Zero != 0 || header.Hash != HashOf(state))
+        if (header.Length != state.Length || header.Hash != HashOf(state))
             throw new ArgumentException("The snapshot is damaged: its bytes are not those that were written.", nameof(source));
         Copy.Load(state);
     }

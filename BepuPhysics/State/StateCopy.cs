@@ -82,6 +82,13 @@ sealed unsafe class StateCopy(BufferPool memory)
     /// <summary>A single value.</summary>
     internal void Value<T>(ref T value) where T : unmanaged => Copy((byte*)Unsafe.AsPointer(ref value), sizeof(T));
 
+    /// <summary>A single value that is not a field: what it is, or is to be.</summary>
+    internal T Value<T>(T value) where T : unmanaged
+    {
+        Value(ref value);
+        return value;
+    }
+
     /// <summary>The first rows of a table.</summary>
     /// <param name="rows">The table, which gets another one's memory where it is too small.</param>
     /// <param name="count">Number of rows that are used; of no meaning when they are restored.</param>
@@ -118,10 +125,8 @@ sealed unsafe class StateCopy(BufferPool memory)
     /// <summary>Which numbers are taken, and in which order the others will be.</summary>
     internal void Ids(ref IdPool ids)
     {
-        var next = ids.HighestPossiblyClaimedId + 1;
-        var available = ids.AvailableIdCount;
-        Value(ref next);
-        Value(ref available);
+        var next = Value(ids.HighestPossiblyClaimedId + 1);
+        var available = Value(ids.AvailableIdCount);
         if (!Restores)
         {
             CopyRows(ids.AvailableIds, available);
@@ -137,19 +142,14 @@ sealed unsafe class StateCopy(BufferPool memory)
         for (int i = 0; i < next; ++i)
             ids.Take();
         for (int i = 0; i < available; ++i)
-        {
-            int id = 0;
-            Value(ref id);
-            ids.ReturnUnsafely(id);
-        }
+            ids.ReturnUnsafely(Value(0));
     }
 
     /// <summary>Keys and values, in their order; where a key is found follows from it.</summary>
     internal void Dictionary<TKey, TValue, TComparer>(ref QuickDictionary<TKey, TValue, TComparer> dictionary)
         where TKey : unmanaged where TValue : unmanaged where TComparer : IEqualityComparerRef<TKey>
     {
-        var count = dictionary.Count;
-        Value(ref count);
+        var count = Value(dictionary.Count);
         if (!Restores)
         {
             CopyRows(dictionary.Keys, count);

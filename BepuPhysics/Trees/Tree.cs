@@ -144,19 +144,19 @@ public unsafe partial struct Tree
     /// <summary>Copies the tree as it is, so that it is refined, and visited, as if nothing had been.</summary>
     internal void CopyState(StateCopy copy)
     {
-        copy.Value(ref LeafCount);
+        var leafCount = copy.Value(LeafCount);
+        if (copy.Restores)
+        {
+            // Nothing of what there is needs to be kept.
+            LeafCount = 0;
+            EnsureCapacity(leafCount, copy.Pool);
+            LeafCount = leafCount;
+        }
         copy.Value(ref isDepthFirst);
         copy.Value(ref refinementCursor);
         copy.Value(ref refinementSlice);
         copy.Value(ref slicesWithoutGain);
         copy.Value(ref callsToSkip);
-        if (copy.Restores && LeafCount > Leaves.Length)
-        {
-            var leafCount = LeafCount;
-            LeafCount = 0;
-            EnsureCapacity(leafCount, copy.Pool);
-            LeafCount = leafCount;
-        }
         copy.CopyRows(Nodes, NodeCount);
         copy.CopyRows(Metanodes, NodeCount);
         copy.CopyRows(Leaves, LeafCount);

@@ -27,6 +27,7 @@ public class SnapshotTests
         ["fast"] = () => SmallScenes.Fast(3),
         ["ragdolls"] = () => SceneLibrary.Load("ragdolls", 1),
         ["washer"] = () => SceneLibrary.Load("washer", 1),
+        ["tori"] = () => SceneLibrary.Load("tori", 1),
     };
 
     public static TheoryData<string, int> Cases()
@@ -47,6 +48,23 @@ public class SnapshotTests
         var scene = scenes[name]();
         using var world = new SceneWorld(scene, threads);
         using var other = new SceneWorld(scene, threads: 4 - threads);
+        AssertGoesOn(world, other);
+    }
+
+    [Theory]
+    [InlineData("chain"), InlineData("ragdolls")]
+    public void Joints_that_are_solved_at_once_go_on(string name)
+    {
+        var scene = SceneLibrary.Load(name, 1);
+        using var world = new SceneWorld(scene, threads: 1);
+        using var other = new SceneWorld(scene, threads: 2);
+        world.Simulation.Solver.DirectJoints = DirectJointsMode.Always;
+        AssertGoesOn(world, other);
+        Assert.Equal(DirectJointsMode.Always, other.Simulation.Solver.DirectJoints);
+    }
+
+    static void AssertGoesOn(SceneWorld world, SceneWorld other)
+    {
         using var pool = new BufferPool();
         using var snapshot = new SimulationSnapshot(pool);
         var step = 0;

@@ -14,9 +14,7 @@ public sealed unsafe partial class CollisionEvents
         copy.Value(ref hasNewListener);
         copy.Value(ref isSettled);
         copy.Value(ref removalsSeen);
-        var usesSensors = UsesSensors;
-        copy.Value(ref usesSensors);
-        UsesSensors = usesSensors;
+        UsesSensors = copy.Value(UsesSensors);
         if (!copy.Restores)
             return;
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = sensed.Count = 0;
