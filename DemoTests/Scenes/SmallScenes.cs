@@ -88,10 +88,19 @@ static class SmallScenes
         return scene;
     }
 
-    /// <summary>The text of a scene without joints; every number comes back as it was.</summary>
     /// <summary>Stacks that sleep, and a ball that wakes some of them.</summary>
     public static SceneDescription Wave() => WakingWave.Create("small-wave", stackCount: 200, width: 14);
 
+    /// <summary>The first of the built-in scene of dynamic meshes on a mesh.</summary>
+    public static SceneDescription Tori(int count)
+    {
+        var scene = SceneLibrary.Load("tori", 1);
+        int kept = scene.Bodies.FindIndex(body => body.Kind == SceneBodyKind.Dynamic) + count;
+        scene.Bodies.RemoveRange(kept, scene.Bodies.Count - kept);
+        return scene;
+    }
+
+    /// <summary>The text of a scene without joints; every number comes back as it was.</summary>
     public static string Write(SceneDescription scene)
     {
         var text = new StringBuilder();
