@@ -17,6 +17,7 @@ public sealed class DocSamplesTests : IDisposable
 {
     const string Samples = "DemoTests/Quality/DocSamples.cs";
     const string EventSamples = "DemoTests/Quality/DocSamples.Events.cs";
+    const string RollbackSamples = "DemoTests/Quality/DocSamples.Rollback.cs";
     const float Dt = 1 / 60f;
 
     readonly BufferPool pool = new();
@@ -29,7 +30,7 @@ public sealed class DocSamplesTests : IDisposable
     [Theory, MemberData(nameof(Pages))]
     public void Code_of_a_page_is_among_the_samples(string page)
     {
-        var samples = Lines(RepositoryFiles.Read(Samples) + RepositoryFiles.Read(EventSamples));
+        var samples = Lines(RepositoryFiles.Read(Samples) + RepositoryFiles.Read(EventSamples) + RepositoryFiles.Read(RollbackSamples));
         foreach (var block in DocPages.CodeBlocks(page))
         {
             var lines = Lines(block);

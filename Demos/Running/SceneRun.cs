@@ -142,6 +142,9 @@ public sealed class SceneRun : IDisposable
         };
     }
 
+    /// <summary>The simulation, for what a run does not do by itself.</summary>
+    public Simulation Simulation => simulation;
+
     /// <summary>Takes one step and measures nothing, for those who measure it themselves.</summary>
     public void Step() => simulation.Timestep(settings.StepDuration, dispatcher);
 
