@@ -15,6 +15,8 @@ sealed class JitWatch : EventListener
 {
     const EventKeywords Jit = (EventKeywords)0x1000;
 
+    static readonly Action[] markers = [Marker<byte>, Marker<short>, Marker<int>, Marker<long>, Marker<float>, Marker<double>];
+
     static JitWatch? instance;
 
     readonly ConcurrentQueue<(string Root, string Callee, string Reason)> failures = new();
@@ -53,17 +55,24 @@ sealed class JitWatch : EventListener
     /// <summary>Inlines that the JIT gave up for want of room so far, in methods of a namespace.</summary>
     public IReadOnlyList<string> Overflows(string rootNamespace)
     {
-        // Events arrive on another thread, in order: once the marker's own failure is here, so is everything before it.
-        Marker();
-        if (!SpinWait.SpinUntil(() => failures.Any(f => f.Callee.EndsWith(nameof(NeverInlined), StringComparison.Ordinal)), TimeSpan.FromSeconds(30)))
+        // Events arrive on another thread, in order: once the marker's own failure is here, so is everything before it. The runtime drops events
+        // when that thread is kept from running for long, and each marker is compiled once: then the next one is tried.
+        if (!markers.Any(HasArrived))
             throw new InvalidOperationException("The runtime delivered no JIT events.");
         return [.. failures
             .Where(f => f.Root.StartsWith(rootNamespace, StringComparison.Ordinal) && !f.Callee.EndsWith(nameof(NeverInlined), StringComparison.Ordinal))
             .Select(f => $"{f.Root}: {f.Callee} ({f.Reason})").Distinct()];
     }
 
+    bool HasArrived(Action marker)
+    {
+        marker();
+        return SpinWait.SpinUntil(() => failures.Any(f => f.Callee.EndsWith(nameof(NeverInlined), StringComparison.Ordinal)), TimeSpan.FromSeconds(10));
+    }
+
+    // Code of its own for each value type.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Marker() => NeverInlined();
+    static void Marker<T>() where T : struct => NeverInlined();
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     static void NeverInlined() { }
