@@ -4,6 +4,8 @@ using Benchmarks.Joints;
 using Benchmarks.Pairs;
 using Benchmarks.Pairs.Shared;
 using Benchmarks.Smoke;
+using Benchmarks.Sweeps;
+using Benchmarks.Sweeps.Shared;
 
 return args switch
 {
@@ -11,6 +13,8 @@ return args switch
     ["joints", ..] => JointCommand.Run(args[1..]),
     ["pairs", ..] => PairCommand.Run(args[1..]),
     [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
+    ["sweeps", ..] => SweepCommand.Run(args[1..]),
+    [SweepTimesCommand.Word, string results] => SweepTimesCommand.Run(results),
     ["smoke"] => SmokeCommand.Run(),
     _ => Measure(args),
 };

@@ -1,4 +1,10 @@
 using Benchmarks.Pairs.Shared;
+using Benchmarks.Sweeps.Shared;
 using Demos.Terminal;
 
-return args is [PairTimesCommand.Word, string cases, string results] ? PairTimesCommand.Run(cases, results) : DemosCommand.Run(args);
+return args switch
+{
+    [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
+    [SweepTimesCommand.Word, string results] => SweepTimesCommand.Run(results),
+    _ => DemosCommand.Run(args),
+};

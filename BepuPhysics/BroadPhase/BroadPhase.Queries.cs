@@ -47,6 +47,13 @@ public sealed unsafe partial class BroadPhase
         where TSweepTester : IBroadPhaseSweepTester
     {
         using var reading = world.Read("BroadPhase.Sweep");
+        SweepBox(min, max, direction, maximumT, pool, ref sweepTester);
+    }
+
+    internal void SweepBox<TSweepTester>(
+        Vector3 min, Vector3 max, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)
+        where TSweepTester : IBroadPhaseSweepTester
+    {
         var leafTester = new SweepLeafTester<TSweepTester> { SweepTester = sweepTester, Leaves = ActiveLeaves };
         ActiveTree.Sweep(min, max, direction, ref maximumT, pool, ref leafTester);
         leafTester.Leaves = StaticLeaves;

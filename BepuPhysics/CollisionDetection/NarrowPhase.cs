@@ -27,6 +27,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// <summary>Tests of shape pairs.</summary>
     public CollisionTaskRegistry CollisionTaskRegistry { get; }
 
+    /// <summary>Sweeps of pairs of shapes; <see cref="BepuPhysics.Simulation"/> sweeps through a whole world.</summary>
+    public SweepTaskRegistry SweepTaskRegistry { get; } = new();
+
     private protected NarrowPhase(Simulation simulation, CollisionTaskRegistry collisionTaskRegistry, int initialPairCapacity)
     {
         Simulation = simulation;

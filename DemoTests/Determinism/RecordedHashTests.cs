@@ -3,9 +3,11 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using BepuPhysics;
+using BepuUtilities.Diagnostics;
 using Demos.Accuracy;
 using Demos.Scenes;
 using DemoTests.Quality;
+using DemoTests.Queries;
 using DemoTests.Scenes;
 using Xunit;
 
@@ -42,6 +44,7 @@ public class RecordedHashTests
         ["hubs"] = () => Run(new RandomScene(6, Ingredients.All), 60),
         ["bounces"] = () => Bounce(60),
         ["wave"] = () => Run(SmallScenes.Wave(), 350),
+        ["sweeps"] = Sweeps,
     };
 
     public static TheoryData<string> Names() => new(scenes.Keys);
@@ -85,6 +88,28 @@ public class RecordedHashTests
         world.Solver.DirectJoints = joints;
         scene.AddTo(world);
         return world.HashSteps(steps)[^1];
+    }
+
+    // Shapes of all kinds, by all that there is.
+    static ulong Sweeps()
+    {
+        using var maze = new SweepMaze(9);
+        var random = new Random(9);
+        var hash = new StateHash();
+        var hits = new List<SweptHit>();
+        for (int i = 0; i < 300; ++i)
+        {
+            hits.Clear();
+            var handler = new SweepHits(hits);
+            maze.Sweep(SweepMaze.NextCase(random), ref handler);
+            foreach (var hit in hits)
+            {
+                hash.Add(hit.T);
+                hash.Add(hit.Place);
+                hash.Add(hit.Normal);
+            }
+        }
+        return hash.Value;
     }
 
     // Restitution among bodies that fall on each other, with steps that change.

@@ -212,10 +212,18 @@ static class LockOperations
             w.Simulation.RayCast(new Vector3(0, 50, 0), -Vector3.UnitY, 100, pool, ref nothing);
         }
         ));
+        list.Add("Simulation.Sweep", (OperationKind.Query, w =>
+        {
+            var nothing = new Nothing();
+            using var pool = new BepuUtilities.Memory.BufferPool();
+            w.Simulation.Sweep(new Sphere(1), new RigidPose(new Vector3(0, 50, 0)), -Vector3.UnitY, 100, pool, ref nothing);
+        }
+        ));
         list.Add("Simulation.StateHash", (OperationKind.Query, w => w.Simulation.StateHash()));
     }
 
-    struct Nothing : IForEach<BodyHandle>, IBroadPhaseOverlapHandler, IBroadPhaseRayTester, IBreakableForEach<CollidableReference>, IRayHitHandler
+    struct Nothing : IForEach<BodyHandle>, IBroadPhaseOverlapHandler, IBroadPhaseRayTester, IBreakableForEach<CollidableReference>, IRayHitHandler,
+        ISweepHitHandler
     {
         public readonly void LoopBody(BodyHandle i) { }
 
@@ -230,5 +238,9 @@ static class LockOperations
         public readonly bool AllowTest(CollidableReference collidable, int childIndex) => true;
 
         public readonly void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, CollidableReference collidable, int childIndex) { }
+
+        public readonly void OnHit(ref float maximumT, float t, Vector3 hitLocation, Vector3 hitNormal, CollidableReference collidable) { }
+
+        public readonly void OnHitAtZeroT(ref float maximumT, CollidableReference collidable) { }
     }
 }

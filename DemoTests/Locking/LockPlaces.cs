@@ -40,6 +40,7 @@ sealed record LockPlace(string Name, Action<LockedWorld> Reach, OperationKind[] 
         Add("ConstraintsSolved", StepWithEvents, changes);
         Add("AllowTest", Query, queriesAndWrites);
         Add("OnRayHit", Query, queriesAndWrites);
+        Add("OnHit", Query, queriesAndWrites);
         Add("RayTest", Query, queriesAndWrites);
         Add("Sweep", Query, queriesAndWrites);
         Add("GetOverlaps", Query, queriesAndWrites);
@@ -97,6 +98,7 @@ sealed record LockPlace(string Name, Action<LockedWorld> Reach, OperationKind[] 
         var simulation = world.Simulation;
         using var pool = new BufferPool();
         simulation.RayCast(new Vector3(0, 50, 0), -Vector3.UnitY, 100, pool, ref handler);
+        simulation.Sweep(new Sphere(1), new RigidPose(new Vector3(0, 50, 0)), -Vector3.UnitY, 100, pool, ref handler);
         simulation.BroadPhase.RayCast(new Vector3(0, 50, 0), -Vector3.UnitY, 100, pool, ref handler);
         simulation.BroadPhase.Sweep(-Vector3.One, Vector3.One, Vector3.UnitX, 10, pool, ref handler);
         simulation.BroadPhase.GetOverlaps(-Vector3.One, Vector3.One, pool, ref handler);
@@ -107,8 +109,8 @@ sealed record LockPlace(string Name, Action<LockedWorld> Reach, OperationKind[] 
         simulation.BroadPhase.FindOverlaps(ref handler, world.Dispatcher);
     }
 
-    struct Handler : IRayHitHandler, IBroadPhaseRayTester, IBroadPhaseSweepTester, IBroadPhaseOverlapHandler, IBreakableForEach<CollidableReference>,
-        IForEach<BodyHandle>, IForEach<float>
+    struct Handler : IRayHitHandler, ISweepHitHandler, IBroadPhaseRayTester, IBroadPhaseSweepTester, IBroadPhaseOverlapHandler,
+        IBreakableForEach<CollidableReference>, IForEach<BodyHandle>, IForEach<float>
     {
         public LockedWorld World;
 
@@ -122,6 +124,11 @@ sealed record LockPlace(string Name, Action<LockedWorld> Reach, OperationKind[] 
 
         public readonly void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, CollidableReference collidable, int childIndex) =>
             World.Reach("OnRayHit");
+
+        public readonly void OnHit(ref float maximumT, float t, Vector3 hitLocation, Vector3 hitNormal, CollidableReference collidable) =>
+            World.Reach("OnHit");
+
+        public readonly void OnHitAtZeroT(ref float maximumT, CollidableReference collidable) { }
 
         public readonly unsafe void RayTest(CollidableReference collidable, RayData* rayData, float* maximumT, BufferPool pool) => World.Reach("RayTest");
 

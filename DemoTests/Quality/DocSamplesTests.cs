@@ -8,6 +8,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Quality;
@@ -15,9 +16,12 @@ namespace DemoTests.Quality;
 /// <summary>The code of the documentation compiles, because it is here, and does what the pages say.</summary>
 public sealed class DocSamplesTests : IDisposable
 {
-    const string Samples = "DemoTests/Quality/DocSamples.cs";
-    const string EventSamples = "DemoTests/Quality/DocSamples.Events.cs";
-    const string RollbackSamples = "DemoTests/Quality/DocSamples.Rollback.cs";
+    static readonly string[] sampleFiles =
+    [
+        "DemoTests/Quality/DocSamples.cs", "DemoTests/Quality/DocSamples.Events.cs", "DemoTests/Quality/DocSamples.Rollback.cs",
+        "DemoTests/Quality/DocSamples.Sweeps.cs",
+    ];
+
     const float Dt = 1 / 60f;
 
     readonly BufferPool pool = new();
@@ -30,14 +34,14 @@ public sealed class DocSamplesTests : IDisposable
     [Theory, MemberData(nameof(Pages))]
     public void Code_of_a_page_is_among_the_samples(string page)
     {
-        var samples = Lines(RepositoryFiles.Read(Samples) + RepositoryFiles.Read(EventSamples) + RepositoryFiles.Read(RollbackSamples));
+        var samples = Lines(string.Concat(sampleFiles.Select(RepositoryFiles.Read)));
         foreach (var block in DocPages.CodeBlocks(page))
         {
             var lines = Lines(block);
             var usings = lines.Where(IsUsing).ToArray();
             Assert.All(usings, line => Assert.Contains(line, samples));
             var code = lines.Except(usings).Any() ? lines.Where(line => !IsUsing(line)).ToArray() : [];
-            Assert.True(Contains(samples, code), $"{page} has code that is not in {Samples}:\n{block}");
+            Assert.True(Contains(samples, code), $"{page} has code that is in none of {string.Join(", ", sampleFiles)}:\n{block}");
         }
     }
 
@@ -55,6 +59,17 @@ public sealed class DocSamplesTests : IDisposable
                 return true;
         }
         return false;
+    }
+
+    [Fact]
+    public void A_capsule_walks_up_to_a_wall()
+    {
+        using var simulation = EmptySimulation.Create(pool);
+        simulation.Statics.Add(new StaticDescription(new RigidPose(new Vector3(2, 0, 0)), simulation.Shapes.Add(new Box(1, 4, 4))));
+        var near = new RigidPose(new Vector3(1, 0, 0));
+
+        Assert.InRange(DocSamples.Walk(simulation, pool, near, new Vector3(60, 0, 0)).X, 1.1f - 1e-5f, 1.1f);
+        Assert.Equal(near.Position, DocSamples.Walk(simulation, pool, near, new Vector3(-60, 0, 0)));
     }
 
     [Fact]

@@ -13,6 +13,9 @@ readonly struct DoubleVector3(double x, double y, double z)
     public DoubleVector3(in Vector3 v) : this(v.X, v.Y, v.Z) { }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static DoubleVector3 operator +(in DoubleVector3 a, in DoubleVector3 b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static DoubleVector3 operator -(in DoubleVector3 a, in DoubleVector3 b) => new(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

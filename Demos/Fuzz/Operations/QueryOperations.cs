@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -26,6 +27,35 @@ static unsafe class QueryOperations
             var hits = new Hits { World = w };
             w.Simulation.RayCast(w.Random.Spoil(w.Random.Vector(4), 6), w.Random.Spoil(w.Random.Direction(), 6), w.Random.Spoil(w.Random.Number(0, 20), 10),
                 BodyOperations.AnyLayers(w), w.Pool, ref hits);
+        }),
+        new("Simulation.Sweep", 8, w =>
+        {
+            var hits = new SweepHits { World = w };
+            var pose = w.Random.Spoil(new RigidPose(w.Random.Vector(4), w.Random.Turn()), 3);
+            Vector3 linear = w.Random.Direction() * w.Random.Magnitude(0.01f, 100), angular = w.Random.Vector(w.Random.Magnitude(.1f, 100));
+            var velocity = w.Random.Spoil(new BodyVelocity(linear, angular), 3);
+            float length = w.Random.Spoil(w.Random.Number(0, 3), 10);
+            Vector3 size = w.Random.Spoil(new Vector3(w.Random.Magnitude(.01f, 3), w.Random.Magnitude(.01f, 3), w.Random.Magnitude(.01f, 3)), 4);
+            w.Tell($"{pose.Position} {pose.Orientation} {velocity.Linear} {velocity.Angular} {length} {size}");
+            switch (w.Random.Below(5))
+            {
+                case 0:
+                    w.Simulation.Sweep(new Sphere(size.X), pose, velocity, length, w.Pool, ref hits);
+                    break;
+                case 1:
+                    w.Simulation.Sweep(new Capsule(size.X, size.Y), pose, velocity, length, w.Pool, ref hits);
+                    break;
+                case 2:
+                    w.Simulation.Sweep(new Cylinder(size.X, size.Y), pose, velocity, length, BodyOperations.AnyLayers(w), w.Pool, ref hits);
+                    break;
+                case 3:
+                    w.Simulation.Sweep(new Triangle(size, -size, new(size.Y, -size.X, 0)), pose, velocity, length, w.Pool, ref hits);
+                    break;
+                default:
+                    w.Simulation.Sweep(new Box(size.X, size.Y, size.Z), pose, velocity, length, w.Pool, ref hits,
+                        w.Random.Spoil(w.Random.Number(0, .1f), 10), w.Random.Spoil(w.Random.Number(0, .1f), 10), w.Random.Count());
+                    break;
+            }
         }),
         new("BroadPhase.GetOverlaps", 6, w =>
         {
@@ -73,12 +103,37 @@ static unsafe class QueryOperations
         {
             if (!(t >= 0 && t <= maximumT))
                 throw new FuzzFailure($"a hit at {t}, beyond {maximumT}");
-            if (collidable.Mobility == CollidableMobility.Static
-                ? !World.Simulation.Statics.StaticExists(collidable.StaticHandle)
-                : !World.Simulation.Bodies.BodyExists(collidable.BodyHandle))
-                throw new FuzzFailure($"a hit on what is not there: {collidable}");
+            CheckExists(World, collidable);
             maximumT = t;
         }
+    }
+
+    static void CheckExists(FuzzWorld world, CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static
+            ? !world.Simulation.Statics.StaticExists(collidable.StaticHandle)
+            : !world.Simulation.Bodies.BodyExists(collidable.BodyHandle))
+            throw new FuzzFailure($"a hit on what is not there: {collidable}");
+    }
+
+    struct SweepHits : ISweepHitHandler
+    {
+        public FuzzWorld World;
+
+        public readonly bool AllowTest(CollidableReference collidable) => true;
+
+        public readonly bool AllowTest(CollidableReference collidable, int childIndex) => childIndex % 7 != 6;
+
+        public readonly void OnHit(ref float maximumT, float t, Vector3 hitLocation, Vector3 hitNormal, CollidableReference collidable)
+        {
+            if (!(t >= 0 && t <= maximumT && float.IsFinite(hitLocation.LengthSquared()) && Math.Abs(hitNormal.Length() - 1) < 1e-3f))
+                throw new FuzzFailure($"a hit at {t} of {maximumT}, {hitLocation}, {hitNormal}");
+            CheckExists(World, collidable);
+            if (t < maximumT * .5f)
+                maximumT = t;
+        }
+
+        public readonly void OnHitAtZeroT(ref float maximumT, CollidableReference collidable) => CheckExists(World, collidable);
     }
 
     struct Counter : IBreakableForEach<CollidableReference>

@@ -1,0 +1,31 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using Demos.Terminal;
+
+namespace Benchmarks.Sweeps;
+
+/// <summary>Writes outcomes as a table for people and as CSV for the Results folder.</summary>
+static class SweepReport
+{
+    public static void Write(TextWriter writer, IReadOnlyList<SweepOutcome> outcomes) => Table(outcomes).Write(writer);
+
+    public static void WriteCsv(string path, IReadOnlyList<SweepOutcome> outcomes) => Table(outcomes).WriteCsv(path);
+
+    static TextTable Table(IReadOnlyList<SweepOutcome> outcomes)
+    {
+        var table = new TextTable("world", "shape", "motion", ">ours thousands/s", ">peer thousands/s",
+            ">peer/ours", ">least", ">greatest", ">ours hit", ">peer hit");
+        foreach (SweepOutcome outcome in outcomes)
+        {
+            double[] ratios = outcome.Ratios;
+            (SweepFigures ours, SweepFigures peer) = outcome.Runs[0];
+            string[] name = outcome.Name.Split(", ");
+            table.Add(name[0], name[1], name[2], Text(1e6 / outcome.OurTime, "0"), Text(1e6 / outcome.PeerTime, "0"), Text(outcome.Ratio, "0.00"),
+                Text(ratios[0], "0.00"), Text(ratios[^1], "0.00"), Text(ours.Hits, "0.000"), Text(peer.Hits, "0.000"));
+        }
+        return table;
+    }
+
+    static string Text(double value, string format) => value.ToString(format, CultureInfo.InvariantCulture);
+}

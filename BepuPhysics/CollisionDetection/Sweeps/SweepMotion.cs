@@ -1,0 +1,100 @@
+using System;
+using System.Numerics;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>How two bodies move against each other, in world axes and double precision, and what is asked about it.</summary>
+struct SweepMotion
+{
+    /// <summary>Orientations at the time zero.</summary>
+    public DoubleMatrix3x3 OrientationA, OrientationB;
+    /// <summary>Velocities, m/s and rad/s.</summary>
+    public DoubleVector3 LinearA, LinearB, AngularA, AngularB;
+    /// <summary>Position of B less that of A at the time zero, m.</summary>
+    public DoubleVector3 OffsetB;
+    /// <summary>Length of the time that is of interest, s; may be infinite.</summary>
+    public double MaximumT;
+    /// <summary>How exactly the time is sought.</summary>
+    public ImpactAccuracy Accuracy;
+
+    /// <summary>
+    /// Whether a part of A may meet a part of B in time, as far as balls about them tell; before there is a body for the part of B.
+    /// </summary>
+    /// <param name="part">The part of A.</param>
+    /// <param name="core">The part of B.</param>
+    /// <param name="local">Where it is in B.</param>
+    /// <param name="maximumT">The time.</param>
+    public readonly bool BallsMeet(in ImpactBody part, in ImpactCore core, Vector3 local, double maximumT)
+    {
+        if (core.IsPlane || part.Core.IsPlane || AngularB.X != 0 || AngularB.Y != 0 || AngularB.Z != 0)
+            return true;
+        var center = OffsetB + OrientationB.Turn(new(local)) - part.BallCenter;
+        return ImpactBalls.FirstMeeting(center, LinearA - LinearB, part.BallRadius + core.Margin + core.Reach) <= maximumT;
+    }
+}
+
+/// <summary>The first impact that was found so far between any parts of two bodies.</summary>
+struct SweepHit
+{
+    /// <summary>Whether there is one.</summary>
+    public bool Exists;
+    /// <summary>When it is, s; zero where the bodies overlap from the start.</summary>
+    public double T;
+    /// <summary>Whether the bodies overlap from the start: then there is neither normal nor place.</summary>
+    public bool Overlaps;
+    /// <summary>Unit normal from B to A, in world axes.</summary>
+    public DoubleVector3 Normal;
+    /// <summary>Place in world axes, from the position of A at the time zero, m.</summary>
+    public DoubleVector3 Place;
+    // The parts that touch; of several at once, those with the lowest numbers count, so that no order of tests shows.
+    int childA, childB;
+
+    /// <summary>The latest time that is still of interest.</summary>
+    public readonly double LatestT(in SweepMotion motion) => Exists ? T : motion.MaximumT;
+
+    /// <summary>The time as a float, which is not later.</summary>
+    public readonly float EarliestT
+    {
+        get
+        {
+            var t = (float)T;
+            return t > T ? MathF.BitDecrement(t) : t;
+        }
+    }
+
+    /// <summary>Tests two parts, and takes their impact if it is the first.</summary>
+    /// <param name="motion">How the bodies move.</param>
+    /// <param name="a">Part of A, at the time zero.</param>
+    /// <param name="b">Part of B, at the time zero.</param>
+    /// <param name="partA">Number of the part of A.</param>
+    /// <param name="partB">Number of the part of B.</param>
+    public void Test(in SweepMotion motion, ref ImpactBody a, ref ImpactBody b, int partA, int partB)
+    {
+        var maximumT = LatestT(motion);
+        var isFlipped = a.Core.IsPlane;
+        if (isFlipped && b.Core.IsPlane)
+            return;
+        var relative = motion.LinearA - motion.LinearB;
+        var found = isFlipped
+            ? ImpactPair.Find(ref b, ref a, -motion.OffsetB, -relative, maximumT, motion.Accuracy, out var impact)
+            : ImpactPair.Find(ref a, ref b, motion.OffsetB, relative, maximumT, motion.Accuracy, out impact);
+        if (!found || (Exists && impact.T == T && (partA > childA || (partA == childA && partB > childB))))
+            return;
+        Exists = true;
+        (childA, childB) = (partA, partB);
+        T = impact.T;
+        Overlaps = impact.Overlaps;
+        if (Overlaps)
+            return;
+        // The impact is told from where the first body begins, as if the second did not move on.
+        Normal = isFlipped ? -impact.Normal : impact.Normal;
+        Place = isFlipped ? impact.Place + motion.OffsetB + motion.LinearA * T : impact.Place + motion.LinearB * T;
+    }
+
+    /// <summary>Takes it that the bodies overlap from the start.</summary>
+    public void Overlap()
+    {
+        this = default;
+        Exists = Overlaps = true;
+    }
+}

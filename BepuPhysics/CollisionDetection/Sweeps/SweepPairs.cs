@@ -1,0 +1,145 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Trees;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Two shapes of any types that move: their parts against each other.</summary>
+static unsafe class SweepPairs
+{
+    /// <summary>Whether shapes of a type can be swept, or met by what is swept.</summary>
+    public static bool IsKnown(int typeId) => ImpactCore.Exists(typeId) || ContainerChildren.IsContainer(typeId);
+
+    /// <summary>Tests two shapes.</summary>
+    /// <param name="motion">How the bodies move.</param>
+    /// <param name="typeA">Type of the first shape.</param>
+    /// <param name="a">The first shape.</param>
+    /// <param name="typeB">Type of the second shape.</param>
+    /// <param name="b">The second shape.</param>
+    /// <param name="filter">Chooses children.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="pool">Source of temporary memory.</param>
+    /// <param name="hit">The first impact.</param>
+    public static void Test<TFilter>(in SweepMotion motion, int typeA, void* a, int typeB, void* b, ref TFilter filter,
+        Shapes shapes, BufferPool pool, out SweepHit hit) where TFilter : ISweepFilter
+    {
+        hit = default;
+        if (ImpactCore.Exists(typeA))
+        {
+            var part = new ImpactBody(ImpactCore.Of(typeA, a), motion.OrientationA, motion.AngularA);
+            TestPart(motion, ref part, 0, typeB, b, ref filter, false, shapes, pool, ref hit);
+            return;
+        }
+        if (!ImpactCore.Exists(typeB))
+        {
+            TestContainers(motion, typeA, a, typeB, b, ref filter, shapes, pool, ref hit);
+            return;
+        }
+        var flipped = motion with
+        {
+            OrientationA = motion.OrientationB, OrientationB = motion.OrientationA, LinearA = motion.LinearB, LinearB = motion.LinearA,
+            AngularA = motion.AngularB, AngularB = motion.AngularA, OffsetB = -motion.OffsetB,
+        };
+        var partB = new ImpactBody(ImpactCore.Of(typeB, b), flipped.OrientationA, flipped.AngularA);
+        TestPart(flipped, ref partB, 0, typeA, a, ref filter, true, shapes, pool, ref hit);
+        hit.Normal = -hit.Normal;
+        hit.Place += motion.OffsetB;
+    }
+
+    /// <summary>Tests a convex part of A.</summary>
+    /// <param name="motion">How the bodies move.</param>
+    /// <param name="part">The part, at the time zero.</param>
+    /// <param name="partIndex">Its number.</param>
+    /// <param name="typeB">Type of the second shape.</param>
+    /// <param name="b">The second shape.</param>
+    /// <param name="filter">Chooses children.</param>
+    /// <param name="isFlipped">Whether the filter knows A as B.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="pool">Source of temporary memory.</param>
+    /// <param name="hit">The first impact; goes on from what it is.</param>
+    public static void TestPart<TFilter>(in SweepMotion motion, ref ImpactBody part, int partIndex, int typeB, void* b,
+        ref TFilter filter, bool isFlipped, Shapes shapes, BufferPool pool, ref SweepHit hit) where TFilter : ISweepFilter
+    {
+        switch (typeB)
+        {
+            case Compound.Id:
+                TestContainer(motion, ref part, partIndex, (Compound*)b, ref filter, isFlipped, shapes, pool, ref hit);
+                break;
+            case BigCompound.Id:
+                TestContainer(motion, ref part, partIndex, (BigCompound*)b, ref filter, isFlipped, shapes, pool, ref hit);
+                break;
+            case Mesh.Id:
+                TestContainer(motion, ref part, partIndex, (Mesh*)b, ref filter, isFlipped, shapes, pool, ref hit);
+                break;
+            case HeightField.Id:
+                TestContainer(motion, ref part, partIndex, (HeightField*)b, ref filter, isFlipped, shapes, pool, ref hit);
+                break;
+            default:
+                var core = ImpactCore.Of(typeB, b);
+                part.Restart();
+                if (!motion.BallsMeet(part, core, default, hit.LatestT(motion)))
+                    break;
+                var body = new ImpactBody(core, motion.OrientationB, motion.AngularB);
+                hit.Test(motion, ref part, ref body, partIndex, 0);
+                break;
+        }
+    }
+
+    static void TestContainer<TContainer, TFilter>(in SweepMotion motion, ref ImpactBody part, int partIndex, TContainer* container,
+        ref TFilter filter, bool isFlipped, Shapes shapes, BufferPool pool, ref SweepHit hit)
+        where TContainer : unmanaged, IContainer where TFilter : ISweepFilter =>
+        ContainerSweep<TContainer>.Test(motion, ref part, partIndex, *container, ref filter, isFlipped, shapes, pool, ref hit);
+
+    static void TestContainers<TFilter>(in SweepMotion motion, int typeA, void* a, int typeB, void* b, ref TFilter filter,
+        Shapes shapes, BufferPool pool, ref SweepHit hit) where TFilter : ISweepFilter
+    {
+        switch (typeA)
+        {
+            case Compound.Id:
+                TestChildren(motion, *(Compound*)a, typeB, b, ref filter, shapes, pool, ref hit);
+                break;
+            case BigCompound.Id:
+                TestChildren(motion, *(BigCompound*)a, typeB, b, ref filter, shapes, pool, ref hit);
+                break;
+            case Mesh.Id:
+                TestChildren(motion, *(Mesh*)a, typeB, b, ref filter, shapes, pool, ref hit);
+                break;
+            default:
+                TestChildren(motion, *(HeightField*)a, typeB, b, ref filter, shapes, pool, ref hit);
+                break;
+        }
+    }
+
+    // All children of A, each against those of B that it may meet.
+    static void TestChildren<TContainer, TFilter>(in SweepMotion motion, in TContainer a, int typeB, void* b, ref TFilter filter,
+        Shapes shapes, BufferPool pool, ref SweepHit hit) where TContainer : unmanaged, IContainer where TFilter : ISweepFilter
+    {
+        const float Farthest = 1e15f;
+        var children = new QuickList<int>(64, pool);
+        var list = default(Buffer<NodeChild>);
+        try
+        {
+            if (TContainer.IsList)
+                ContainerPlaces.Open(a, 0, shapes, ref list, pool);
+            a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), shapes, list.Memory, ref children, pool);
+            var scratch = stackalloc byte[IContainer.ScratchByteCount + 16];
+            scratch = (byte*)(((nuint)scratch + 15) & ~(nuint)15);
+            for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
+            {
+                a.GetChild(children[i], shapes, scratch, out var child);
+                if (!ImpactCore.Exists(child.TypeId))
+                    continue;
+                var part = new ImpactBody(ImpactCore.Of(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
+                TestPart(motion, ref part, children[i], typeB, b, ref filter, false, shapes, pool, ref hit);
+            }
+        }
+        finally
+        {
+            children.Dispose(pool);
+            if (list.Allocated)
+                pool.Return(ref list);
+        }
+    }
+}

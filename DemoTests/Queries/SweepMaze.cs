@@ -1,0 +1,206 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
+using Demos.Accuracy;
+using DemoTests.Scenes;
+
+namespace DemoTests.Queries;
+
+/// <summary>A world with everything in it that a sweep may hit, and what it is made of.</summary>
+sealed class SweepMaze : IDisposable
+{
+    public const float Extent = 8;
+
+    readonly Random random;
+    readonly TypedIndex[] convex;
+    readonly TypedIndex[] containers;
+    readonly List<Action> disposals = [];
+
+    /// <param name="seed">Chooses what there is and where.</param>
+    /// <param name="reversed">Whether it is added last to first.</param>
+    public SweepMaze(int seed, bool reversed = false)
+    {
+        random = new(seed);
+        convex =
+        [
+            Shapes.Add(new Sphere(.6f)), Shapes.Add(new Capsule(.3f, 1)), Shapes.Add(new Box(1, .6f, 1.4f)), Shapes.Add(new Cylinder(.5f, .8f)),
+            Own(new ConvexHull(Cloud(20, .8f), World.Pool, out _)), Shapes.Add(new Triangle(new(-1, 0, -.7f), new(1, .2f, -.6f), new(.1f, 0, 1))),
+        ];
+        containers = [AddCompound(4), AddBigCompound(12), AddMesh(), AddNested(), AddField()];
+        var places = new List<(RigidPose Pose, int Kind)>();
+        for (int i = 0; i < 90; ++i)
+            places.Add((new(TestWorld.Scatter(random, 2 * Extent), TestWorld.Turn(random)), i));
+        if (reversed)
+            places.Reverse();
+        foreach (var (pose, kind) in places)
+            Add(pose, kind);
+        var ground = new StaticDescription(new RigidPose(new(0, -Extent - 3, 0), TestWorld.Turn(new Random(1))), Shapes.Add(new HalfSpace(new(.1f, 1, 0))));
+        ground.Pose.Orientation = Quaternion.Identity;
+        Note(new(World.Statics.Add(ground)), 100);
+    }
+
+    public TestWorld World { get; } = new(new AccuracySettings { Contacts = ContactScope.None });
+
+    public Simulation Simulation => World.Simulation;
+
+    public List<CollidableReference> Collidables { get; } = [];
+
+    /// <summary>By collidable, a number that does not depend on the order of adding.</summary>
+    public Dictionary<CollidableReference, int> Names { get; } = [];
+
+    Shapes Shapes => World.Simulation.Shapes;
+
+    void Add(in RigidPose pose, int kind)
+    {
+        var isContainer = kind % 3 == 0;
+        var shape = isContainer ? containers[kind / 3 % containers.Length] : convex[kind % convex.Length];
+        var isField = isContainer && kind / 3 % containers.Length == 4;
+        Note((kind % 4) switch
+        {
+            0 when !isField => new(
+                CollidableMobility.Kinematic, World.Bodies.Add(BodyDescription.CreateKinematic(pose, shape, new BodyActivityDescription(-1)))),
+            1 when !isContainer && kind % convex.Length != 5 => new(CollidableMobility.Dynamic, World.Bodies.Add(BodyDescription.CreateDynamic(
+                pose, new Sphere(1).ComputeInertia(1), shape, new BodyActivityDescription(-1)))),
+            _ => new(World.Statics.Add(new StaticDescription(pose, shape))),
+        }, kind);
+    }
+
+    void Note(CollidableReference collidable, int name)
+    {
+        Collidables.Add(collidable);
+        Names.Add(collidable, name);
+    }
+
+    Vector3[] Cloud(int count, float size)
+    {
+        var points = new Vector3[count];
+        for (int i = 0; i < count; ++i)
+            points[i] = TestWorld.Scatter(random, 2 * size);
+        return points;
+    }
+
+    BepuUtilities.Memory.Buffer<CompoundChild> Children(int count, float extent)
+    {
+        World.Pool.Take<CompoundChild>(count, out var children);
+        for (int i = 0; i < count; ++i)
+            children[i] = new(new RigidPose(TestWorld.Scatter(random, extent), TestWorld.Turn(random)), convex[i % convex.Length]);
+        return children;
+    }
+
+    TypedIndex Own<TShape>(TShape shape) where TShape : unmanaged, IDisposableShape
+    {
+        disposals.Add(() => shape.Dispose(World.Pool));
+        return Shapes.Add(shape);
+    }
+
+    TypedIndex AddCompound(int count) => Own(new Compound(Children(count, 3)));
+
+    TypedIndex AddBigCompound(int count) => Own(new BigCompound(Children(count, 5), Shapes, World.Pool));
+
+    TypedIndex AddMesh()
+    {
+        // A closed body of 80 triangles, and two more that are no part of it.
+        var triangles = new List<Triangle>();
+        const int Sides = 20;
+        for (int i = 0; i < Sides; ++i)
+        {
+            Vector3 a = Rim(i, 1), b = Rim(i + 1, 1), c = Rim(i, -1), d = Rim(i + 1, -1);
+            triangles.AddRange([new(a, c, b), new(b, c, d), new(new(0, 1, 0), a, b), new(new(0, -1, 0), d, c)]);
+        }
+        triangles.AddRange([new(new(2, 0, 0), new(3, 0, 1), new(3, 1, -1)), new(new(-2, 0, 0), new(-3, 0, 1), new(-3, 1, -1))]);
+        return Own(new Mesh(triangles.ToArray().AsSpan(), new Vector3(1.2f, .9f, 1), World.Pool));
+
+        static Vector3 Rim(int i, float y) => new(1.3f * MathF.Cos(i * MathF.Tau / Sides), y, 1.3f * MathF.Sin(i * MathF.Tau / Sides));
+    }
+
+    TypedIndex AddNested()
+    {
+        World.Pool.Take<CompoundChild>(3, out var children);
+        children[0] = new(new RigidPose(new(-1, 0, 0), TestWorld.Turn(random)), AddMesh());
+        children[1] = new(new RigidPose(new(1, .3f, 0), TestWorld.Turn(random)), AddCompound(3));
+        children[2] = new(new RigidPose(new(0, 1, 1)), convex[2]);
+        return Own(new Compound(children));
+    }
+
+    TypedIndex AddField()
+    {
+        var heights = new float[7 * 6];
+        for (int i = 0; i < heights.Length; ++i)
+            heights[i] = random.NextSingle();
+        return Own(new HeightField(7, 6, .7f, .6f, heights, World.Pool));
+    }
+
+    /// <summary>A sweep of some shape.</summary>
+    public readonly record struct Case(int Shape, RigidPose Pose, BodyVelocity Velocity, float MaximumT);
+
+    public const int SweptShapeCount = 6;
+
+    public static Case NextCase(Random random)
+    {
+        var direction = Vector3.Normalize(TestWorld.Scatter(random, 1) + new Vector3(1e-3f));
+        var spin = random.Next(3) == 0 ? default : TestWorld.Scatter(random, random.Next(3) == 0 ? 30 : 6);
+        return new(random.Next(SweptShapeCount), new(TestWorld.Scatter(random, 2 * Extent), TestWorld.Turn(random)),
+            new(direction * (random.Next(10) == 0 ? 0 : 15), spin), random.Next(4) == 0 ? 1e-3f : random.NextSingle() * 1.5f);
+    }
+
+    static readonly Sphere sphere = new(.4f);
+    static readonly Capsule capsule = new(.25f, .7f);
+    static readonly Box box = new(.5f, .9f, .3f);
+    static readonly Cylinder cylinder = new(.3f, .5f);
+    static readonly Triangle triangle = new(new(-.5f, 0, -.3f), new(.5f, .2f, -.3f), new(.1f, 0, .6f)) { TwoSided = true };
+
+    ConvexHull Hull => Shapes.GetShape<ConvexHull>(convex[4].Index);
+
+    public void Sweep<THandler>(in Case sweep, ref THandler handler) where THandler : ISweepHitHandler
+    {
+        switch (sweep.Shape)
+        {
+            case 0:
+                Sweep(sphere, sweep, ref handler);
+                break;
+            case 1:
+                Sweep(capsule, sweep, ref handler);
+                break;
+            case 2:
+                Sweep(box, sweep, ref handler);
+                break;
+            case 3:
+                Sweep(cylinder, sweep, ref handler);
+                break;
+            case 4:
+                Sweep(Hull, sweep, ref handler);
+                break;
+            default:
+                Sweep(triangle, sweep, ref handler);
+                break;
+        }
+    }
+
+    /// <summary>What is swept, as it starts.</summary>
+    public ImpactBody SweptBody(in Case sweep, in SweepMotion motion) => sweep.Shape switch
+    {
+        0 => Body(sphere, motion),
+        1 => Body(capsule, motion),
+        2 => Body(box, motion),
+        3 => Body(cylinder, motion),
+        4 => Body(Hull, motion),
+        _ => Body(triangle, motion),
+    };
+
+    static unsafe ImpactBody Body<TShape>(TShape shape, in SweepMotion motion) where TShape : unmanaged, IConvexShape =>
+        new(ImpactCore.Of(TShape.TypeId, &shape), motion.OrientationA, motion.AngularA);
+
+    void Sweep<TShape, THandler>(in TShape shape, in Case sweep, ref THandler handler)
+        where TShape : unmanaged, IConvexShape where THandler : ISweepHitHandler =>
+        Simulation.Sweep(shape, sweep.Pose, sweep.Velocity, sweep.MaximumT, World.Pool, ref handler);
+
+    public void Dispose()
+    {
+        foreach (var dispose in disposals)
+            dispose();
+        World.Dispose();
+    }
+}
