@@ -31,8 +31,12 @@ static class EngineDefaults
     /// <summary>It has none.</summary>
     public const LoadPathChoice LoadPath = LoadPathChoice.Off;
 
+    /// <summary>It has none.</summary>
+    public const DirectJointsChoice DirectJoints = DirectJointsChoice.Off;
+
     /// <summary>How hard the solver works.</summary>
-    public static SolveDescription Solve(RunSettings settings) => settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off, DirectJoints: false }
+    public static SolveDescription Solve(RunSettings settings) =>
+        settings is { Relaxations: 0, LoadPath: LoadPathChoice.Off, DirectJoints: DirectJointsChoice.Off }
         ? new(settings.Iterations, settings.Substeps)
         : throw new SceneException("this engine has neither relaxation sweeps nor a load path nor direct joints");
 

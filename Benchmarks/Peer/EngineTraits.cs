@@ -47,7 +47,7 @@ static class EngineTraits
     public static string[] TradedModes => ["default"];
 
     public static SolveDescription Solve(AccuracySettings settings) =>
-        settings is { RelaxationCount: 0, LoadPath: Running.LoadPathChoice.Off, DirectJoints: false }
+        settings is { RelaxationCount: 0, LoadPath: Running.LoadPathChoice.Off, DirectJoints: Running.DirectJointsChoice.Off }
             ? new(settings.VelocityIterationCount, settings.SubstepCount)
             : throw new SceneException("this engine has neither relaxation sweeps nor a load path nor direct joints");
 

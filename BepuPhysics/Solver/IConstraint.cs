@@ -61,6 +61,9 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     internal static virtual void Separation(in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular) =>
         linear = angular = Vector<float>.Zero;
 
+    // What tells whether sweeps hold the constraint (JointNeed.cs); zero where it is not meant to be rigid.
+    internal static virtual void RigidError(in TBodies bodies, in TPrestep prestep, out JointErrorWide error) => error = default;
+
     // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
     internal static virtual int RowCount => 0;
 

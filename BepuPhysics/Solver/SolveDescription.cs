@@ -34,8 +34,8 @@ public struct SolveDescription
     /// </summary>
     public LoadPathMode LoadPath;
     /// <summary>
-    /// Whether all joints of a structure are solved at once, so that none gives way, whatever hangs in it; <see cref="DirectJointsMode.Off"/> unless said
-    /// otherwise.
+    /// Whether all joints of a structure are solved at once, so that none gives way, whatever hangs in it: nowhere, everywhere, or where sweeps do not hold
+    /// them; <see cref="DirectJointsMode.Off"/> unless said otherwise.
     /// </summary>
     public DirectJointsMode DirectJoints;
     /// <summary>Chooses the number of velocity iterations of each substep; null for the same in all.</summary>
@@ -101,7 +101,7 @@ public struct SolveDescription
 
     internal static void Check(DirectJointsMode mode)
     {
-        if (mode is < DirectJointsMode.Off or > DirectJointsMode.Always)
+        if (mode is < DirectJointsMode.Off or > DirectJointsMode.WhereNeeded)
             throw new ArgumentOutOfRangeException(nameof(mode), mode, $"{nameof(DirectJoints)}: there is no such mode.");
     }
 

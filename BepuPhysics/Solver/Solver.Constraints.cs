@@ -48,6 +48,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < bodyHandles.Length; ++i)
             awakener.Wake(bodyHandles[i]);
         var handle = AddUnwritten(bodyHandles, TDescription.ConstraintTypeId);
+        NumberJoint(handle);
         WriteDescription(Locations[handle.Slot], description);
         return handle;
     }

@@ -9,13 +9,17 @@ public sealed unsafe partial class Solver
 {
     DirectJointsMode directJoints;
     readonly DirectStage directStage;
+    readonly JointNeedStage needStage;
     // How often joints of the active set have changed, and how often they had when they were chosen.
     int jointVersion;
     int chosenVersion;
     DirectJointsMode chosenMode;
 
     /// <summary>Whether all joints of a structure are solved at once.</summary>
-    /// <remarks>May be changed between any two steps: impulses stay.</remarks>
+    /// <remarks>
+    /// May be changed between any two steps: impulses stay. From <see cref="DirectJointsMode.Always"/> to <see cref="DirectJointsMode.WhereNeeded"/> nothing
+    /// changes at first, until the loads say which structures the sweeps bear.
+    /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
     public DirectJointsMode DirectJoints
     {
@@ -23,8 +27,14 @@ public sealed unsafe partial class Solver
         set
         {
             SolveDescription.Check(value);
-            world.CheckChangeable("Solver.DirectJoints");
+            using var change = world.Change("Solver.DirectJoints");
+            if (directJoints == value)
+                return;
             directJoints = value;
+            if (ChoosesDirectJoints)
+                BeginNeeds();
+            else
+                EndNeeds();
         }
     }
 
@@ -37,18 +47,32 @@ public sealed unsafe partial class Solver
 
     void ChooseDirectJoints()
     {
-        if (chosenMode == directJoints && (chosenVersion == jointVersion || directJoints == DirectJointsMode.Off))
+        if (chosenMode == directJoints && (chosenVersion == jointVersion && !needsChanged || directJoints == DirectJointsMode.Off))
+            return;
+        if (ChoosesDirectJoints && !MayChoose())
             return;
         var plan = DirectPlan.Create(pool);
         var joints = FindJoints();
         if (directJoints != DirectJointsMode.Off)
-            new DirectChooser(joints, bodies.Awake.Count, pool).Choose(ref plan);
+            new DirectChooser(joints, bodies.Awake.Count, ChoosesDirectJoints, pool).Choose(ref plan);
+        if (ChoosesDirectJoints)
+            ChangeOver(ref joints);
         for (int i = 0; i < joints.Count; ++i)
             SetSwept(joints[i].Joint.Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
         directStage.Replace(plan);
         chosenMode = directJoints;
         chosenVersion = jointVersion;
+        needsChanged = false;
+    }
+
+    // Where the solver chooses: whether anything may be solved at once now, or was before. All that is looked at where nothing needs anything.
+    bool MayChoose()
+    {
+        if (needsChanged || chosenMode != directJoints || directStage.HasJoints || FindBatch(ActiveSet, BatchKind.Direct) >= 0)
+            return true;
+        chosenVersion = jointVersion;
+        return false;
     }
 
     // They are chosen anew when the first of them wakes.
@@ -83,12 +107,17 @@ public sealed unsafe partial class Solver
         foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
         {
             var processor = Processor(typeBatch.TypeId);
-            if (!IsOfJoints(typeBatch) || !IsHeldBothWays(processor))
+            if (!MayBeDirect(typeBatch.TypeId))
                 continue;
             for (int i = 0; i < typeBatch.ConstraintCount; ++i)
             {
                 ref var joint = ref joints.Allocate(pool);
-                joint = default;
+                joint = new() { Asks = true };
+                if (ChoosesDirectJoints)
+                {
+                    ref var need = ref needs[typeBatch.IndexToHandle[i].Slot];
+                    (joint.Number, joint.Asks) = (need.Number, need.Asks > 0);
+                }
                 ref var node = ref joint.Joint;
                 node = new()
                 {
@@ -102,6 +131,9 @@ public sealed unsafe partial class Solver
             }
         }
     }
+
+    /// <summary>Whether joints of a type may be solved at once.</summary>
+    internal bool MayBeDirect(int typeId) => typeId >= ConstraintTypeIds.ContactTypeCount && IsHeldBothWays(Processor(typeId));
 
     // Limits, servos and motors have bounds, which sweeps are good at.
     static bool IsHeldBothWays(TypeProcessor processor)

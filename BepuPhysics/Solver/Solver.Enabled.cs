@@ -36,6 +36,8 @@ public sealed unsafe partial class Solver
         // One of the bodies is dynamic, or it would have been removed.
         TryMove(handle, enabled ? BatchKind.Coloured : BatchKind.Disabled);
         CountEnabled(Locations[handle.Slot], enabled ? 1 : -1);
+        // What it needed before means nothing either.
+        NumberJoint(handle);
     }
 
     // What is not solved makes no hubs.

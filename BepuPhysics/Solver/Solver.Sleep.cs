@@ -52,7 +52,9 @@ public sealed unsafe partial class Solver
         var handle = TakeOut(constraint, -1, column, encoded, out var processor, out var kind);
         for (int i = 0; i < processor.BodiesPerConstraint; ++i)
             handles[i] = bodies.HandleAt(encoded[i] & EncodedBody.IndexMask);
-        kind = kind == BatchKind.Fallback ? BatchKind.Coloured : kind;
+        // While it slept, the game may have left all joints to the sweeps.
+        if (kind == BatchKind.Fallback || kind == BatchKind.Direct && directJoints == DirectJointsMode.Off)
+            kind = BatchKind.Coloured;
         var location = Allocate(handle, handles[..processor.BodiesPerConstraint], processor.TypeId, kind);
         Locations[constraint] = location;
         processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);

@@ -21,6 +21,7 @@ public sealed unsafe partial class Solver
         if (copy.Restores)
             EnsureSlots(Locations.Length);
         CopyOptions(copy);
+        CopyNeeds(copy);
         for (int i = 0; i < Sets.Length; ++i)
             CopySet(ref Sets[i], copy);
         AsleepOfKinematics = copy.Value(AsleepOfKinematics);

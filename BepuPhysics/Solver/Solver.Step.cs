@@ -109,6 +109,7 @@ public sealed unsafe partial class Solver
             StagedWork.Run(ref work, IsWorthSharing(work) ? dispatcher : null);
             MoveFreeBodies(work, dt, dispatcher);
             ReadError();
+            ReadNeeds();
             BreakOverloaded();
         }
         finally
@@ -124,6 +125,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < OptionalStages.Count; ++i)
             OptionalStages[i].EndStep();
         ForgetDirectJoints();
+        ReadNeeds();
         endsWithVelocities = false;
         shuffleState = 0;
     }

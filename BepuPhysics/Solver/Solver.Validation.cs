@@ -35,6 +35,7 @@ public sealed partial class Solver
         Invariant.Require(listedCount == referenceCount, "number of constraints in the lists of bodies", listedCount, referenceCount);
         ValidateHubs();
         ValidateOptions();
+        ValidateNeeds();
         Invariant.Ids(HandlePool, Locations.Length, "constraints", id => Locations[id].SetIndex >= 0);
         for (int slot = 0; slot < owners.Capacity; ++slot)
             Invariant.Require(owners.IsTaken(slot) == (slot < Locations.Length && Locations[slot].SetIndex >= 0), "owner of slot", slot);

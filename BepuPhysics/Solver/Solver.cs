@@ -162,6 +162,8 @@ public sealed unsafe partial class Solver
         directStage = new DirectStage(this, bodies, pool);
         OptionalStages.Add(directStage);
         OptionalStages.Add(new DirectLoadStage(this, directStage, bodies));
+        needStage = new JointNeedStage(this, directStage, bodies);
+        OptionalStages.Add(needStage);
         errorStage = new ConstraintErrorStage(this, bodies);
         OptionalStages.Add(errorStage);
         OptionalStages.Add(new BreakStage(this));
@@ -250,6 +252,8 @@ public sealed unsafe partial class Solver
             Locations[i].SetIndex = -1;
         owners.ReleaseAll();
         ForgetOptions();
+        ForgetNeeds();
+        needTurn = 0;
         HandlePool.Clear();
         ForgetStepLengths();
         shuffleState = 0;
@@ -280,6 +284,7 @@ public sealed unsafe partial class Solver
         Edges.Dispose(pool);
         directStage.Dispose();
         DisposeOptions();
+        DisposeNeeds();
         owners.Dispose(pool);
         HandlePool.Dispose(pool);
     }
@@ -292,6 +297,7 @@ public sealed unsafe partial class Solver
         Edges = default;
         directStage.Abandon();
         AbandonOptions();
+        needs = default;
         owners = default;
         HandlePool = default;
     }

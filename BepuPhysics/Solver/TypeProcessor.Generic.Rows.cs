@@ -85,6 +85,14 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     }
 
     /// <inheritdoc/>
+    internal override void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, int bundle, out JointErrorWide errors)
+    {
+        var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
+        Gather(references, PlaceMask, bodies, BodyAccess.Pose, new Substep(0, 1), out _, out var slots);
+        TConstraint.RigidError(slots, ((TPrestep*)batch.Prestep.Memory)[bundle], out errors);
+    }
+
+    /// <inheritdoc/>
     internal override void WriteImpulses(ref TypeBatch batch, int bundle, ReadOnlySpan<Vector<float>> impulses, Vector<int> lanes) =>
         TConstraint.WriteImpulses(
             ((TPrestep*)batch.Prestep.Memory)[bundle], impulses, lanes, ref ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle]);

@@ -39,8 +39,8 @@ static class BadSolverInput
             w.Solver.RelaxationIterationCount = (int)v);
         list.Add("Simulation.Create, relaxation iteration count", ["relaxation"], [-1], static (w, v) =>
             Create(static v => new(1, 4) { RelaxationIterationCount = (int)v }, v));
-        list.Add("Solver.DirectJoints", ["direct"], [-1, 2, int.MinValue], static (w, v) => w.Solver.DirectJoints = (DirectJointsMode)(int)v);
-        list.Add("Simulation.Create, direct joints", ["direct"], [-1, 2], static (w, v) =>
+        list.Add("Solver.DirectJoints", ["direct"], [-1, 3, int.MinValue], static (w, v) => w.Solver.DirectJoints = (DirectJointsMode)(int)v);
+        list.Add("Simulation.Create, direct joints", ["direct"], [-1, 3], static (w, v) =>
             Create(static v => new(1, 4) { DirectJoints = (DirectJointsMode)(int)v }, v));
         list.Add("Simulation.Create, substep count", ["substep"], [0, -1], static (w, v) => Create(static v => new(1, (int)v), v));
         list.Add("Simulation.Create, velocity iteration count", ["iteration"], [0, -1], static (w, v) =>

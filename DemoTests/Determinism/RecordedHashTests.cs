@@ -41,6 +41,7 @@ public class RecordedHashTests
         ["fast"] = () => Run(SmallScenes.Fast(seed: 1), 120),
         ["joints"] = () => Run(new RandomScene(5, Ingredients.Contacts | Ingredients.Joints), 60),
         ["joints at once"] = () => Run(new RandomScene(5, Ingredients.Contacts | Ingredients.Joints), 60, DirectJointsMode.Always),
+        ["joints at once where needed"] = () => Run(SceneLibrary.Load("ragdolls", 1), 120, joints: DirectJointsMode.WhereNeeded),
         ["hubs"] = () => Run(new RandomScene(6, Ingredients.All), 60),
         ["bounces"] = () => Bounce(60),
         ["wave"] = () => Run(SmallScenes.Wave(), 350),
@@ -76,9 +77,12 @@ public class RecordedHashTests
             .Select(line => line.Split(Separator)).ToDictionary(parts => parts[0], parts => parts[1]);
     }
 
-    static ulong Run(SceneDescription scene, int steps, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.WhereNeeded)
+    static ulong Run(
+        SceneDescription scene, int steps, int relaxations = 0, LoadPathMode loadPath = LoadPathMode.WhereNeeded,
+        DirectJointsMode joints = DirectJointsMode.Off)
     {
         using var world = new SceneWorld(scene, threads: 1, relaxations, loadPath);
+        world.Simulation.Solver.DirectJoints = joints;
         return world.HashSteps(steps)[^1];
     }
 

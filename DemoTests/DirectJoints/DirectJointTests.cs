@@ -7,6 +7,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using Demos.Accuracy;
 using Demos.JointTables;
+using Demos.Running;
 using DemoTests.Scenes;
 using Xunit;
 using Xunit.Abstractions;
@@ -16,7 +17,7 @@ namespace DemoTests.DirectJoints;
 /// <summary>All joints of a structure at once: beside equations in double precision, and mechanics.</summary>
 public class DirectJointTests(ITestOutputHelper output)
 {
-    static readonly AccuracySettings direct = new() { DirectJoints = true, Contacts = ContactScope.None };
+    static readonly AccuracySettings direct = new() { DirectJoints = DirectJointsChoice.Always, Contacts = ContactScope.None };
 
     /// <summary>One substep of random structures, beside dense elimination with pivots.</summary>
     [Theory]
@@ -278,7 +279,7 @@ public class DirectJointTests(ITestOutputHelper output)
     {
         for (int seed = 0; seed < 10; ++seed)
         {
-            var bySweeps = EnergyLeft(direct with { DirectJoints = false, SubstepCount = 4, Gravity = default }, seed);
+            var bySweeps = EnergyLeft(direct with { DirectJoints = DirectJointsChoice.Off, SubstepCount = 4, Gravity = default }, seed);
             var atOnce = EnergyLeft(direct with { SubstepCount = substeps, Gravity = default }, seed);
             Assert.InRange(atOnce, 0, 15 * bySweeps);
         }

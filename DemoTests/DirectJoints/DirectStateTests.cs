@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using Demos.Accuracy;
+using Demos.Running;
 using DemoTests.Scenes;
 using Xunit;
 
@@ -13,7 +14,7 @@ namespace DemoTests.DirectJoints;
 /// <summary>Joints that are solved at once, as they come and go.</summary>
 public class DirectStateTests
 {
-    static readonly AccuracySettings direct = new() { DirectJoints = true };
+    static readonly AccuracySettings direct = new() { DirectJoints = DirectJointsChoice.Always };
     static readonly Box link = new(.8f, .2f, .3f);
 
     static List<BodyHandle> AddChain(TestWorld world, Vector3 start, int count, bool closed = false)
@@ -159,7 +160,11 @@ public class DirectStateTests
     {
         ulong Hash(bool isDirect)
         {
-            using var world = new TestWorld(new AccuracySettings { DirectJoints = isDirect, Contacts = ContactScope.None });
+            using var world = new TestWorld(direct with
+            {
+                DirectJoints = isDirect ? DirectJointsChoice.Always : DirectJointsChoice.Off,
+                Contacts = ContactScope.None,
+            });
             var hub = world.AddDynamic(new Sphere(1), 100, new RigidPose(Vector3.Zero));
             for (int i = 0; i < 100; ++i)
             {

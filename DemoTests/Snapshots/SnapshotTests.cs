@@ -52,15 +52,16 @@ public class SnapshotTests
     }
 
     [Theory]
-    [InlineData("chain"), InlineData("ragdolls")]
-    public void Joints_that_are_solved_at_once_go_on(string name)
+    [InlineData("chain", DirectJointsMode.Always), InlineData("ragdolls", DirectJointsMode.Always)]
+    [InlineData("chain", DirectJointsMode.WhereNeeded), InlineData("ragdolls", DirectJointsMode.WhereNeeded)]
+    public void Joints_that_are_solved_at_once_go_on(string name, DirectJointsMode mode)
     {
         var scene = SceneLibrary.Load(name, 1);
         using var world = new SceneWorld(scene, threads: 1);
         using var other = new SceneWorld(scene, threads: 2);
-        world.Simulation.Solver.DirectJoints = DirectJointsMode.Always;
+        world.Simulation.Solver.DirectJoints = mode;
         AssertGoesOn(world, other);
-        Assert.Equal(DirectJointsMode.Always, other.Simulation.Solver.DirectJoints);
+        Assert.Equal(mode, other.Simulation.Solver.DirectJoints);
     }
 
     static void AssertGoesOn(SceneWorld world, SceneWorld other)

@@ -26,7 +26,7 @@ sealed record AccuracySettings
     public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
 
     /// <summary>Whether all joints of a structure are solved at once.</summary>
-    public bool DirectJoints { get; init; }
+    public DirectJointsChoice DirectJoints { get; init; } = EngineDefaults.DirectJoints;
     public Vector3 Gravity { get; init; } = new(0, -9.81f, 0);
     public float Friction { get; init; } = .5f;
     public float Restitution { get; init; }
@@ -69,7 +69,13 @@ sealed record AccuracySettings
 
     string RelaxationWord => RelaxationCount > 0 ? string.Create(CultureInfo.InvariantCulture, $" r{RelaxationCount}") : "";
 
-    string JointWord => DirectJoints ? " direct" : "";
+    string JointWord => DirectJoints switch
+    {
+        _ when DirectJoints == EngineDefaults.DirectJoints => "",
+        DirectJointsChoice.Off => " swept",
+        DirectJointsChoice.Always => " direct",
+        _ => " direct where needed",
+    };
 
     string LoadPathWords => LoadPath == EngineDefaults.LoadPath ? "" : $" load path {LoadPath}";
 }

@@ -24,6 +24,9 @@ static class EngineDefaults
     /// <summary>Loads are handed down to the ground in one go where that is needed.</summary>
     public const LoadPathChoice LoadPath = LoadPathChoice.WhereNeeded;
 
+    /// <summary>Joints are solved one after the other.</summary>
+    public const DirectJointsChoice DirectJoints = DirectJointsChoice.Off;
+
     /// <summary>Contacts as hard as the step allows.</summary>
     public static SpringSettings ContactSpring => default;
 
@@ -39,7 +42,7 @@ static class EngineDefaults
         {
             RelaxationIterationCount = settings.Relaxations,
             LoadPath = (LoadPathMode)settings.LoadPath,
-            DirectJoints = settings.DirectJoints ? DirectJointsMode.Always : DirectJointsMode.Off,
+            DirectJoints = (DirectJointsMode)settings.DirectJoints,
         };
 
     /// <summary>Seconds of the stages of the last step.</summary>

@@ -48,7 +48,7 @@ static class EngineTraits
         {
             RelaxationIterationCount = settings.RelaxationCount,
             LoadPath = (LoadPathMode)settings.LoadPath,
-            DirectJoints = settings.DirectJoints ? DirectJointsMode.Always : DirectJointsMode.Off,
+            DirectJoints = (DirectJointsMode)settings.DirectJoints,
         };
 
     /// <summary>What pairs collide, and how: here bounces are no part of the spring.</summary>

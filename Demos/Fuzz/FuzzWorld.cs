@@ -26,7 +26,7 @@ sealed partial class FuzzWorld : IDisposable
         {
             RelaxationIterationCount = Random.Below(2),
             LoadPath = (LoadPathMode)Random.Below(3),
-            DirectJoints = Random.Percent(30) ? DirectJointsMode.Always : DirectJointsMode.Off,
+            DirectJoints = (DirectJointsMode)Random.Below(3),
         };
         SimulationAllocationSizes? sizes = Random.Percent(50) ? new(Random.Below(8), Random.Below(8), 0, Random.Below(3), Random.Below(8), 1, 1) : null;
         OwnsShapes = Random.Percent(80);

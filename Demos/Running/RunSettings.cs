@@ -23,7 +23,7 @@ public sealed record RunSettings
     public LoadPathChoice LoadPath { get; init; } = EngineDefaults.LoadPath;
 
     /// <summary>Whether all joints of a structure are solved at once.</summary>
-    public bool DirectJoints { get; init; }
+    public DirectJointsChoice DirectJoints { get; init; } = EngineDefaults.DirectJoints;
 
     public int Threads { get; init; } = 1;
 

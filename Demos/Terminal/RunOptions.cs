@@ -14,7 +14,8 @@ sealed class RunOptions
     readonly Option<int> iterations = Make("--iterations", "Velocity iterations per substep.", defaults.Iterations);
     readonly Option<int> relaxations = Make("--relaxations", "Relaxation sweeps per substep.", defaults.Relaxations);
     readonly Option<LoadPathChoice> loadPath = Make("--load-path", "Whether loads are handed down to the ground in one go.", defaults.LoadPath);
-    readonly Option<bool> directJoints = Make<bool>("--direct-joints", "Solve all joints of a structure at once.");
+    readonly Option<DirectJointsChoice> directJoints = Make(
+        "--direct-joints", "Whether all joints of a structure are solved at once.", defaults.DirectJoints);
     readonly Option<int> threads = Make("--threads", "Threads that a step may use.", defaults.Threads);
     readonly Option<int> seed = Make("--seed", "Seed of scenes that are random.", defaults.Seed);
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);

@@ -37,8 +37,8 @@ sealed record TradeAxis(
     // In the order of LoadPathChoice.
     static readonly string[] loadPathWords = ["off", "needed", "always"];
 
-    // One after the other, or all of a structure at once.
-    static readonly string[] jointWords = [Swept, "direct"];
+    // One after the other, or all of a structure at once. In the order of DirectJointsChoice.
+    static readonly string[] jointWords = [Swept, "direct", "needed"];
 
     /// <summary>All dials, the first changing slowest.</summary>
     public static IReadOnlyList<TradeAxis> All { get; } =
@@ -67,7 +67,7 @@ sealed record TradeAxis(
             scene => scene.HasJoints && EngineTraits.HasDirectJoints ? jointWords : [jointWords[0]],
             value => value == jointWords[0] ? "" : value,
             (settings, value) => Array.IndexOf(jointWords, value) is >= 0 and int index && (index == 0 || EngineTraits.HasDirectJoints)
-                ? settings with { DirectJoints = index > 0 } : null),
+                ? settings with { DirectJoints = (DirectJointsChoice)index } : null),
         new("relaxations", "Relaxation sweeps per substep.", _ => EngineTraits.HasRelaxation ? ["0", "1"] : ["0"],
             value => value == "0" ? "" : $"r{value}",
             (settings, value) => Count(value, 0) is int count && (count == 0 || EngineTraits.HasRelaxation)

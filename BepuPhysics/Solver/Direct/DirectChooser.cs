@@ -7,16 +7,23 @@ namespace BepuPhysics.Constraints;
 /// <summary>A joint that may be solved together with others.</summary>
 struct DirectCandidate
 {
+    /// <summary>Place in the order of joints, where that is not the one in which they are found.</summary>
+    public long Number;
+    /// <summary>Whether it asks to be: one is enough for a structure.</summary>
+    public bool Asks;
     /// <summary>Whether it is to be.</summary>
     public bool IsDirect;
+    /// <summary>Whether its structure asks in vain.</summary>
+    public bool IsRefused;
     /// <summary>The joint as a plan knows it, with references to its bodies.</summary>
     public DirectNode Joint;
 }
 
 /// <summary>Finds what hangs together by joints, and makes a plan for each such structure.</summary>
-readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int bodyCount, BufferPool pool)
+readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int bodyCount, bool sortsByNumber, BufferPool pool)
 {
     readonly Span<DirectCandidate> joints = joints.AsSpan();
+    readonly ByNumber order = new(joints.Span);
 
     /// <summary>Marks the joints that are in the plan.</summary>
     internal void Choose(ref DirectPlan plan)
@@ -46,11 +53,24 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         // From here on: the place of a body in its structure.
         new Span<int>(last.Memory, bodyCount).Fill(-1);
         for (int i = 0; i < count; ++i)
-            Add(ref plan, firsts[i], next, last);
+        {
+            if (AnyAsks(firsts[i], next))
+                Add(ref plan, firsts[i], next, last);
+        }
         pool.Return(ref firsts);
         pool.Return(ref next);
         pool.Return(ref last);
         pool.Return(ref structures);
+    }
+
+    bool AnyAsks(int first, Buffer<int> next)
+    {
+        for (int i = first; i >= 0; i = next[i])
+        {
+            if (joints[i].Asks)
+                return true;
+        }
+        return false;
     }
 
     static bool IsDynamic(int reference) => (reference & EncodedBody.KinematicFlag) == 0;
@@ -77,31 +97,38 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
 
     void Add(ref DirectPlan plan, int first, Buffer<int> next, Buffer<int> placeOf)
     {
+        var members = new QuickList<int>(16, pool);
+        for (int i = first; i >= 0; i = next[i])
+            members.Add(i, pool);
+        if (sortsByNumber)
+        {
+            var comparer = order;
+            QuickSort.Sort(members.Span, members.Count, ref comparer);
+        }
         var nodes = new QuickList<DirectNode>(16, pool);
         var references = new QuickList<int>(16, pool);
-        for (int i = first; i >= 0; i = next[i])
+        foreach (var i in members.AsSpan())
         {
             nodes.Add(joints[i].Joint, pool);
             Number(joints[i].Joint, ofDynamic: true, placeOf, ref references);
         }
         var dynamicCount = references.Count;
-        for (int i = first; i >= 0; i = next[i])
+        foreach (var i in members.AsSpan())
             Number(joints[i].Joint, ofDynamic: false, placeOf, ref references);
         foreach (ref var node in nodes.AsSpan())
         {
             for (int slot = 0; slot < node.BodyCount; ++slot)
                 node.Bodies[slot] = placeOf[node.Bodies[slot] & EncodedBody.IndexMask];
         }
-        if (plan.TryAdd(nodes, references, dynamicCount, pool))
-        {
-            for (int i = first; i >= 0; i = next[i])
-                joints[i].IsDirect = true;
-        }
+        var isAdded = plan.TryAdd(nodes, references, dynamicCount, pool);
+        for (int i = first; i >= 0; i = next[i])
+            (joints[i].IsDirect, joints[i].IsRefused) = (isAdded, !isAdded);
         // Kinematic bodies may be of other structures as well.
         foreach (var reference in references.AsSpan())
             placeOf[reference & EncodedBody.IndexMask] = -1;
         references.Dispose(pool);
         nodes.Dispose(pool);
+        members.Dispose(pool);
     }
 
     void Number(in DirectNode node, bool ofDynamic, Buffer<int> placeOf, ref QuickList<int> references)
@@ -115,5 +142,10 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
             place = references.Count;
             references.Add(reference, pool);
         }
+    }
+
+    readonly struct ByNumber(Buffer<DirectCandidate> joints) : IComparerRef<int>
+    {
+        public int Compare(ref int a, ref int b) => joints[a].Number.CompareTo(joints[b].Number);
     }
 }

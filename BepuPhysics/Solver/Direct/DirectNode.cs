@@ -54,6 +54,8 @@ struct DirectIsland
     public int FirstRow, EndRow;
     /// <summary>Whether it has loops, or several ways to the ground.</summary>
     public bool HasLoops;
+    /// <summary>Whether any of its joints asks to be solved at once; known where the solver chooses, when they have been looked at.</summary>
+    public bool IsAskedFor;
 }
 
 /// <summary>A row of such a joint.</summary>

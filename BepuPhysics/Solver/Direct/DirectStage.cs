@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 // A sweep moves a load over one joint: a chain of a hundred knows its weight after a hundred of them, and until then it stretches. Here the joints of a
 // structure, which the sweeps leave out, are solved together in each substep, after the sweeps over contacts, limits and motors have said what these want. So
 // these see the joints by the impulses of the last substep, and the joints see all that they have done.
-sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
+sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     const int MaximumBlocks = 16;
     const int BundlesPerBlock = 8;
@@ -126,8 +126,11 @@ sealed unsafe class DirectStage(Solver solver, Bodies bodies, BufferPool pool) :
                 {
                     ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
                     ReadLane(rowsOfBundle, lane, node);
-                    if (rowsOfBundle[0].HardMask[lane] != 0)
-                        Limit(node, processor, set.LocalInertias, substep.Dt);
+                    if (rowsOfBundle[0].HardMask[lane] == 0)
+                        continue;
+                    if (solver.ChoosesDirectJoints)
+                        Ease(node, processor, rowsOfBundle, lane, substep.Dt);
+                    Limit(node, processor, set.LocalInertias, substep.Dt);
                 }
             }
             first += batch.BundleCount;

@@ -38,7 +38,7 @@ static class SolverOperations
 
     static DirectJointsMode JointMode(FuzzWorld w)
     {
-        var mode = (DirectJointsMode)(w.Random.Percent(90) ? w.Random.Below(2) : w.Random.Of((ReadOnlySpan<int>)[-1, 2, int.MaxValue]));
+        var mode = (DirectJointsMode)(w.Random.Percent(90) ? w.Random.Below(3) : w.Random.Of((ReadOnlySpan<int>)[-1, 3, int.MaxValue]));
         w.Tell($"{mode}");
         return mode;
     }

@@ -1,0 +1,95 @@
+using System;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>What is remembered of a joint to choose how it is solved. All zeros of one that never needed anything.</summary>
+// A joint asks to be solved at once when it is off by more than a part of its size while it is swept over; and goes on asking as long as the load that it bears
+// would bring it there. By sweeps it is a spring of angular frequency w, which under a force F gives way by K F / w^2, with K one over its effective mass:
+// what it would be off by is known without trying. So what bears a load is not let down time and again to see whether sweeps can hold it.
+struct JointNeed
+{
+    /// <summary>What a joint may be off by, as a part of its size, or in radians.</summary>
+    // A body that hangs in a hinge by itself is off by half a thousandth at the default setting, ragdolls in a heap by a hundredth. A double pendulum that is
+    // off by half a hundredth at times loses 61 % of its energy in a minute where a hundredth is allowed, and 3 % so.
+    internal const float Tolerance = 0.005f;
+    /// <summary>What the load of a joint may be worth for it to be left to the sweeps, in the same units.</summary>
+    internal const float QuietTolerance = 0.5f * Tolerance;
+    /// <summary>For how long a joint asks after the last reason for it, s; twice as long each time that it asks again soon.</summary>
+    internal const float LeastPeriod = 1;
+    /// <summary>The longest such time, s.</summary>
+    internal const float GreatestPeriod = 16;
+    // Time constant of the error with which a joint comes from the sweeps, s. To take it back lifts a load; and small errors of many joints are a long way for
+    // what hangs between them: at .15 s a heavy ball is thrown off a bridge.
+    const float EaseTime = 0.5f;
+    // Time constant of what is beyond that error, s: about that of the sweeps at the default setting.
+    const float BeyondTime = 0.02f;
+    // After which a five hundredth is left of it: exp(-2.5^2).
+    const float EaseEnd = 2.5f * EaseTime;
+
+    /// <summary>Place of the joint in the order in which joints were added, from 1; 0 where there is none.</summary>
+    public long Number;
+    /// <summary>Time for which it asks yet, s; 0 where it does not.</summary>
+    public float Asks;
+    /// <summary>Time for which it asked the last time, s; 0 where it never did.</summary>
+    public float Period;
+    /// <summary>Time since it asked, s.</summary>
+    public float Calm;
+    /// <summary>Time for which it may not ask, s: its structure cannot be solved at once.</summary>
+    public float Refused;
+    /// <summary>Time for which it is on its way from the sweeps yet, s.</summary>
+    public float Eases;
+    /// <summary>What is to be left on the way of the error along directions with which it came, m.</summary>
+    public float Gap;
+    /// <summary>The same about axes, rad.</summary>
+    public float Turn;
+
+    /// <summary>There is a reason to ask.</summary>
+    /// <returns>Whether it did not ask before.</returns>
+    internal bool Ask()
+    {
+        var isNew = Asks <= 0;
+        if (isNew)
+        {
+            var isSoon = Period > 0 && Calm <= Period;
+            Period = isSoon ? MathHelper.Min(2 * Period, GreatestPeriod) : LeastPeriod;
+        }
+        Asks = Period;
+        return isNew;
+    }
+
+    /// <summary>Time passes in which there is no reason to ask, or in which it may not.</summary>
+    internal void Rest(float time)
+    {
+        Refused = MathHelper.Max(Refused - time, 0);
+        if (Asks > 0)
+        {
+            Asks = MathHelper.Max(Asks - time, 0);
+            Calm = 0;
+        }
+        else if (Period > 0)
+            Calm = MathHelper.Min(Calm + time, 2 * GreatestPeriod);
+    }
+
+    /// <summary>Its structure would take too long to be solved at once: neither it nor another joint of it asks for a time.</summary>
+    internal void Refuse() => (Asks, Refused) = (0, GreatestPeriod);
+
+    /// <summary>Begins to go over from the sweeps.</summary>
+    internal void Ease() => (Eases, Gap, Turn) = (EaseEnd, 0, 0);
+
+    /// <summary>Goes a substep further on the way from the sweeps.</summary>
+    internal void GoOn(float substepDt) => Eases = MathHelper.Max(Eases - substepDt, 0);
+
+    /// <summary>Part of an error that is corrected in a substep.</summary>
+    /// <param name="left">What is left of the one that the joint came with: <see cref="Gap"/> or <see cref="Turn"/>; found in the first substep.</param>
+    /// <param name="error">Length of the error.</param>
+    /// <param name="substepDt">Length of the substep, s.</param>
+    // What is to be left goes with exp(-(t / T)^2): by a rate of 2 t / T^2, which begins with nothing, so that no velocity jumps; the greatest speed is .86 of
+    // it over T. What is beyond, be it added by a motion that turns within a substep, goes as sweeps would take it.
+    internal readonly double CorrectedPart(ref float left, double error, float substepDt)
+    {
+        var t = EaseEnd - Eases;
+        left = t > 0 ? left * (1 - MathHelper.Min(1, 2 * t * substepDt / (EaseTime * EaseTime))) : (float)error;
+        return error > left ? (1 - left / error) * Math.Min(1, substepDt / BeyondTime) : 0;
+    }
+}

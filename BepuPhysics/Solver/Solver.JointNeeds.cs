@@ -1,0 +1,143 @@
+using System;
+using BepuPhysics.Constraints;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+// What is remembered of joints where the solver itself chooses how they are solved (JointNeed.cs): by slot, with whatever becomes of the joint: it may sleep,
+// move in memory, be of another structure. In other modes there is none of it.
+public sealed unsafe partial class Solver
+{
+    // Each joint is looked at once in so many steps.
+    internal const int NeedTurns = 8;
+
+    Buffer<JointNeed> needs;
+    // How many joints were numbered, and how many of them had been when the last step began.
+    long numbered;
+    long numberedBefore;
+    // Steps modulo the turns, whether anything is awake or not: what else there is does not decide when a joint is looked at.
+    int needTurn;
+    // Whether a joint that is swept over has begun to ask, or none of a structure does any more.
+    bool needsChanged;
+
+    /// <summary>Whether the solver chooses, structure by structure, how joints are solved.</summary>
+    internal bool ChoosesDirectJoints => directJoints == DirectJointsMode.WhereNeeded;
+
+    /// <summary>Whether anything is remembered of any joint but its number: nothing comes of resting otherwise.</summary>
+    // Many workers write it, and all the same.
+    internal bool RemembersNeeds { get; set; }
+
+    /// <summary>Which joints are looked at in the present step.</summary>
+    internal int NeedTurn => needTurn;
+
+    /// <summary>What is remembered of a joint. Only where the solver chooses.</summary>
+    internal ref JointNeed NeedOf(ConstraintHandle joint) => ref needs[joint.Slot];
+
+    // Of a joint that was just added or enabled.
+    void NumberJoint(ConstraintHandle joint)
+    {
+        if (ChoosesDirectJoints && Locations[joint.Slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
+            NumberJoint(joint.Slot);
+    }
+
+    void NumberJoint(int slot)
+    {
+        if (slot >= needs.Length)
+        {
+            var before = needs.Length;
+            pool.ResizeToAtLeast(ref needs, Locations.Length, before);
+            needs.Clear(before, needs.Length - before);
+        }
+        needs[slot] = new() { Number = ++numbered };
+    }
+
+    // The mode has become another one. What is solved at once already goes on so until its load says that it need not.
+    void BeginNeeds()
+    {
+        ForgetNeeds();
+        for (int slot = 0; slot < UsedSlotCount; ++slot)
+        {
+            if (Locations[slot].SetIndex < 0 || Locations[slot].TypeId < ConstraintTypeIds.ContactTypeCount)
+                continue;
+            NumberJoint(slot);
+            if (KindOf(Locations[slot]) != BatchKind.Direct)
+                continue;
+            needs[slot].Ask();
+            RemembersNeeds = true;
+        }
+        numberedBefore = numbered;
+    }
+
+    void ForgetNeeds()
+    {
+        needs.Clear(0, needs.Length);
+        numbered = numberedBefore = 0;
+        needsChanged = RemembersNeeds = false;
+    }
+
+    void EndNeeds()
+    {
+        ForgetNeeds();
+        DisposeNeeds();
+    }
+
+    void DisposeNeeds()
+    {
+        if (needs.Allocated)
+            pool.Return(ref needs);
+    }
+
+    // Leaves the joints that go over from sweeps to all at once, or back, in their own order: structures come and go, and what they do to the order in memory
+    // of the joints of others may not say which colours these get.
+    void ChangeOver(ref QuickList<DirectCandidate> joints)
+    {
+        var count = 0;
+        foreach (ref var joint in joints.AsSpan())
+        {
+            ref var need = ref needs[joint.Joint.Handle.Slot];
+            if (joint.IsRefused)
+                need.Refuse();
+            if (joint.IsDirect != IsSwept(joint.Joint.Handle))
+                continue;
+            // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected as in any mode.
+            if (joint.IsDirect && need.Number <= numberedBefore)
+                need.Ease();
+            joints[count++] = joint;
+        }
+        joints.Count = count;
+        joints.AsSpan().Sort(static (a, b) => a.Number.CompareTo(b.Number));
+    }
+
+    void ReadNeeds()
+    {
+        needTurn = (needTurn + 1) % NeedTurns;
+        if (!ChoosesDirectJoints)
+            return;
+        numberedBefore = numbered;
+        needsChanged |= needStage.HasChanged;
+    }
+
+    void CopyNeeds(StateCopy copy)
+    {
+        copy.Rows(ref needs, Math.Min(needs.Length, UsedSlotCount), absent: default);
+        copy.Value(ref numbered);
+        copy.Value(ref numberedBefore);
+        copy.Value(ref needTurn);
+        copy.Value(ref needsChanged);
+        RemembersNeeds = copy.Value(RemembersNeeds);
+    }
+
+    void ValidateNeeds()
+    {
+        if (!ChoosesDirectJoints)
+            return;
+        for (int slot = 0; slot < UsedSlotCount; ++slot)
+        {
+            if (Locations[slot].SetIndex < 0 || Locations[slot].TypeId < ConstraintTypeIds.ContactTypeCount)
+                continue;
+            Invariant.Require(slot < needs.Length && needs[slot].Number > 0 && needs[slot].Number <= numbered, "number of a joint", slot);
+            Invariant.Require(needs[slot].Asks >= 0 && needs[slot].Asks <= needs[slot].Period, "time for which a joint asks", slot);
+        }
+    }
+}
