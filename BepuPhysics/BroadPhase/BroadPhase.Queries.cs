@@ -21,17 +21,23 @@ public sealed unsafe partial class BroadPhase
         where TRayTester : IBroadPhaseRayTester
     {
         using var reading = world.Read("BroadPhase.RayCast");
+        BoxMath.RequireFinite(origin);
+        BoxMath.RequireFinite(direction);
+        BoxMath.RequireLength(maximumT);
         CastRay(origin, direction, maximumT, pool, ref rayTester, id);
     }
 
+    /// <summary>As a ray that was checked.</summary>
     internal void CastRay<TRayTester>(
         Vector3 origin, Vector3 direction, float maximumT, BufferPool pool, ref TRayTester rayTester, int id)
         where TRayTester : IBroadPhaseRayTester
     {
         var leafTester = new RayLeafTester<TRayTester> { RayTester = rayTester, Leaves = ActiveLeaves };
-        ActiveTree.RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
+        var test = new SlabTest(origin, origin, direction);
+        var ray = new RayData { Origin = origin, Id = id, Direction = direction };
+        ActiveTree.RayCast(test, &ray, ref maximumT, pool, ref leafTester);
         leafTester.Leaves = StaticLeaves;
-        StaticTree.RayCast(origin, direction, ref maximumT, pool, ref leafTester, id);
+        StaticTree.RayCast(test, &ray, ref maximumT, pool, ref leafTester);
         rayTester = leafTester.RayTester;
     }
 

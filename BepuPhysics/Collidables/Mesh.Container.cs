@@ -29,7 +29,7 @@ public unsafe partial struct Mesh : IContainer
             var place = nodes[node].Place(child);
             for (int i = 0; i < nodes[node].TriangleCount(child); ++i)
             {
-                var triangle = Header->Order[place + i];
+                var triangle = Header->Triangles.GetNumber(place + i);
                 GetChild(triangle, out var corners);
                 below[count++] = new()
                 {

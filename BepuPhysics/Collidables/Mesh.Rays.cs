@@ -60,11 +60,11 @@ public unsafe partial struct Mesh
         }
     }
 
-    ref struct HandlerHits<THandler>(ref THandler handler, in RayData ray, Quaternion orientation) : IMeshHits where THandler : struct, IShapeRayHitHandler
+    ref struct HandlerHits<THandler>(ref THandler handler, in RayData ray, in Quaternion orientation) : IMeshHits where THandler : struct, IShapeRayHitHandler
     {
         readonly ref THandler handler = ref handler;
-        readonly RayData ray = ray;
-        readonly Quaternion orientation = orientation;
+        readonly ref readonly RayData ray = ref ray;
+        readonly ref readonly Quaternion orientation = ref orientation;
 
         public readonly bool Allows(int triangle) => handler.AllowTest(triangle);
 

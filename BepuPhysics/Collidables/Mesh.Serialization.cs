@@ -10,8 +10,8 @@ namespace BepuPhysics.Collidables;
 // Meshes as bytes.
 public unsafe partial struct Mesh
 {
-    // "TBM1", so that another kind of file, or a later form, is told apart.
-    const uint Magic = 0x314D4254;
+    // "TBM2", so that another kind of file, or another form, is told apart.
+    const uint Magic = 0x324D4254;
     const int PrefixByteCount = 32;
     const int TwoSidedFlag = 1, SolidFlag = 2;
 

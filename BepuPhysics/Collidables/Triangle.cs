@@ -211,9 +211,13 @@ public struct TriangleWide : IShapeWide<Triangle>
         var a = A - line.Closest;
         var b = B - line.Closest;
         var c = C - line.Closest;
-        var areaA = SignedArea(x, y, b, c);
-        var areaB = SignedArea(x, y, c, a);
-        var areaC = SignedArea(x, y, a, b);
+        Vector<float> ax = Vector3Wide.Dot(a, x), ay = Vector3Wide.Dot(a, y);
+        Vector<float> bx = Vector3Wide.Dot(b, x), by = Vector3Wide.Dot(b, y);
+        Vector<float> cx = Vector3Wide.Dot(c, x), cy = Vector3Wide.Dot(c, y);
+        // Twice the areas that the line's place has with two corners each, seen along it.
+        var areaA = bx * cy - by * cx;
+        var areaB = cx * ay - cy * ax;
+        var areaC = ax * by - ay * bx;
         var sum = areaA + areaB + areaC;
         var zero = Vector<float>.Zero;
         front = Vector.GreaterThanOrEqual(areaA, zero) & Vector.GreaterThanOrEqual(areaB, zero) & Vector.GreaterThanOrEqual(areaC, zero) &
@@ -223,10 +227,6 @@ public struct TriangleWide : IShapeWide<Triangle>
         place = (Vector3Wide.Dot(a, line.Direction) * areaA + Vector3Wide.Dot(b, line.Direction) * areaB +
             Vector3Wide.Dot(c, line.Direction) * areaC) / sum;
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> SignedArea(in Vector3Wide x, in Vector3Wide y, in Vector3Wide p, in Vector3Wide q) =>
-        Vector3Wide.Dot(p, x) * Vector3Wide.Dot(q, y) - Vector3Wide.Dot(p, y) * Vector3Wide.Dot(q, x);
 
     /// <summary>Unit normal of the front in the frame of the triangle.</summary>
     // The cross product of the edges that meet opposite the longest one. Its error in the direction of the longest edge would tilt the

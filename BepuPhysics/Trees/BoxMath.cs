@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 
 namespace BepuPhysics.Trees;
 
@@ -26,14 +27,15 @@ static unsafe class BoxMath
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector128<float> LoadMax(NodeChild* child) => Vector128.Load((float*)child + 4);
 
-    // Compare and select, not the minimum instruction: those differ between processors for zeros of unlike sign.
+    // Compare and select: minimum instructions differ between processors for zeros of unlike sign and for what is no number. That of x86 is defined as
+    // this selection.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector128<float> Min(Vector128<float> a, Vector128<float> b) =>
-        Vector128.ConditionalSelect(Vector128.LessThan(a, b), a, b);
+        Sse.IsSupported ? Sse.Min(a, b) : Vector128.ConditionalSelect(Vector128.LessThan(a, b), a, b);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector128<float> Max(Vector128<float> a, Vector128<float> b) =>
-        Vector128.ConditionalSelect(Vector128.GreaterThan(a, b), a, b);
+        Sse.IsSupported ? Sse.Max(a, b) : Vector128.ConditionalSelect(Vector128.GreaterThan(a, b), a, b);
 
     /// <summary>Writes a box and leaves the index and the leaf count beside it alone.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -29,8 +29,15 @@ public unsafe partial struct Tree
         BoxMath.RequireLength(maximumT);
         var test = new SlabTest(origin, origin, direction);
         var ray = new RayData { Origin = origin, Id = id, Direction = direction };
+        RayCast(test, &ray, ref maximumT, pool, ref leafTester);
+    }
+
+    /// <summary>As a ray that was checked, and made ready for boxes: of one that is cast through several trees once.</summary>
+    internal readonly void RayCast<TLeafTester>(in SlabTest test, RayData* ray, ref float maximumT, BufferPool pool, ref TLeafTester leafTester)
+        where TLeafTester : IRayLeafTester
+    {
         var length = maximumT;
-        var visitor = new RayVisitor<TLeafTester> { Ray = &ray, Pool = pool, Tester = ref leafTester };
+        var visitor = new RayVisitor<TLeafTester> { Ray = ray, Pool = pool, Tester = ref leafTester };
         Traverse<RayVisitor<TLeafTester>>(test, ref length, ref visitor);
         maximumT = length;
     }
@@ -96,7 +103,7 @@ public unsafe partial struct Tree
         public readonly void Visit(int leafIndex, ref float maximumT) => Tester.TestLeaf(leafIndex, ref maximumT);
     }
 
-    readonly void Traverse<TVisitor>(SlabTest test, ref float maximumT, ref TVisitor visitor)
+    readonly void Traverse<TVisitor>(in SlabTest test, ref float maximumT, ref TVisitor visitor)
         where TVisitor : ILeafVisitor, allows ref struct
     {
         if (LeafCount == 0)

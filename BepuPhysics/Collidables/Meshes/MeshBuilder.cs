@@ -159,14 +159,13 @@ static unsafe class MeshBuilder
             if (header.PlacedCount == 0)
             {
                 throw new ArgumentException($"None of the {count} triangles has a surface: " +
-                    $"triangle 0 has corners {weld.Points[indices[0] & ~MeshHeader.LeftOut]}, " +
+                    $"triangle 0 has corners {weld.Points[indices[0] & ~MeshEdges.LeftOut]}, " +
                     $"{weld.Points[indices[1]]}, {weld.Points[indices[2]]}.");
             }
             pool.TakeAtLeast(header.PlacedCount, out order);
             nodes = new(header.PlacedCount / 8 + 1, pool);
             MeshTree.Build(indices.Memory, count, weld.Points, header.PlacedCount, ref nodes, order.Memory, pool, dispatcher);
             header.NodeCount = nodes.Count;
-            Measure(ref header, weld.Points);
             if (header.TotalByteCount > int.MaxValue)
                 throw new ArgumentException(
                     $"A mesh of {count} triangles and {weld.Count} vertices takes {header.TotalByteCount} bytes; the limit is {int.MaxValue}.");
@@ -175,9 +174,8 @@ static unsafe class MeshBuilder
             new Span<byte>(target, MeshHeader.ByteCount).Clear();
             *target = header;
             nodes.AsSpan().CopyTo(new(target->Nodes, header.NodeCount));
-            new ReadOnlySpan<Vector3>(weld.Points, header.VertexCount).CopyTo(new(target->Vertices, header.VertexCount));
-            indices.AsSpan()[..(3 * count)].CopyTo(new(target->Indices, 3 * count));
-            order.AsSpan()[..header.PlacedCount].CopyTo(new(target->Order, header.PlacedCount));
+            Place(target, indices.Memory, order.Memory, weld.Points, pool);
+            Measure(ref *target, target->Vertices);
             edges.AsSpan()[..(3 * count)].CopyTo(new(target->Edges, 3 * count));
             materials.CopyTo(new(target->Materials, materials.Length));
             MeshTree.Refit(target);
@@ -191,6 +189,44 @@ static unsafe class MeshBuilder
             Return(ref normals, pool);
             Return(ref nodes.Span, pool);
         }
+    }
+
+    // Triangles in the order of the leaves, and vertices in the order in which these have them: what a leaf needs, and leaves side by side, lies together.
+    static void Place(MeshHeader* mesh, int* indices, int* order, Vector3* points, BufferPool pool)
+    {
+        // Of vertices, plus one.
+        pool.TakeAtLeast<int>(mesh->VertexCount, out var numbers);
+        numbers.Clear(0, mesh->VertexCount);
+        var vertexCount = 0;
+        for (int place = 0; place < mesh->PlacedCount; ++place)
+            PlaceTriangle(mesh, order[place], place, indices, points, numbers.Memory, ref vertexCount);
+        var next = mesh->PlacedCount;
+        for (int triangle = 0; triangle < mesh->TriangleCount; ++triangle)
+        {
+            if (indices[3 * triangle] < 0)
+                PlaceTriangle(mesh, triangle, next++, indices, points, numbers.Memory, ref vertexCount);
+        }
+        pool.Return(ref numbers);
+    }
+
+    static void PlaceTriangle(MeshHeader* mesh, int triangle, int place, int* indices, Vector3* points, int* numbers, ref int vertexCount)
+    {
+        var corners = indices + 3 * triangle;
+        var a = PlaceVertex(corners[0] & ~MeshEdges.LeftOut, mesh->Vertices, points, numbers, ref vertexCount);
+        var b = PlaceVertex(corners[1], mesh->Vertices, points, numbers, ref vertexCount);
+        var c = PlaceVertex(corners[2], mesh->Vertices, points, numbers, ref vertexCount);
+        mesh->SetTriangle(place, new(a, b, c, triangle));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static int PlaceVertex(int point, Vector3* vertices, Vector3* points, int* numbers, ref int count)
+    {
+        if (numbers[point] == 0)
+        {
+            vertices[count] = points[point];
+            numbers[point] = ++count;
+        }
+        return numbers[point] - 1;
     }
 
     static void Return<T>(ref Buffer<T> buffer, BufferPool pool) where T : unmanaged
@@ -227,7 +263,7 @@ static unsafe class MeshBuilder
             var lengthSquared = x * x + y * y + z * z;
             if (!(lengthSquared > 0) || Triangle.IsThin(abX * scaleX, abY * scaleY, abZ * scaleZ, acX * scaleX, acY * scaleY, acZ * scaleZ, out _, out _))
             {
-                corners[0] |= MeshHeader.LeftOut;
+                corners[0] |= MeshEdges.LeftOut;
                 ++thinCount;
                 normals[triangle] = default;
                 continue;

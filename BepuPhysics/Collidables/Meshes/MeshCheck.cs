@@ -25,20 +25,15 @@ static unsafe class MeshCheck
             if (!IsInside(vertices[i], mesh->Min, mesh->Max))
                 return $"vertex {i} is {vertices[i]}, outside of the bounds of all";
         }
-        var placed = 0;
-        for (int triangle = 0; triangle < mesh->TriangleCount; ++triangle)
+        // Each number says where it is found: so all are different, and there is no other.
+        for (int place = 0; place < mesh->TriangleCount; ++place)
         {
-            var corners = mesh->Indices + 3 * triangle;
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                var index = corner == 0 ? corners[0] & ~MeshHeader.LeftOut : corners[corner];
-                if ((uint)index >= (uint)mesh->VertexCount)
-                    return $"triangle {triangle} has vertex {index} of {mesh->VertexCount}";
-            }
-            placed += corners[0] < 0 ? 0 : 1;
+            var triangle = mesh->Triangles.Get(place);
+            if ((uint)triangle.Number >= (uint)mesh->TriangleCount || mesh->GetPlace(triangle.Number) != place)
+                return $"place {place} has triangle {triangle.Number}";
+            if ((uint)triangle.A >= (uint)mesh->VertexCount || (uint)triangle.B >= (uint)mesh->VertexCount || (uint)triangle.C >= (uint)mesh->VertexCount)
+                return $"triangle {triangle.Number} has vertices {triangle.A}, {triangle.B} and {triangle.C} of {mesh->VertexCount}";
         }
-        if (placed != mesh->PlacedCount)
-            return $"{placed} triangles are to be in the tree, which has {mesh->PlacedCount}";
         // Radius and middle are of the vertices.
         var measured = *mesh;
         MeshBuilder.Measure(ref measured, vertices);
@@ -88,13 +83,10 @@ static unsafe class MeshCheck
                 }
                 for (int i = 0; i < node->TriangleCount(child); ++i)
                 {
-                    var triangle = Mesh->Order[node->Place(child) + i];
-                    if ((uint)triangle >= (uint)Mesh->TriangleCount || Mesh->IsLeftOut(triangle))
-                        return $"place {node->Place(child) + i} has triangle {triangle}";
-                    Mesh->GetCorners(triangle, out var a, out var b, out var c);
+                    Mesh->GetCornersAt(node->Place(child) + i, out var a, out var b, out var c);
                     if (!IsInside(a, min, max) || !IsInside(b, min, max) || !IsInside(c, min, max) ||
                         !IsInside(a, low, high) || !IsInside(b, low, high) || !IsInside(c, low, high))
-                        return $"triangle {triangle} is outside of the box of its leaf";
+                        return $"triangle {Mesh->Triangles.GetNumber(node->Place(child) + i)} is outside of the box of its leaf";
                 }
             }
             return null;

@@ -13,6 +13,8 @@ namespace BepuPhysics.Collidables;
 /// </remarks>
 static unsafe class MeshEdges
 {
+    /// <summary>Bit of a triangle's first vertex, while a mesh is built: the triangle is no surface and not to be in the tree.</summary>
+    public const int LeftOut = 1 << 31;
     /// <summary>Byte of an edge without a neighbour.</summary>
     public const byte Free = 255;
     const int Steps = 254;
@@ -205,7 +207,7 @@ static unsafe class MeshEdges
         bool TryJoin(int halfEdgeA, int halfEdgeB)
         {
             int triangleA = halfEdgeA / 3, triangleB = halfEdgeB / 3;
-            int startA = Indices[halfEdgeA] & ~MeshHeader.LeftOut, startB = Indices[halfEdgeB] & ~MeshHeader.LeftOut;
+            int startA = Indices[halfEdgeA] & ~LeftOut, startB = Indices[halfEdgeB] & ~LeftOut;
             if (startA == startB || Indices[3 * triangleA] < 0 || Indices[3 * triangleB] < 0)
                 return false;
             ++Report.SharedEdgeCount;
@@ -225,7 +227,7 @@ static unsafe class MeshEdges
         readonly int Third(int halfEdge)
         {
             var first = halfEdge - halfEdge % 3;
-            return Indices[first + (halfEdge - first + 2) % 3] & ~MeshHeader.LeftOut;
+            return Indices[first + (halfEdge - first + 2) % 3] & ~LeftOut;
         }
 
         // Those with the same third corner in the same direction, but for the first.
@@ -244,7 +246,7 @@ static unsafe class MeshEdges
                 if (group[i] >> 32 != group[i - 1] >> 32)
                     continue;
                 var halfEdge = (int)group[i];
-                Indices[halfEdge - halfEdge % 3] |= MeshHeader.LeftOut;
+                Indices[halfEdge - halfEdge % 3] |= LeftOut;
                 ++Report.DuplicateTriangleCount;
             }
             for (int i = 0; i < group.Length; ++i)

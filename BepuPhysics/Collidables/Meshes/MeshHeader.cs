@@ -6,8 +6,9 @@ namespace BepuPhysics.Collidables;
 
 /// <summary>First bytes of a mesh's memory: how much of what follows, and what is often asked of the whole.</summary>
 /// <remarks>
-/// In this order follow the nodes of the tree, the vertices, three vertex numbers for each triangle, the triangles in the order of the
-/// tree's leaves, three bytes for the edges of each triangle (<see cref="MeshEdges"/>) and, if there are any, a material for each.
+/// In this order follow the nodes of the tree, the triangles in the order of its leaves, then those that are in none, and the vertices in the order in which
+/// these have them; then by the numbers that the game gave the triangles the place of each, three bytes for its edges
+/// (<see cref="MeshEdges"/>) and, if there are any, its material.
 /// There are no addresses inside, so the memory may be copied as it is, and no lane widths: a mesh is the same bytes on every machine.
 /// </remarks>
 [StructLayout(LayoutKind.Sequential, Size = ByteCount)]
@@ -15,9 +16,6 @@ unsafe struct MeshHeader
 {
     /// <summary>Size of the header: the arrays behind it begin on a cache line.</summary>
     public const int ByteCount = 128;
-
-    /// <summary>Bit of a triangle's first vertex number: the triangle is no surface and not in the tree.</summary>
-    public const int LeftOut = 1 << 31;
 
     /// <summary>Number of vertices, each of which some triangle has.</summary>
     public int VertexCount;
@@ -48,32 +46,39 @@ unsafe struct MeshHeader
         get => (MeshNode*)((byte*)Unsafe.AsPointer(ref Unsafe.AsRef(in this)) + ByteCount);
     }
 
-    /// <summary>Vertices, before scaling. At least twelve bytes follow the last one, so that four floats may be read at each.</summary>
+    // What triangles and places are named with.
+    readonly int NamedCount
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TriangleCount > VertexCount ? TriangleCount : VertexCount;
+    }
+
+    /// <summary>The triangles by their places.</summary>
+    public readonly MeshTriangles Triangles
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => new((byte*)(Nodes + NodeCount), NamedCount);
+    }
+
+    /// <summary>Vertices, before scaling. At least four bytes follow the last one, so that four floats may be read at each.</summary>
     public readonly Vector3* Vertices
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => (Vector3*)(Nodes + NodeCount);
+        get => (Vector3*)((byte*)(Nodes + NodeCount) + (nint)TriangleCount * MeshTriangles.TriangleByteCount(NamedCount));
     }
 
-    /// <summary>Vertex numbers, three for each triangle in the order of the game.</summary>
-    public readonly int* Indices
+    // Places of triangles by their numbers.
+    readonly byte* Places
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => (int*)(Vertices + VertexCount);
-    }
-
-    /// <summary>Triangles in the order of the leaves.</summary>
-    public readonly int* Order
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => Indices + 3 * TriangleCount;
+        get => (byte*)(Vertices + VertexCount);
     }
 
     /// <summary>Edges AB, BC and CA of each triangle.</summary>
     public readonly byte* Edges
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => (byte*)(Order + PlacedCount);
+        get => Places + (nint)TriangleCount * MeshTriangles.ByteCountOf(NamedCount);
     }
 
     /// <summary>Material of each triangle, if there are materials.</summary>
@@ -81,20 +86,35 @@ unsafe struct MeshHeader
 
     /// <summary>Size of header and arrays together.</summary>
     public readonly long TotalByteCount => ByteCount + (long)NodeCount * sizeof(MeshNode) + (long)VertexCount * sizeof(Vector3) +
-        15L * TriangleCount + 4L * PlacedCount + (HasMaterials != 0 ? TriangleCount : 0L);
+        (MeshTriangles.TriangleByteCount(NamedCount) + MeshTriangles.ByteCountOf(NamedCount) + 3L + (HasMaterials != 0 ? 1 : 0)) * TriangleCount;
 
-    /// <summary>Corners of a triangle, before scaling.</summary>
+    /// <summary>Place of a triangle by its number.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void GetCorners(int triangle, out Vector3 a, out Vector3 b, out Vector3 c)
+    public readonly int GetPlace(int triangle) => Triangles.GetPlace(Places, triangle);
+
+    /// <summary>Writes a triangle, and that it is at this place.</summary>
+    public readonly void SetTriangle(int place, in MeshTriangle triangle)
     {
-        var indices = Indices + 3 * triangle;
-        var vertices = Vertices;
-        a = vertices[indices[0] & ~LeftOut];
-        b = vertices[indices[1]];
-        c = vertices[indices[2]];
+        Triangles.Set(place, triangle);
+        Triangles.SetPlace(Places, triangle.Number, place);
     }
+
+    /// <summary>Corners of the triangle at a place, before scaling.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly void GetCornersAt(int place, out Vector3 a, out Vector3 b, out Vector3 c)
+    {
+        var triangle = Triangles.Get(place);
+        var vertices = Vertices;
+        a = vertices[triangle.A];
+        b = vertices[triangle.B];
+        c = vertices[triangle.C];
+    }
+
+    /// <summary>Corners of a triangle by its number, before scaling.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly void GetCorners(int triangle, out Vector3 a, out Vector3 b, out Vector3 c) => GetCornersAt(GetPlace(triangle), out a, out b, out c);
 
     /// <summary>Whether a triangle is not in the tree.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly bool IsLeftOut(int triangle) => Indices[3 * triangle] < 0;
+    public readonly bool IsLeftOut(int triangle) => GetPlace(triangle) >= PlacedCount;
 }

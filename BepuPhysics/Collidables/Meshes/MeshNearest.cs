@@ -92,7 +92,7 @@ unsafe ref struct MeshNearest
     {
         for (int i = 0; i < count; ++i)
         {
-            var number = mesh.Header->Order[place + i];
+            var number = mesh.Header->Triangles.GetNumber(place + i);
             mesh.GetChild(number, out var triangle);
             Vector3 a = triangle.A - query, b = triangle.B - query, c = triangle.C - query;
             var normal = Exact.Normalize(Exact.Cross(c - a, b - a));

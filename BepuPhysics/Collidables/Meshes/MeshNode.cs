@@ -33,6 +33,8 @@ unsafe struct MeshNode
     const int MantissaBits = 23, Bias = 127;
     const int DoubleMantissaBits = 52, DoubleBias = 1023;
     const int LineOffset = 24;
+    // A power of two above the number of triangles of a leaf.
+    const int LeafRoom = 8;
     const ulong EachByte = 0x0101010101010101;
 
     /// <summary>Least corner of the grid.</summary>
@@ -131,9 +133,30 @@ unsafe struct MeshNode
     static Vector128<uint> Exponents(MeshNode* node) =>
         Vector128.WidenLower(Vector128.WidenLower(Vector128.CreateScalarUnsafe(node->exponents).AsByte()));
 
-    /// <summary>The least lines of all children along an axis, and then, for each, the number of lines from its greatest one to the last.</summary>
+    /// <summary>Where in a node the sides are which come first along an axis, of all children, and where those that come last.</summary>
+    /// <param name="axis">The axis.</param>
+    /// <param name="backward">Whether greatest sides come first.</param>
+    /// <param name="near">Bytes from the node to the first sides.</param>
+    /// <param name="far">Bytes from the node to the last sides.</param>
+    public static void FindSides(int axis, bool backward, out int near, out int far)
+    {
+        var least = LineOffset + 2 * Width * axis;
+        var greatest = least + Width;
+        near = backward ? greatest : least;
+        far = backward ? least : greatest;
+    }
+
+    /// <summary>A child as one number: that of a node as it is, and a negative one for a leaf, or where there is no child.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static byte* AxisLines(MeshNode* node, int axis) => (byte*)node + LineOffset + 2 * Width * axis;
+    public readonly int Pack(int child) => (NodeMask >> child & 1) != 0 ? Node(child) : ~(Place(child) * LeafRoom | TriangleCount(child));
+
+    /// <summary>Place and number of triangles of a leaf that was packed; none where there is no child.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void UnpackLeaf(int packed, out int place, out int count)
+    {
+        place = ~packed / LeafRoom;
+        count = ~packed & (LeafRoom - 1);
+    }
 
     /// <summary>Eight lines as integers.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -202,13 +225,13 @@ unsafe struct MeshNode
         var origin = Vector128.Load((float*)node);
         // The exponent of one over the step. What the fourth lane gets from the mask of nodes is left out at the end.
         var inverseStep = Vector128.ShiftLeft(Vector128.Create(2u * Bias) - Exponents(node), MantissaBits).AsSingle();
-        var low = Vector128.Ceiling(Clamp((min - origin) * inverseStep));
-        var high = Vector128.Floor(Clamp((max - origin) * inverseStep));
-        var outside = Vector128.GreaterThan(low, Vector128.Create((float)Lines)) | Vector128.LessThan(high, Vector128<float>.Zero);
-        if ((outside.ExtractMostSignificantBits() & 7) != 0)
+        // Beyond the grid all is alike, and integers have no room for more: only that a box ends before the first line or begins behind the last is left.
+        var least = Vector128.Create(Lines) - Vector128.ConvertToInt32Native(Vector128.Ceiling(Clamp((min - origin) * inverseStep, 0, Lines + 1)));
+        var greatest = Vector128.ConvertToInt32Native(Vector128.Floor(Clamp((max - origin) * inverseStep, -1, Lines)));
+        // A negative number of lines is left.
+        if (((least | greatest).ExtractMostSignificantBits() & 7) != 0)
             return 0;
-        var least = Vector128.Create(Lines) - Vector128.ConvertToInt32(BoxMath.Max(low, Vector128<float>.Zero));
-        var words = Vector128.Narrow(Vector128.ConvertToInt32(BoxMath.Min(high, Vector128.Create((float)Lines))), least);
+        var words = Vector128.Narrow(greatest, least);
         var reach = Vector128.Narrow(words, words).AsByte();
         var lines = (byte*)node + LineOffset;
         // Greatest lines are bytes 0 to 2 of it, least ones 4 to 6. Written out: only what is known to the compiler is one instruction.
@@ -222,8 +245,6 @@ unsafe struct MeshNode
         return (int)(sides & sides >> 8 & 255);
     }
 
-    // Beyond the grid all is alike, and integers have no room for more.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector128<float> Clamp(Vector128<float> line) =>
-        BoxMath.Min(BoxMath.Max(line, Vector128.Create(-1f)), Vector128.Create(Lines + 1f));
-}
+    static Vector128<float> Clamp(Vector128<float> line, float first, float last) =>
+        BoxMath.Min(BoxMath.Max(line, Vector128.Create(first)), Vector128.Create(last));}

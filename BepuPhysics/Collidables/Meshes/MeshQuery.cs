@@ -13,7 +13,7 @@ static unsafe class MeshQuery
     /// <summary>Children of a node that are still to be looked at.</summary>
     struct Entry
     {
-        public int Node;
+        public MeshNode* Node;
         public int Mask;
     }
 
@@ -30,10 +30,9 @@ static unsafe class MeshQuery
         var high = max.AsVector128();
         var nodes = mesh->Nodes;
         var stackCount = 0;
-        var nodeIndex = 0;
+        var node = nodes;
         while (true)
         {
-            var node = nodes + nodeIndex;
             var mask = MeshNode.FindOverlaps(node, low, high);
             for (var leaves = mask & ~node->NodeMask; leaves != 0; leaves &= leaves - 1)
             {
@@ -43,40 +42,42 @@ static unsafe class MeshQuery
                 FindInLeaf(mesh, node->Place(leaf), count, low, high, ref found);
             }
             mask &= node->NodeMask;
+            if (mask == 0)
+            {
+                if (--stackCount < 0)
+                    return;
+                node = stack[stackCount].Node;
+                mask = stack[stackCount].Mask;
+            }
+            var next = nodes + node->Node(BitOperations.TrailingZeroCount(mask));
+            mask &= mask - 1;
             if (mask != 0)
             {
                 Check.That(stackCount < MeshTree.MaximumHeight);
-                stack[stackCount++] = new() { Node = nodeIndex, Mask = mask };
+                stack[stackCount].Node = node;
+                stack[stackCount++].Mask = mask;
             }
-            if (stackCount == 0)
-                return;
-            ref var top = ref stack[stackCount - 1];
-            nodeIndex = nodes[top.Node].Node(BitOperations.TrailingZeroCount(top.Mask));
-            top.Mask &= top.Mask - 1;
-            if (top.Mask == 0)
-                --stackCount;
+            node = next;
         }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void FindInLeaf(MeshHeader* mesh, int place, int count, Vector128<float> low, Vector128<float> high, ref QuickList<int> found)
     {
-        var order = mesh->Order + place;
-        var indices = mesh->Indices;
+        var triangles = mesh->Triangles;
         var vertices = (float*)mesh->Vertices;
         var target = found.Span.Memory + found.Count;
         for (int i = 0; i < count; ++i)
         {
-            var triangle = order[i];
-            var corners = indices + 3 * triangle;
-            var a = Vector128.Load(vertices + 3 * corners[0]);
-            var b = Vector128.Load(vertices + 3 * corners[1]);
-            var c = Vector128.Load(vertices + 3 * corners[2]);
+            var triangle = triangles.Get(place + i);
+            var a = Vector128.Load(vertices + 3 * triangle.A);
+            var b = Vector128.Load(vertices + 3 * triangle.B);
+            var c = Vector128.Load(vertices + 3 * triangle.C);
             // Apart on an axis where all three corners are on one side.
             var separate = (Vector128.GreaterThan(a, high) & Vector128.GreaterThan(b, high) & Vector128.GreaterThan(c, high)) |
                 (Vector128.LessThan(a, low) & Vector128.LessThan(b, low) & Vector128.LessThan(c, low));
             // Written in any case and counted if it is one: whether it is is a coin toss to the branch predictor.
-            *target = triangle;
+            *target = triangle.Number;
             target += (separate.ExtractMostSignificantBits() & 7) == 0 ? 1 : 0;
         }
         found.Count = (int)(target - found.Span.Memory);

@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using BepuPhysics.Trees;
 using BepuUtilities;
 
 namespace BepuPhysics.Collidables;
@@ -29,19 +30,17 @@ interface IMeshHits
 unsafe struct MeshRay
 {
     // Of the distance of the farthest corner: each coordinate of a corner is rounded when it is scaled, when the point is subtracted and in two
-    // products, and the direction has three roundings; all together less than 2^-20. A box's own side is rounded when the grid's step and origin are
-    // scaled, and in two products and a sum: less than 2^-21 of the ends of the grid, which is at most twice as long as what is in it.
-    const float Widening = 1f / (1 << 19);
+    // products, and the direction has three roundings; all together less than 2^-20. A place on the line is (origin + l step) scale / d - point / d with ten
+    // roundings, each of at most 2^-24 of what is moved along the axis: of the grid's ends, which is at most twice as long as what is in it, and of the
+    // point. All together less than 2^-19.
+    const float Widening = 1f / (1 << 18);
     // Two roundings on each side of the comparison of two times.
     const float Slack = 1 + 4 * 1.1920929e-7f;
-    // Of a direction: along an axis with less the line stays in its place, to far less than a rounding, over any distance of use. Nothing that is divided by it
-    // overflows.
-    const float LeastComponent = 1f / (1L << 60);
     const int StackSize = MeshTree.MaximumHeight * MeshNode.Width;
 
     MeshNode* nodes;
     float* vertices;
-    int* indices, order;
+    MeshTriangles triangles;
     CenteredRayWide line;
     Vector3Wide across, upward;
     Vector<int> twoSided;
@@ -73,52 +72,68 @@ unsafe struct MeshRay
         var header = mesh.Header;
         nodes = header->Nodes;
         vertices = (float*)header->Vertices;
-        indices = header->Indices;
-        order = header->Order;
+        triangles = header->Triangles;
         twoSided = new Vector<int>(mesh.TwoSided ? -1 : 0);
         isMirrored = mesh.IsMirrored;
         scale = mesh.Scale.AsVector128();
-        var rays = new RayWide
-        {
-            Origin = Lanes.Broadcast<Vector3, Vector3Wide>(origin),
-            Direction = Lanes.Broadcast<Vector3, Vector3Wide>(direction),
-        };
-        line = new(rays, Lanes.Broadcast<Vector3, Vector3Wide>(pose.Position));
-        line.ToLocal(Matrix3x3Wide.FromQuaternion(Lanes.Broadcast<Quaternion, QuaternionWide>(pose.Orientation)));
+        var turn = pose.Orientation;
+        line = new(new RayWide { Origin = Widen(origin), Direction = Widen(direction) }, Widen(pose.Position));
+        line.ToLocal(Matrix3x3Wide.FromQuaternion(new() { X = new(turn.X), Y = new(turn.Y), Z = new(turn.Z), W = new(turn.W) }));
         Vector3Wide.BuildOrthonormalBasis(line.Direction, out across, out upward);
         start = line.Start[0];
-        var closest = new Vector3(line.Closest.X[0], line.Closest.Y[0], line.Closest.Z[0]);
-        var extent = Exact.Max(Vector3.Abs(header->Min * mesh.Scale), Vector3.Abs(header->Max * mesh.Scale));
-        margin = (extent + Vector3.Abs(closest)).Largest() * Widening;
-        slabs = new(mesh.Scale, closest, new(Invert(line.Direction.X[0]), Invert(line.Direction.Y[0]), Invert(line.Direction.Z[0])), margin);
-        return float.IsFinite(start + closest.X + closest.Y + closest.Z);
+        var closest = First(line.Closest);
+        var extent = BoxMath.Max(Vector128.Abs(header->Min.AsVector128() * scale), Vector128.Abs(header->Max.AsVector128() * scale));
+        var reach = extent + Vector128.Abs(closest);
+        var turned = Vector128.Shuffle(reach, Vector128.Create(1, 2, 0, 3));
+        reach = BoxMath.Max(BoxMath.Max(reach, turned), Vector128.Shuffle(reach, Vector128.Create(2, 0, 1, 3)));
+        margin = reach.ToScalar() * Widening;
+        slabs.Set(scale, closest, First(line.Direction), margin);
+        return float.IsFinite(start + (closest.GetElement(0) + closest.GetElement(1) + closest.GetElement(2)));
     }
 
-    static float Invert(float component) => 1 / (MathF.Abs(component) >= LeastComponent ? component : component < 0 ? -LeastComponent : LeastComponent);
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide Widen(in Vector3 v) => new(new(v.X), new(v.Y), new(v.Z));
 
-    struct Entry
-    {
-        /// <summary>Where the line meets the box, as a distance.</summary>
-        public float Begin;
-        /// <summary>Number of triangles of a leaf; zero for a node.</summary>
-        public int Count;
-        /// <summary>Number of the node, or place of the leaf's first triangle.</summary>
-        public int Index;
-    }
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> First(in Vector3Wide v) => Vector128.Create(v.X[0], v.Y[0], v.Z[0], 0);
 
     readonly void Cast<THits>(ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
     {
-        var stack = stackalloc Entry[StackSize];
-        stack[0] = new() { Begin = float.NegativeInfinity };
-        for (var stackCount = 1; stackCount > 0;)
+        // Children that the line meets, see Push.
+        var stack = stackalloc ulong[StackSize];
+        var stackCount = 0;
+        var end = Distance(maximumT);
+        // The top of the tree.
+        var child = 0;
+        while (true)
         {
-            ref var entry = ref stack[--stackCount];
-            if (entry.Begin > Distance(maximumT))
-                continue;
-            if (entry.Count > 0)
-                TestLeaf(entry.Index, entry.Count, ref maximumT, ref hits);
+            if (child >= 0)
+            {
+                var node = nodes + child;
+                var mask = slabs.FindHits(node, start, end, out var begins);
+                if (mask != 0)
+                {
+                    // Most often there is one, and nothing to order.
+                    child = (mask & mask - 1) == 0
+                        ? node->Pack(BitOperations.TrailingZeroCount(mask))
+                        : Push(node, mask, begins - Vector256.Create(start), stack, ref stackCount);
+                    continue;
+                }
+            }
             else
-                Open(nodes + entry.Index, Distance(maximumT), stack, ref stackCount);
+            {
+                MeshNode.UnpackLeaf(child, out var place, out var count);
+                if (TestLeaf(place, count, ref maximumT, ref hits))
+                    end = Distance(maximumT);
+            }
+            var last = (ulong)BitConverter.SingleToUInt32Bits(end - start) << 32 | uint.MaxValue;
+            do
+            {
+                if (--stackCount < 0)
+                    return;
+            }
+            while (stack[stackCount] > last);
+            child = (int)stack[stackCount];
         }
     }
 
@@ -130,58 +145,70 @@ unsafe struct MeshRay
         return distance + MathF.Abs(distance) * (Slack - 1) + margin;
     }
 
-    // Pushes the children that the line meets, the nearest last.
-    readonly void Open(MeshNode* node, float end, Entry* stack, ref int stackCount)
+    // Returns the nearest of several children, and puts the others above what is there, near ones last. Each is one integer: the bits of the distance from
+    // the start, which order as it does since it is not negative, and then the child. Which of two is nearer is a coin toss to the branch predictor,
+    // but the least of two integers takes no branch.
+    static int Push(MeshNode* node, int mask, in Vector256<float> distances, ulong* stack, ref int stackCount)
     {
-        var mask = slabs.FindHits(node, start, end, Slack - 1, out var begins);
+        var bits = stackalloc uint[MeshNode.Width];
+        distances.AsUInt32().Store(bits);
         var bottom = stackCount;
-        for (; mask != 0; mask &= mask - 1)
+        var count = bottom;
+        var nearest = Key(node, BitOperations.TrailingZeroCount(mask), bits);
+        for (mask &= mask - 1; mask != 0; mask &= mask - 1)
         {
-            var child = BitOperations.TrailingZeroCount(mask);
-            var count = node->TriangleCount(child);
-            var isNode = (node->NodeMask >> child & 1) != 0;
-            if (count == 0 && !isNode)
-                continue;
-            var entry = new Entry { Begin = begins[child], Count = count, Index = isNode ? node->Node(child) : node->Place(child) };
-            var place = stackCount++;
-            for (; place > bottom && stack[place - 1].Begin < entry.Begin; --place)
+            var key = Key(node, BitOperations.TrailingZeroCount(mask), bits);
+            var far = Math.Max(key, nearest);
+            nearest = Math.Min(key, nearest);
+            var place = count++;
+            for (; place > bottom && stack[place - 1] < far; --place)
                 stack[place] = stack[place - 1];
-            stack[place] = entry;
+            stack[place] = far;
         }
+        stackCount = count;
+        return (int)nearest;
     }
 
-    readonly void TestLeaf<THits>(int place, int count, ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static ulong Key(MeshNode* node, int child, uint* bits) => (ulong)bits[child] << 32 | (uint)node->Pack(child);
+
+    // Whether there was a hit.
+    readonly bool TestLeaf<THits>(int place, int count, ref float maximumT, ref THits hits) where THits : struct, IMeshHits, allows ref struct
     {
-        var numbers = order + place;
         var allowed = 0;
         for (int i = 0; i < count; ++i)
-            allowed |= hits.Allows(numbers[i]) ? 1 << i : 0;
+            allowed |= hits.Allows(triangles.GetNumber(place + i)) ? 1 << i : 0;
         if (allowed == 0)
-            return;
+            return false;
         // Where there are fewer than four, the first takes the place of those that are not there.
-        int* first = indices + 3 * numbers[0], second = indices + 3 * numbers[count > 1 ? 1 : 0];
-        int* third = indices + 3 * numbers[count > 2 ? 2 : 0], fourth = indices + 3 * numbers[count > 3 ? 3 : 0];
-        var triangles = new TriangleWide
+        MeshTriangle first = triangles.Get(place), second = triangles.Get(place + (count > 1 ? 1 : 0));
+        MeshTriangle third = triangles.Get(place + (count > 2 ? 2 : 0)), fourth = triangles.Get(place + (count > 3 ? 3 : 0));
+        var b = Corners(first.B, second.B, third.B, fourth.B);
+        var c = Corners(first.C, second.C, third.C, fourth.C);
+        var wide = new TriangleWide
         {
-            A = Corners(first[0], second[0], third[0], fourth[0]),
-            B = isMirrored ? Corners(first[2], second[2], third[2], fourth[2]) : Corners(first[1], second[1], third[1], fourth[1]),
-            C = isMirrored ? Corners(first[1], second[1], third[1], fourth[1]) : Corners(first[2], second[2], third[2], fourth[2]),
+            A = Corners(first.A, second.A, third.A, fourth.A),
+            B = isMirrored ? c : b,
+            C = isMirrored ? b : c,
             TwoSidedMask = twoSided,
         };
-        triangles.Meet(line, across, upward, out var front, out var back, out var distance);
+        wide.Meet(line, across, upward, out var front, out var back, out var distance);
         var meets = front | back;
         if (Vector.EqualsAll(meets, Vector<int>.Zero))
-            return;
+            return false;
         line.Resolve(distance, Wide.Select(meets, distance, new Vector<float>(float.NaN)), out var hitMask, out _, out var t);
-        if (Vector.EqualsAll(hitMask, Vector<int>.Zero))
-            return;
-        var normals = triangles.GetNormal();
+        var hitLanes = (int)hitMask.AsVector128().ExtractMostSignificantBits() & allowed;
+        if (hitLanes == 0)
+            return false;
+        var normals = wide.GetNormal();
         normals = Vector3Wide.Select(back, -normals, normals);
-        for (int i = 0; i < count; ++i)
+        for (; hitLanes != 0; hitLanes &= hitLanes - 1)
         {
-            if ((allowed >> i & 1) != 0 && hitMask[i] != 0 && t[i] <= maximumT)
-                hits.Add(numbers[i], t[i], new(normals.X[i], normals.Y[i], normals.Z[i]), ref maximumT);
+            var lane = BitOperations.TrailingZeroCount(hitLanes);
+            if (t[lane] <= maximumT)
+                hits.Add(triangles.GetNumber(place + lane), t[lane], new(normals.X[lane], normals.Y[lane], normals.Z[lane]), ref maximumT);
         }
+        return true;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,72 +1,90 @@
-using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 
 namespace BepuPhysics.Collidables;
 
 /// <summary>A line on its way between the sides of the boxes of a mesh's nodes.</summary>
 /// <remarks>
 /// A side is line l of the grid, at origin + l step before scaling, and the line meets it at ((origin + l step) scale - point) / direction.
-/// That is linear in l: for each axis a node has one offset and one slope, and each of the six sides of its eight boxes takes a product and a sum.
+/// That is linear in l: for each axis a node has one offset and one slope, and each of the six sides of its eight boxes takes a product and a
+/// sum. Greatest sides are kept as what is left to the last line of the grid, so those are counted from there, backward.
 /// </remarks>
-readonly unsafe struct MeshSlabs
+unsafe struct MeshSlabs
 {
-    readonly Vector128<float> scale, inverse, scaledInverse, nearPoint, farPoint;
-    // All bits of a byte where the greatest sides come first along the line, which are kept as what is left to the last line.
-    readonly Vector256<int> flipX, flipY, flipZ;
+    // Scale over direction, and its magnitude; what the point takes from places, of near sides and of far ones.
+    Vector128<float> factor, magnitude, near, far;
+    // From the side that lines are counted from to the origin: the last line, or none.
+    Vector128<float> nearReach, farReach;
+    // Where a node has the lines that come first along each axis, and those that come last.
+    int nearX, nearY, nearZ, farX, farY, farZ;
 
+    // Of a direction: along an axis with less the line stays in its place, to far less than a rounding, over any distance of use. Nothing that is divided by it
+    // overflows.
+    const float LeastComponent = 1f / (1L << 60);
+
+    /// <summary>Says which line it is.</summary>
     /// <param name="scale">Scale of the mesh.</param>
     /// <param name="point">A point of the line, from which places on it are measured.</param>
-    /// <param name="inverse">One over the components of the unit direction.</param>
+    /// <param name="speed">Unit direction.</param>
     /// <param name="margin">By how much boxes are widened, m.</param>
-    public MeshSlabs(Vector3 scale, Vector3 point, Vector3 inverse, float margin)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void Set(Vector128<float> scale, Vector128<float> point, Vector128<float> speed, float margin)
     {
-        this.scale = scale.AsVector128();
-        this.inverse = inverse.AsVector128();
-        scaledInverse = (scale * inverse).AsVector128();
-        var widening = new Vector3(inverse.X < 0 ? -margin : margin, inverse.Y < 0 ? -margin : margin, inverse.Z < 0 ? -margin : margin);
-        nearPoint = (point + widening).AsVector128();
-        farPoint = (point - widening).AsVector128();
-        flipX = Flip(scale.X * inverse.X);
-        flipY = Flip(scale.Y * inverse.Y);
-        flipZ = Flip(scale.Z * inverse.Z);
+        var least = Vector128.Create(LeastComponent);
+        speed = Vector128.ConditionalSelect(Vector128.LessThan(Vector128.Abs(speed), least),
+            Vector128.ConditionalSelect(Vector128.LessThan(speed, Vector128<float>.Zero), -least, least), speed);
+        var inverse = Vector128<float>.One / speed;
+        factor = scale * inverse;
+        magnitude = Vector128.Abs(factor);
+        var widening = Vector128.Create(margin) * Vector128.Abs(inverse);
+        var place = point * inverse;
+        near = -(place + widening);
+        far = widening - place;
+        var backward = Vector128.LessThan(factor, Vector128<float>.Zero);
+        nearReach = backward & Vector128.Create(-(float)MeshNode.Lines);
+        farReach = Vector128.AndNot(Vector128.Create((float)MeshNode.Lines), backward);
+        MeshNode.FindSides(0, factor[0] < 0, out nearX, out farX);
+        MeshNode.FindSides(1, factor[1] < 0, out nearY, out farY);
+        MeshNode.FindSides(2, factor[2] < 0, out nearZ, out farZ);
     }
-
-    static Vector256<int> Flip(float slope) => Vector256.Create(slope < 0 ? MeshNode.Lines : 0);
 
     /// <summary>Which children's boxes the line meets, a bit for each. Where there is no child the bit may be set.</summary>
     /// <remarks>Eight boxes at a time on every CPU, so that nothing depends on the width of vectors.</remarks>
     /// <param name="node">The node.</param>
     /// <param name="start">Where the line begins.</param>
     /// <param name="end">Where it ends.</param>
-    /// <param name="slack">Part of itself by which each of two places that are compared may be wrong.</param>
     /// <param name="begins">Receives where it meets them.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public int FindHits(MeshNode* node, float start, float end, float slack, out Vector256<float> begins)
+    public readonly int FindHits(MeshNode* node, float start, float end, out Vector256<float> begins)
     {
-        var origin = Vector128.Load((float*)node) * scale;
-        var slopes = MeshNode.Steps(node) * scaledInverse;
-        var near = (origin - nearPoint) * inverse;
-        var far = (origin - farPoint) * inverse;
-        var begin = Vector256.Create(start);
-        var last = Vector256.Create(end);
-        Meet(MeshNode.AxisLines(node, 0), flipX, near.GetElement(0), far.GetElement(0), slopes.GetElement(0), ref begin, ref last);
-        Meet(MeshNode.AxisLines(node, 1), flipY, near.GetElement(1), far.GetElement(1), slopes.GetElement(1), ref begin, ref last);
-        Meet(MeshNode.AxisLines(node, 2), flipZ, near.GetElement(2), far.GetElement(2), slopes.GetElement(2), ref begin, ref last);
-        begins = begin;
-        var share = Vector256.Create(slack);
-        return (int)Vector256.LessThanOrEqual(begin - Vector256.Abs(begin) * share, last + Vector256.Abs(last) * share).ExtractMostSignificantBits();
+        var slopes = MeshNode.Steps(node) * magnitude;
+        var origin = Vector128.Load((float*)node) * factor;
+        var enters = origin + near + slopes * nearReach;
+        var leaves = origin + far + slopes * farReach;
+        begins = Max(
+            Max(Enter(node, nearX, enters.GetElement(0), slopes.GetElement(0)), Enter(node, nearY, enters.GetElement(1), slopes.GetElement(1))),
+            Max(Enter(node, nearZ, enters.GetElement(2), slopes.GetElement(2)), Vector256.Create(start)));
+        var ends = Min(
+            Min(Leave(node, farX, leaves.GetElement(0), slopes.GetElement(0)), Leave(node, farY, leaves.GetElement(1), slopes.GetElement(1))),
+            Min(Leave(node, farZ, leaves.GetElement(2), slopes.GetElement(2)), Vector256.Create(end)));
+        return (int)Vector256.LessThanOrEqual(begins, ends).ExtractMostSignificantBits();
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Meet(byte* lines, Vector256<int> flip, float near, float far, float slope, ref Vector256<float> begin, ref Vector256<float> last)
-    {
-        var greatestFirst = flip[0] != 0 ? MeshNode.Width : 0;
-        var steps = Vector256.Create(slope);
-        var enters = Vector256.Create(near) + Vector256.ConvertToSingle(MeshNode.Widen(lines + greatestFirst) ^ flip) * steps;
-        var leaves = Vector256.Create(far) +
-            Vector256.ConvertToSingle(MeshNode.Widen(lines + MeshNode.Width - greatestFirst) ^ flip ^ Vector256.Create(MeshNode.Lines)) * steps;
-        begin = Vector256.ConditionalSelect(Vector256.GreaterThan(enters, begin), enters, begin);
-        last = Vector256.ConditionalSelect(Vector256.LessThan(leaves, last), leaves, last);
-    }
+    static Vector256<float> Enter(MeshNode* node, int side, float place, float slope) =>
+        Vector256.Create(place) + Vector256.ConvertToSingle(MeshNode.Widen((byte*)node + side)) * Vector256.Create(slope);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector256<float> Leave(MeshNode* node, int side, float place, float slope) =>
+        Vector256.Create(place) - Vector256.ConvertToSingle(MeshNode.Widen((byte*)node + side)) * Vector256.Create(slope);
+
+    // The instruction says the same as the comparison, for zeros and what is no number too, in one step for two.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector256<float> Max(Vector256<float> a, Vector256<float> b) =>
+        Avx.IsSupported ? Avx.Max(a, b) : Vector256.ConditionalSelect(Vector256.GreaterThan(a, b), a, b);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector256<float> Min(Vector256<float> a, Vector256<float> b) =>
+        Avx.IsSupported ? Avx.Min(a, b) : Vector256.ConditionalSelect(Vector256.LessThan(a, b), a, b);
 }

@@ -201,7 +201,7 @@ static unsafe class MeshTree
         max = new(-float.MaxValue);
         for (int i = 0; i < node->TriangleCount(child); ++i)
         {
-            mesh->GetCorners(mesh->Order[place + i], out var a, out var b, out var c);
+            mesh->GetCornersAt(place + i, out var a, out var b, out var c);
             GetBounds(a, b, c, out var low, out var high);
             min = Exact.Min(min, low);
             max = Exact.Max(max, high);

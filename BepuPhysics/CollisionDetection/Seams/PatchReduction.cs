@@ -27,6 +27,13 @@ static unsafe class PatchReduction
         public Vector<float> Size;
     }
 
+    // One lane of these.
+    struct Frame
+    {
+        public Vector3 X, Y, Origin;
+        public float Preference;
+    }
+
     /// <summary>Chooses contacts. Their names are <see cref="SeamMemory.Kept"/>, patch by patch.</summary>
     /// <param name="memory">The children that touch, with their patches, and room for candidates.</param>
     /// <param name="results">What was found for each child.</param>
@@ -143,17 +150,22 @@ static unsafe class PatchReduction
             candidate.Depth = new Vector<float>(IContactCandidate.None);
         }
         Span<int> counts = [0, 0, 0, 0];
+        Span<Frame> lanes = stackalloc Frame[PatchSet.Capacity];
+        for (int lane = 0; lane < lanes.Length; ++lane)
+        {
+            lanes[lane].X = Lanes.Read<Vector3, Vector3Wide>(ref frames.X, lane);
+            lanes[lane].Y = Lanes.Read<Vector3, Vector3Wide>(ref frames.Y, lane);
+            lanes[lane].Origin = Lanes.Read<Vector3, Vector3Wide>(ref frames.Origin, lane);
+            lanes[lane].Preference = frames.Size[lane] * DepthPreference;
+        }
         foreach (ref var child in memory.Ranked.AsSpan())
         {
             var lane = child.Patch;
             if (lane < 0 || (reduces & 1 << lane) == 0)
                 continue;
             ref var result = ref results[child.Slot];
-            var axisX = Lanes.Read<Vector3, Vector3Wide>(ref frames.X, lane);
-            var axisY = Lanes.Read<Vector3, Vector3Wide>(ref frames.Y, lane);
-            var origin = Lanes.Read<Vector3, Vector3Wide>(ref frames.Origin, lane);
+            ref var frame = ref lanes[lane];
             ref readonly var patch = ref patches[lane];
-            var preference = frames.Size[lane] * DepthPreference;
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
@@ -163,15 +175,19 @@ static unsafe class PatchReduction
                     continue;
                 }
                 ref var candidate = ref candidates[counts[lane]++];
-                var place = contact.Offset - origin;
-                var feature = result.Children.Mix(contact.FeatureId);
-                var isFirst = patch.IsKnown && feature == patch.Memory.First;
+                var place = contact.Offset - frame.Origin;
                 // Of a patch of several pairs it is known of each contact.
-                isFirst |= (child.Remembered & 1 << i) != 0;
-                var isRemembered = isFirst || (patch.IsKnown && feature == patch.Memory.Second);
-                GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, axisX);
-                GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, axisY);
-                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? preference : 0);
+                var isFirst = (child.Remembered & 1 << i) != 0;
+                var isRemembered = isFirst;
+                if (patch.IsKnown)
+                {
+                    var feature = result.Children.Mix(contact.FeatureId);
+                    isFirst |= feature == patch.Memory.First;
+                    isRemembered = isFirst || feature == patch.Memory.Second;
+                }
+                GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, frame.X);
+                GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, frame.Y);
+                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? frame.Preference : 0);
                 GatherScatter.Get(ref candidate.Weight, lane) = isRemembered ? SpanPreference : 1;
                 GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
             }
