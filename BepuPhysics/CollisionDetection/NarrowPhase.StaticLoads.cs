@@ -27,10 +27,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             {
                 ref var result = ref ResultOf(i, j);
                 if (result.Manifold.Count > 0)
-                {
-                    var hasTwoBodies = pair.Tested.Pair.B.Mobility != CollidableMobility.Static;
-                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), hasTwoBodies, pool);
-                }
+                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), pool);
             }
         }
         if (!transfer.Run())

@@ -251,6 +251,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (!pair.IsTouching)
                 continue;
             pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, pool);
+            pair.IsTurning = pair.Group > 0 && statics.Groups[pair.Group - 1].Angular != default;
             var number = i - first + 1;
             if (pair.IsOfGame)
             {
