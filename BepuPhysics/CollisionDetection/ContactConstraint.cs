@@ -44,7 +44,9 @@ unsafe readonly struct ContactConstraint
     /// <summary>Writes the contacts of a step over those of the last one, of which there were as many, and hands on their impulses.</summary>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
-    /// <param name="frictionCenter">Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.</param>
+    /// <param name="frictionCenter">
+    /// Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.
+    /// </param>
     /// <param name="features">What the contacts are remembered by.</param>
     internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
@@ -73,7 +75,9 @@ unsafe readonly struct ContactConstraint
     /// <param name="old">What an earlier constraint of the same manifold held; it may have had another number of contacts, or none.</param>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
-    /// <param name="frictionCenter">Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.</param>
+    /// <param name="frictionCenter">
+    /// Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.
+    /// </param>
     /// <param name="features">What the contacts are remembered by.</param>
     internal void WriteNew(
         ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)

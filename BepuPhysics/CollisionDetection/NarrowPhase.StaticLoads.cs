@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;

@@ -160,6 +160,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 TakeAgreement(ref worker, body);
             if (body.MayRemember)
                 NoteLeft(statics, body);
+            WatchHits(ref worker, body);
         }
         if (JoinsStatics)
             HandOver(ref statics, body, worker.Pool);

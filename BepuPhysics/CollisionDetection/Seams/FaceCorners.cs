@@ -3,7 +3,6 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -13,9 +12,9 @@ namespace BepuPhysics.CollisionDetection;
 /// them which it is over.
 /// </summary>
 /// <remarks>
-/// Of such a face each pair knows four contacts of its own, and at a seam the best four of all are not always among these. As the seam goes through below, others
-/// would be the best in each step: the load jumps, the body is tilted, and hops. What hardly moves keeps what it has. If one of the four is over none of the
-/// faces, or at another height, there is no such plane.
+/// Of such a face each pair knows four contacts of its own, and at a seam the best four of all are not always among these. As the seam goes through
+/// below, others would be the best in each step: the load jumps, the body is tilted, and hops. What hardly moves keeps what it has. If one of the four is
+/// over none of the faces, or at another height, there is no such plane.
 /// </remarks>
 static unsafe class FaceCorners
 {

@@ -63,7 +63,8 @@ public class SharedFrictionTests
     /// Each of the four corners has a static of its own, so each constraint has one contact. Friction takes mu m g r from the spin, with r the way from the
     /// middle to a corner, and the box has m w^2 / 6.
     /// </summary>
-    [Theory, InlineData(FourTiles.Statics), InlineData(FourTiles.Kinematics), InlineData(FourTiles.Both), InlineData(FourTiles.Platform), InlineData(FourTiles.Lift)]
+    [Theory]
+    [InlineData(FourTiles.Statics), InlineData(FourTiles.Kinematics), InlineData(FourTiles.Both), InlineData(FourTiles.Platform), InlineData(FourTiles.Lift)]
     public void A_box_that_spins_on_four_things_stops_as_friction_says(FourTiles tiles)
     {
         using var world = Create(tiles);
@@ -146,8 +147,9 @@ public class SharedFrictionTests
             // Turns, so that its place makes a difference; what leans on it moves on.
             world.Simulation.Bodies.Add(BodyDescription.CreateKinematic(
                 new Vector3(1, -.5f, 0), new BodyVelocity(default, new Vector3(.2f, 3, 0)), world.Simulation.Shapes.Add(new Box(4, 1, 4)), -1f));
+            var shape = new Box(Width, .2f, Width);
             BodyHandle[] boxes = [.. Enumerable.Range(0, 3).Select(i => world.AddBody(
-                new Box(Width, .2f, Width), new RigidPose(new Vector3(.1f * i, .1f + .2f * i, 0)), new BodyVelocity(new Vector3(i, 0, 0), new Vector3(0, i, 0))))];
+                shape, new RigidPose(new Vector3(.1f * i, .1f + .2f * i, 0)), new BodyVelocity(new Vector3(i, 0, 0), new Vector3(0, i, 0))))];
             for (int i = 0; i < 40; ++i)
                 world.Step();
             return [.. boxes.Select(box => world.Simulation.Bodies[box].Velocity)];
