@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
@@ -43,25 +44,29 @@ unsafe readonly struct ContactConstraint
     /// <summary>Writes the contacts of a step over those of the last one, of which there were as many, and hands on their impulses.</summary>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
-    /// <param name="frictionCenter">Where friction acts of a patch on several statics, relative to the centre of A; zero for a patch on one.</param>
+    /// <param name="frictionCenter">
+    /// Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.
+    /// </param>
     /// <param name="features">What the contacts are remembered by.</param>
     internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
         var wasHeld = WasHeld;
-        WriteMaterial(material);
+        var knewB = KnowsB;
+        WriteMaterial(material, frictionCenter);
         if (KeptArms.MayKeep(contactCount, manifold, wasHeld, hasTwoBodies))
         {
-            ReadArms(features, out var arms);
+            ReadArms(features, knewB, out var arms);
             Unsafe.SkipInit(out KeptArms kept);
             if (kept.TryFind(arms, manifold))
             {
                 Keep(arms, ref kept, manifold, ref features);
-                if (!hasTwoBodies)
-                    Write(ContactPrestepLayout.OffsetB(contactCount), frictionCenter);
+                if (!knewB || frictionCenter != default)
+                    WriteOffsetB(manifold, frictionCenter);
                 return;
             }
         }
         ReadPatch(features, out var old);
+        old.KnowsB = knewB;
         WriteGeometry(manifold, frictionCenter);
         WriteImpulses(old, manifold, frictionCenter, ref features);
     }
@@ -70,14 +75,16 @@ unsafe readonly struct ContactConstraint
     /// <param name="old">What an earlier constraint of the same manifold held; it may have had another number of contacts, or none.</param>
     /// <param name="manifold">The contacts.</param>
     /// <param name="material">How the surfaces behave.</param>
-    /// <param name="frictionCenter">Where friction acts of a patch on several statics, relative to the centre of A; zero for a patch on one.</param>
+    /// <param name="frictionCenter">
+    /// Where friction acts of a patch on several things that do not give way, relative to the centre of A; zero for one on one.
+    /// </param>
     /// <param name="features">What the contacts are remembered by.</param>
     internal void WriteNew(
         ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
-        WriteMaterial(material);
+        WriteMaterial(material, frictionCenter);
         WriteGeometry(manifold, frictionCenter);
-        if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.HasTwoBodies))
+        if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.KnowsB))
         {
             old.GetArms(out var arms);
             Unsafe.SkipInit(out KeptArms kept);
@@ -86,7 +93,7 @@ unsafe readonly struct ContactConstraint
                 var drift = kept.Drift(arms, manifold);
                 for (int i = 0; i < contactCount; ++i)
                     WriteArm(i, kept.Places[i] < 0 ? Contact(manifold, i).Offset - drift : arms[kept.Places[i]]);
-                if (hasTwoBodies)
+                if (old.KnowsB && frictionCenter == default)
                     Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
                 float load = 0;
                 for (int i = 0; i < old.Count; ++i)
@@ -100,12 +107,15 @@ unsafe readonly struct ContactConstraint
     /// <summary>Takes back what a contact that is alone holds against turning, but for one that shares the friction of several: it has no lever.</summary>
     internal void ForgetTwistWithoutLever()
     {
-        if (contactCount == 1 && (hasTwoBodies || Read(prestep, ContactPrestepLayout.OffsetB(contactCount)) == default))
+        if (contactCount == 1 && (KnowsB || Read(prestep, ContactPrestepLayout.OffsetB(contactCount)) == default))
             impulses[(ContactPrestepLayout.FrictionImpulse(contactCount) + 3) * Vector<float>.Count] = 0;
     }
 
     /// <summary>Whether the load path held the patch in the last step.</summary>
     internal bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
+
+    // Whether the place of B is written, and not that of friction; see ContactMaterialWide.SharesFriction.
+    bool KnowsB => hasTwoBodies && !float.IsNegative(prestep[ContactPrestepLayout.Friction(contactCount) * Vector<float>.Count]);
 
     // Contacts stay in the order in which they are: the order in which they are solved makes a difference that can be seen.
     void Keep(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold, ref FeatureIds features)
@@ -156,20 +166,25 @@ unsafe readonly struct ContactConstraint
             WriteArm(i, contact.Offset);
             WriteDepth(i, contact.Depth);
         }
-        Write(ContactPrestepLayout.OffsetB(contactCount), hasTwoBodies ? manifold.OffsetB : frictionCenter);
+        WriteOffsetB(manifold, frictionCenter);
         Write(ContactPrestepLayout.Normal(contactCount), manifold.Normal);
     }
 
-    void WriteMaterial(in PairMaterialProperties material)
+    void WriteOffsetB(in ConvexContactManifold manifold, in Vector3 frictionCenter) =>
+        Write(ContactPrestepLayout.OffsetB(contactCount), hasTwoBodies && frictionCenter == default ? manifold.OffsetB : frictionCenter);
+
+    void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter)
     {
-        Write(ContactPrestepLayout.Friction(contactCount), material.FrictionCoefficient);
+        // The sign says something else: a game may give a negative zero.
+        var coefficient = MathF.Abs(material.FrictionCoefficient);
+        Write(ContactPrestepLayout.Friction(contactCount), hasTwoBodies && frictionCenter != default ? -coefficient : coefficient);
         Write(ContactPrestepLayout.Spring(contactCount), material.SpringSettings.AngularFrequency);
         Write(ContactPrestepLayout.Spring(contactCount) + 1, material.SpringSettings.TwiceDampingRatio);
         Write(ContactPrestepLayout.MaximumRecovery(contactCount), material.MaximumRecoveryVelocity);
     }
 
     // Of three contacts the last lane is what follows them.
-    void ReadArms(in FeatureIds features, out OldArms arms)
+    void ReadArms(in FeatureIds features, bool knewB, out OldArms arms)
     {
         arms.X = ReadLanes(0);
         arms.Y = ReadLanes(1);
@@ -178,7 +193,7 @@ unsafe readonly struct ContactConstraint
         arms.OffsetB = Read(prestep, ContactPrestepLayout.OffsetB(contactCount));
         arms.Normal = Read(prestep, ContactPrestepLayout.Normal(contactCount));
         arms.Count = contactCount;
-        arms.HasTwoBodies = hasTwoBodies;
+        arms.KnowsB = knewB;
     }
 
     Vector128<float> ReadLanes(int field)
@@ -194,7 +209,7 @@ unsafe readonly struct ContactConstraint
     {
         Unsafe.SkipInit(out result);
         result.Count = contactCount;
-        result.HasTwoBodies = hasTwoBodies;
+        result.KnowsB = KnowsB;
         result.WasHeld = WasHeld;
         result.Features = features;
         for (int i = 0; i < contactCount; ++i)

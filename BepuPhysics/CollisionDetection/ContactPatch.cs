@@ -9,8 +9,8 @@ struct ContactPatch
 {
     /// <summary>Number of contacts; 0 where there was no constraint.</summary>
     public int Count;
-    /// <summary>Whether B is a body too, and no static.</summary>
-    public bool HasTwoBodies;
+    /// <summary>Whether B is a body too, and no static; but not where friction is written in its place.</summary>
+    public bool KnowsB;
     /// <summary>Whether the load path held it.</summary>
     public bool WasHeld;
     /// <summary>Features of the contacts.</summary>
@@ -19,7 +19,7 @@ struct ContactPatch
     public FourFloats Normals;
     /// <summary>Positions of the contacts relative to the centre of A, world axes, as they were when the arms were found.</summary>
     public FourVectors Arms;
-    /// <summary>Position of B relative to A at that time; with one body where friction acted, or zero, as in the constraint.</summary>
+    /// <summary>Position of B relative to A at that time; where that is not known, where friction acted, or zero, as in the constraint.</summary>
     public Vector3 OffsetB;
     /// <summary>Normal of the last step.</summary>
     public Vector3 Normal;
@@ -29,7 +29,7 @@ struct ContactPatch
     public float Twist;
 
     /// <summary>Whether <see cref="Twist"/> means anything.</summary>
-    public readonly bool HasTwist => Count > 1 || (!HasTwoBodies && OffsetB != default);
+    public readonly bool HasTwist => Count > 1 || (!KnowsB && OffsetB != default);
 
     /// <summary>The arms; of lanes beyond the count nothing is known.</summary>
     public readonly void GetArms(out OldArms arms)
@@ -41,6 +41,6 @@ struct ContactPatch
         arms.OffsetB = OffsetB;
         arms.Normal = Normal;
         arms.Count = Count;
-        arms.HasTwoBodies = HasTwoBodies;
+        arms.KnowsB = KnowsB;
     }
 }

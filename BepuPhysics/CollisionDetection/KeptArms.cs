@@ -88,7 +88,7 @@ struct KeptArms
             return false;
         var shorter = LengthSquared(old.X, old.Y, old.Z);
         var movedB = manifold.OffsetB - old.OffsetB;
-        if (old.HasTwoBodies)
+        if (old.KnowsB)
         {
             var aboutB = DistanceSquared(old.X, old.Y, old.Z, old.OffsetB);
             shorter = Vector128.ConditionalSelect(Vector128.LessThan(aboutB, shorter), aboutB, shorter);
@@ -102,7 +102,7 @@ struct KeptArms
             var y = Vector128.Create(contact.Offset.Y) - old.Y;
             var z = Vector128.Create(contact.Offset.Z) - old.Z;
             var distance = LengthSquared(x, y, z);
-            if (old.HasTwoBodies)
+            if (old.KnowsB)
             {
                 var aboutB = DistanceSquared(x, y, z, movedB);
                 distance = Vector128.ConditionalSelect(Vector128.GreaterThan(aboutB, distance), aboutB, distance);
@@ -172,8 +172,8 @@ struct OldArms
     public Vector3 Normal;
     /// <summary>Number of contacts; lanes beyond hold something else.</summary>
     public int Count;
-    /// <summary>Whether B is a body too, and no static.</summary>
-    public bool HasTwoBodies;
+    /// <inheritdoc cref="ContactPatch.KnowsB"/>
+    public bool KnowsB;
 
     /// <summary>Arm of a contact.</summary>
     public readonly Vector3 this[int contact] => new(X.GetElement(contact), Y.GetElement(contact), Z.GetElement(contact));

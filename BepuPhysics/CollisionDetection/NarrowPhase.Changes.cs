@@ -307,9 +307,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Bouncing, i);
         SortByKey();
-        for (int i = 0; i < order.Count; ++i)
+        for (int i = 0, next; i < order.Count; i = next)
         {
-            ref var bouncing = ref workers[order[i].Worker].Bouncing[order[i].Index];
+            var bouncing = workers[order[i].Worker].Bouncing[order[i].Index];
+            // A pair that asks for it may be hit besides.
+            for (next = i + 1; next < order.Count && order[next].Key == order[i].Key; ++next)
+                bouncing.Coefficient = MathHelper.Max(bouncing.Coefficient, workers[order[next].Worker].Bouncing[order[next].Index].Coefficient);
             var index = Pairs.Pairs.IndexOf(bouncing.Pair);
             // Statics beside it have taken its contacts.
             if (index < 0)

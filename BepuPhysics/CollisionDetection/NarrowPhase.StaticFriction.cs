@@ -12,7 +12,7 @@ namespace BepuPhysics.CollisionDetection;
 // is bounded by the coefficient times the sum; so do twists, whose levers are distances from that point.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
-    // Only on statics: a constraint of two bodies has no place for another centre.
+    // On statics and on kinematic bodies that move alike and do not turn. What turns has an arm, for which a constraint has one place, and that is taken.
     void JoinFriction(ref StaticPairs statics, in AgreeingBody body, BufferPool pool)
     {
         var wasHeld = false;
@@ -21,7 +21,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
-            for (int j = pair.Start; j < pair.End && pair.Tested.Pair.B.Mobility == CollidableMobility.Static; ++j)
+            for (int j = pair.Start; j < pair.End && SharesFriction(pair); ++j)
             {
                 ref var result = ref ResultOf(i, j);
                 if (result.Manifold.Count > 0 && statics.FindFrictionCenter(pair.Tested.Pair, result.Children) == default)
@@ -36,19 +36,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
+    static int GroupOfFriction(in StaticPair pair) => pair.Tested.Pair.B.Mobility == CollidableMobility.Static ? 0 : pair.Group;
+
+    static bool SharesFriction(in StaticPair pair) => pair.Tested.Pair.B.Mobility == CollidableMobility.Static || !pair.IsTurning;
+
     ContactConstraint Column(in OldPatch old) => new(Simulation.Solver, old.Constraint, old.ContactCount);
 
     // All manifolds that have the normal of one, and come after it.
     void JoinFriction(ref StaticPairs statics, int place, int index, int end, bool wasHeld, BufferPool pool)
     {
         var normal = ResultOf(place, index).Manifold.Normal;
+        var group = GroupOfFriction(Waiting(place));
         Vector3 all = default, touching = default;
         var (count, touchCount) = (0, 0);
         var before = statics.FrictionCenters.Count;
         for (int i = place; i < end; ++i)
         {
             ref var pair = ref Waiting(i);
-            for (int j = i == place ? index : pair.Start; j < pair.End && pair.Tested.Pair.B.Mobility == CollidableMobility.Static; ++j)
+            for (int j = i == place ? index : pair.Start; j < pair.End && SharesFriction(pair) && GroupOfFriction(pair) == group; ++j)
             {
                 ref var result = ref ResultOf(i, j);
                 ref var manifold = ref result.Manifold;

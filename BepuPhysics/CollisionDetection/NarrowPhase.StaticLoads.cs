@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -27,10 +26,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             {
                 ref var result = ref ResultOf(i, j);
                 if (result.Manifold.Count > 0)
-                {
-                    var hasTwoBodies = pair.Tested.Pair.B.Mobility != CollidableMobility.Static;
-                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), hasTwoBodies, pool);
-                }
+                    transfer.AddHeir(result.Manifold, SourceOf(statics.OldOf(body), i, result.Children), pool);
             }
         }
         if (!transfer.Run())

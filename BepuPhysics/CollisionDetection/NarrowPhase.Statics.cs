@@ -160,6 +160,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 TakeAgreement(ref worker, body);
             if (body.MayRemember)
                 NoteLeft(statics, body);
+            WatchHits(ref worker, body);
         }
         if (JoinsStatics)
             HandOver(ref statics, body, worker.Pool);
@@ -251,6 +252,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (!pair.IsTouching)
                 continue;
             pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, pool);
+            pair.IsTurning = pair.Group > 0 && statics.Groups[pair.Group - 1].Angular != default;
             var number = i - first + 1;
             if (pair.IsOfGame)
             {

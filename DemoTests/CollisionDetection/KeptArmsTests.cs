@@ -96,7 +96,7 @@ public sealed class KeptArmsTests : IDisposable
     public void The_centre_of_a_static_does_not_count()
     {
         var before = Read(pair: 0);
-        Assert.False(before.HasTwoBodies);
+        Assert.False(before.KnowsB);
         var manifold = Moved(before, new Vector3(.001f, 0, 0));
         manifold.OffsetB += new Vector3(Much, 0, 0);
         Update(before, manifold, pair: 0);

@@ -4,6 +4,7 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Numerics;
@@ -95,6 +96,8 @@ public unsafe class KernelPurityTests
                 processor.Impulse(ref batch, index, i) = random.NextSingle();
             if (constraint % 3 == 0)
                 MakeRigid(processor, ref batch, index);
+            if (typeId < ConstraintTypeIds.ContactTwoBody && constraint % 2 == 0)
+                MakeAlone(processor, ref batch, index);
             if (constraint % 5 == 0)
                 MakeIdle(processor, ref batch, index, motions);
         }
@@ -150,6 +153,14 @@ public unsafe class KernelPurityTests
             processor.PrestepFloat(ref batch, index, servo) = float.MaxValue;
         for (int i = 0; i < processor.ImpulseFloats; ++i)
             processor.Impulse(ref batch, index, i) *= 20;
+    }
+
+    // A contact patch on one static, beside such as share their friction with others: its friction has no place of its own.
+    static void MakeAlone(TypeProcessor processor, ref TypeBatch batch, int index)
+    {
+        var place = ContactPrestepLayout.OffsetB(ConstraintTypeIds.ContactCount(processor.TypeId));
+        for (int i = 0; i < 3; ++i)
+            processor.PrestepFloat(ref batch, index, place + i) = 0;
     }
 
     // At rest without an impulse: of a limit that is out of reach not even the signs of zeros change.

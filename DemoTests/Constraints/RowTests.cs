@@ -127,6 +127,27 @@ public class RowTests
             limit == RowLimit.Positive ? samples.Coin() ? 0 : samples.Uniform(0, 1) : samples.Uniform(-0.05f, 0.05f);
     }
 
+    /// <summary>On one of several kinematic bodies that bear a patch: its friction acts in the middle of all, and what is alone there has a twist.</summary>
+    [Theory, InlineData(4), InlineData(5), InlineData(6), InlineData(7)]
+    public void A_step_by_the_rows_is_the_sweep_where_friction_is_shared(int typeId)
+    {
+        var samples = new JointSamples(400 + typeId);
+        for (int i = 0; i < Samples; ++i)
+        {
+            var column = RandomDescriptions.Column(typeId, samples);
+            column[ContactPrestepLayout.Friction(ConstraintTypeIds.ContactCount(typeId))] *= -1;
+            using var bench = new RowBench(typeId, column, [samples.Body(), Kinematic(samples)], i % Vector<float>.Count);
+            bench.WriteImpulses([.. Enumerable.Range(0, bench.RowCount).Select(_ => samples.Uniform(0, .05f))]);
+            var place = ContactPrestepLayout.OffsetB(ConstraintTypeIds.ContactCount(typeId));
+            var friction = bench.Rows(Substep)[^2].A;
+            Assert.Equal(Vector3.Cross(new(column[place], column[place + 1], column[place + 2]), friction.Linear), friction.Angular);
+            var (velocities, impulses) = Sweep(bench, typeId, Substep);
+            bench.Solve(Substep);
+            AssertClose(velocities, bench.Velocities, $"sample {i}: velocities");
+            AssertClose(impulses, [.. bench.Rows(Substep).Select(row => (double)row.Impulse)], $"sample {i}: impulses");
+        }
+    }
+
     [Theory, MemberData(nameof(Types))]
     public void Impulses_are_read_as_they_were_written(int typeId)
     {
@@ -165,6 +186,8 @@ public class RowTests
         }
         Assert.True(hard > 0 && soft > 0, $"{hard} rows were hard, {soft} soft.");
     }
+
+    static SampleBody Kinematic(JointSamples samples) => new() { Position = samples.Vector(1), Orientation = samples.Rotation(), Linear = samples.Vector(1) };
 
     // Of joints by moving bodies; of contacts, whose geometry is that of collision detection, by what was travelled since.
     static double[] ErrorAt(RowBench bench, int typeId, int coordinate, double by)

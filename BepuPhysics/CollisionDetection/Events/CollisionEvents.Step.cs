@@ -1,3 +1,4 @@
+using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
@@ -106,6 +107,9 @@ public sealed unsafe partial class CollisionEvents
             Add(ref stage.Manifolds, new() { Constraint = manifold.Constraint, ContactCount = count, FirstContact = stage.Contacts.Count });
             var rows = new ContactRows(solver, bodies, manifold.Constraint, count);
             pair.OffsetB = rows.OffsetB;
+            // There the constraint may have the place of friction.
+            if (pair.Pair.B.Mobility == CollidableMobility.Kinematic)
+                pair.OffsetB = bodies.SetOf(pair.Pair.B.BodyHandle, out var indexB).MotionStates[indexB].Pose.Position - pair.CenterOfA;
             for (int i = 0; i < count; ++i)
             {
                 Add(ref stage.Contacts, new()

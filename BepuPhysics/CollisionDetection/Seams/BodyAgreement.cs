@@ -97,7 +97,7 @@ unsafe struct BodyAgreement(BufferPool pool)
             children = children[..SeamMemory.Sort(children, set.Results)];
         memory.Rank(children, pool);
         LeaveFixed();
-        if (MovesAlike())
+        if (!set.IsOnPlane && MovesAlike())
             PatchSet.Thin(ref memory, ResultsOf(set), PlacedOf(set), pool);
         var changes = false;
         set.Count = memory.Ranked.Count;

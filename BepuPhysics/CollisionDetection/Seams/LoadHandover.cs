@@ -50,7 +50,7 @@ struct LoadHandover(BufferPool pool)
         public Vector3 Normal, OffsetB;
         public int Source, FirstPoint, Count;
         public float Load;
-        public bool Touches, IsChanged, HasTwoBodies;
+        public bool Touches, IsChanged;
     }
 
     QuickList<OldPoint> oldPoints = new(InitialCapacity, pool);
@@ -74,9 +74,8 @@ struct LoadHandover(BufferPool pool)
     /// <summary>Adds a manifold of this step.</summary>
     /// <param name="manifold">Its contacts.</param>
     /// <param name="source">Number of the constraint that it goes on as; negative for one that is new.</param>
-    /// <param name="hasTwoBodies">Whether its B is a body.</param>
     /// <param name="pool">Source of memory.</param>
-    public void AddHeir(in ConvexContactManifold manifold, int source, bool hasTwoBodies, BufferPool pool)
+    public void AddHeir(in ConvexContactManifold manifold, int source, BufferPool pool)
     {
         var heir = new Heir
         {
@@ -85,7 +84,6 @@ struct LoadHandover(BufferPool pool)
             Source = source,
             FirstPoint = newPoints.Count,
             Count = manifold.Count,
-            HasTwoBodies = hasTwoBodies,
         };
         for (int i = 0; i < manifold.Count; ++i)
         {
@@ -207,7 +205,6 @@ struct LoadHandover(BufferPool pool)
             own += point.Owner == heir ? point.Impulse : 0;
         }
         load.Count = target.Count;
-        load.HasTwoBodies = target.HasTwoBodies;
         load.Normal = target.Normal;
         load.OffsetB = target.OffsetB;
         if (target.Source >= 0)
@@ -215,6 +212,7 @@ struct LoadHandover(BufferPool pool)
             load.WasHeld = sources[target.Source].Patch.WasHeld;
             load.Normal = sources[target.Source].Patch.Normal;
             load.OffsetB = sources[target.Source].Patch.OffsetB;
+            load.KnowsB = sources[target.Source].Patch.KnowsB;
         }
         for (int i = 0; i < target.Count; ++i)
         {

@@ -18,6 +18,8 @@ struct SeamMemory(BufferPool pool)
     public QuickList<RankedChild> Touching = new(SetCapacity * 4, pool);
     /// <summary>Those that patches are made of, in their order.</summary>
     public QuickList<RankedChild> Ranked = new(InitialCapacity, pool);
+    /// <summary>Contacts with planes in place of flush faces.</summary>
+    public QuickList<DirectedPair> Planes = new(InitialCapacity, pool);
     /// <summary>Contacts that patches are chosen from, a lane for each patch.</summary>
     public QuickList<FaceCandidate> Candidates = new(InitialCapacity, pool);
 
@@ -110,6 +112,7 @@ struct SeamMemory(BufferPool pool)
         Sets.Dispose(pool);
         Touching.Dispose(pool);
         Ranked.Dispose(pool);
+        Planes.Dispose(pool);
         Candidates.Dispose(pool);
         Kept.Dispose(pool);
     }

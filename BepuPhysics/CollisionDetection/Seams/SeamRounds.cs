@@ -17,11 +17,38 @@ static class SeamRounds
             for (int i = 0; i < memory.Sets.Count; ++i)
                 Advance(ref memory, i, registry, pool);
             if (memory.Tests.Count + memory.Moved.Count == 0)
-                return;
+                break;
             memory.Tests.Execute();
             memory.Moved.Execute(memory.Sets.Span.Memory, registry);
         }
+        LayOnPlanes(ref memory, pool);
     }
+
+    // In two rounds more, for those that ask for them.
+    static void LayOnPlanes(ref SeamMemory memory, BufferPool pool)
+    {
+        ref var tests = ref memory.Tests;
+        for (int i = 0; i < memory.Sets.Count; ++i)
+            FaceCorners.AddPlane(ref tests, View(ref memory, i), i, pool);
+        if (tests.Count == 0)
+            return;
+        tests.Execute();
+        memory.Planes.Count = 0;
+        memory.Planes.EnsureCapacity(tests.FoundCount, pool);
+        for (int i = 0; i < tests.FoundCount; ++i)
+            memory.Planes.AddUnsafely(tests[i]);
+        foreach (ref var plane in memory.Planes.AsSpan())
+        {
+            var first = tests.Count;
+            FaceCorners.AddBalls(ref tests, View(ref memory, plane.Owner), plane, pool);
+            memory.Sets[plane.Owner].Tests = new(first, tests.Count - first);
+        }
+        tests.Execute();
+        foreach (ref var plane in memory.Planes.AsSpan())
+            FaceCorners.Take(tests, View(ref memory, plane.Owner), plane);
+    }
+
+    static SeamView View(ref SeamMemory memory, int number) => new(ref memory.Sets[number], memory.Touching.AsSpan());
 
     static void Advance(ref SeamMemory memory, int number, CollisionTaskRegistry registry, BufferPool pool)
     {

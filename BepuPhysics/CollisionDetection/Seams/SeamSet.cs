@@ -46,6 +46,8 @@ unsafe struct SeamSet
     public Foresight Foresight;
     /// <summary>Whether a contact was foreseen: what became of it is of this step alone.</summary>
     public bool HasForeseen;
+    /// <summary>Whether its contacts are those with one plane; see <see cref="FaceCorners"/>.</summary>
+    public bool IsOnPlane;
     /// <summary>What the set is of.</summary>
     public int Owner;
 }

@@ -30,6 +30,8 @@ struct StaticPair
     public bool IsTouching;
     /// <summary>Number of those that move as its B; where bodies agree.</summary>
     public int Group;
+    /// <summary>Whether its B turns; where bodies agree.</summary>
+    public bool IsTurning;
     /// <summary>Place among the children of the body, of a pair of convex shapes.</summary>
     public int Slot;
 
@@ -51,7 +53,7 @@ struct Inheritance
     public ContactPatch Load;
 }
 
-/// <summary>Where the friction of a manifold acts that is a part of a patch on several statics.</summary>
+/// <summary>Where the friction of a manifold acts that is a part of a patch on several things that do not give way.</summary>
 struct SharedFriction
 {
     /// <summary>The pair.</summary>

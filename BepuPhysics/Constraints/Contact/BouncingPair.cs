@@ -37,4 +37,13 @@ struct BouncingPair
     public int NextOfB;
     /// <summary>Place in the queue, or -1.</summary>
     public int QueueIndex;
+
+    /// <summary>Greatest speed at which it was hit in this substep, m/s; zero where it bounces.</summary>
+    public float Stopped;
+
+    /// <summary>
+    /// The gap that is closed in a substep at a speed, m. What does not bounce has come as near as it was fast when it was hit: a body that was turned by the
+    /// impact is not where it would have been turned to, and others may push it on.
+    /// </summary>
+    internal readonly float Reach(float speed, float dt) => (speed + Stopped) * dt;
 }

@@ -15,7 +15,7 @@ struct ContactPrestepWide
 /// <summary>How a bundle of contact patches behaves.</summary>
 struct ContactMaterialWide
 {
-    /// <summary>Coulomb coefficient of the patch.</summary>
+    /// <summary>Coulomb coefficient of the patch; with the sign of <see cref="SharesFriction"/>.</summary>
     public Vector<float> FrictionCoefficient;
     /// <summary>Stiffness of the contacts.</summary>
     public SpringSettingsWide SpringSettings;
@@ -33,6 +33,12 @@ struct ContactMaterialWide
     /// </summary>
     internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
 
+    /// <summary>
+    /// Of two bodies: patches that are a part of one that several bodies bear which nothing moves and which do not turn. Their coefficient is negative; what
+    /// a game gives is not. With one body the place of friction says so.
+    /// </summary>
+    internal readonly Vector<int> SharesFriction => Vector.LessThan(Vector.AsVectorInt32(FrictionCoefficient), Vector<int>.Zero);
+
     /// <summary>Least depth of a contact that touches, m: zero, or less by the band of a held patch, in which depths mean nothing.</summary>
     internal readonly Vector<float> LeastDepth => Wide.Min(SpringSettings.AngularFrequency, Vector<float>.Zero);
 }
@@ -45,7 +51,8 @@ struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<Con
     public TContacts Contacts;
     /// <summary>
     /// Position of B relative to A. With one body: where friction acts, relative to the centre of A, if the patch is a part of one that several statics
-    /// bear; zero where it is not.
+    /// bear; zero where it is not. So it is with two bodies that <see cref="ContactMaterialWide.SharesFriction"/>: what B neither turns nor is turned by
+    /// has no arm.
     /// </summary>
     public Vector3Wide OffsetB;
     /// <summary>Unit normal from B to A.</summary>

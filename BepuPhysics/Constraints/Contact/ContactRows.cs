@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuUtilities;
 
@@ -60,7 +61,12 @@ unsafe readonly ref struct ContactRows
     internal BodyInertia InertiaB => IsFixedB ? default : set.WorldInertias[B];
 
     /// <summary>Coulomb coefficient of the patch.</summary>
-    internal float Friction => processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Friction(contactCount));
+    internal float Friction => MathF.Abs(SignedFriction);
+
+    float SignedFriction => processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Friction(contactCount));
+
+    /// <summary>Whether the place of B is that of friction; see <see cref="ContactMaterialWide.SharesFriction"/>.</summary>
+    bool SharesFriction => B >= 0 && float.IsNegative(SignedFriction);
 
     /// <summary>Greatest speed at which penetration is corrected.</summary>
     internal float MaximumRecoveryVelocity => processor.PrestepFloat(ref batch, index, ContactPrestepLayout.MaximumRecovery(contactCount));
@@ -149,7 +155,7 @@ unsafe readonly ref struct ContactRows
     internal ref float Twist => ref Impulse(ContactPrestepLayout.FrictionImpulse(contactCount) + 3);
 
     /// <summary>Whether <see cref="Twist"/> means anything: a contact that is alone has no lever, but where it shares the friction of several.</summary>
-    internal bool HasTwist => contactCount > 1 || (B < 0 && OffsetB != default);
+    internal bool HasTwist => contactCount > 1 || SharesFriction || (B < 0 && OffsetB != default);
 
     /// <summary>Whether the load path held the patch in the last step.</summary>
     internal bool IsHeld => float.IsNegative(Spring);

@@ -4,8 +4,8 @@ using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
 
-// What other solvers read of a contact: the normals, two rows of friction, and one of twist where there is more than one contact. The coefficients are
-// composed a second time: the kernels are as the JIT likes them. A test steps by these rows and compares with the sweeps.
+// What other solvers read of a contact: the normals, two rows of friction, and one of twist, which does nothing where a contact is alone and has no lever. The
+// coefficients are composed a second time: the kernels are as the JIT likes them. A test steps by these rows and compares with the sweeps.
 readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 {
     static int FirstFriction => TContacts.Count;
@@ -34,9 +34,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     }
 
     static int IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.RowCount =>
-        HasTwist ? TContacts.Count + 3 : 3;
-
-    static bool HasTwist => TContacts.Count > 1 || TBodies.Count == 1;
+        TContacts.Count + 3;
 
     static RowLimit IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>.LimitOf(int row) =>
         row < FirstFriction ? RowLimit.Positive : row < FirstFriction + 2 ? RowLimit.Friction : RowLimit.Twist;
@@ -58,7 +56,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             var arm = patch.Contacts[i].OffsetA;
             WriteJacobian(ref row, n, arm, patch.OffsetB);
             row.Impulse = accumulated.Normals[i];
-            row.Lever = HasTwist ? (arm - center).Length() : Vector<float>.Zero;
+            row.Lever = (arm - center).Length();
             row.PositionError = Displacement(bodies, row) - patch.Contacts[i].Depth;
             row.MaximumImpulse = new(float.PositiveInfinity);
             row.HardMask = Vector.LessThanOrEqual(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
@@ -66,17 +64,16 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             load += row.Impulse;
             moment += row.Impulse * row.Lever;
         }
-        var coefficient = patch.Material.FrictionCoefficient;
+        var coefficient = Coefficient(ref patch);
         Vector3Wide.BuildOrthonormalBasis(n, out var x, out var y);
         WriteFriction(ref rows[FirstFriction], Vector3Wide.Dot(accumulated.Friction, x), coefficient, load);
         WriteJacobian(ref rows[FirstFriction], x, center, patch.OffsetB);
         WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);
         WriteJacobian(ref rows[FirstFriction + 1], y, center, patch.OffsetB);
-        if (!HasTwist)
-            return;
         ref var twist = ref rows[FirstFriction + 2];
-        var isThere = TContacts.Count > 1 ? new Vector<int>(-1) : JoinsFriction(ref patch);
-        WriteFriction(ref twist, Wide.Mask(isThere, accumulated.Twist), coefficient, moment);
+        WriteFriction(ref twist, accumulated.Twist, coefficient, moment);
+        if (TContacts.Count == 1)
+            twist.MassScale = Wide.Mask(JoinsFriction(ref patch), twist.MassScale);
         twist.A.Angular = n;
         if (TBodies.Count > 1)
             twist.B.Angular = -n;
@@ -89,8 +86,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             impulses.Normals[i] = Wide.Select(lanes, rows[i], impulses.Normals[i]);
         Vector3Wide.BuildOrthonormalBasis(prestep.Normal, out var x, out var y);
         impulses.Friction = Vector3Wide.Select(lanes, x * rows[FirstFriction] + y * rows[FirstFriction + 1], impulses.Friction);
-        if (HasTwist)
-            impulses.Twist = Wide.Select(lanes, rows[FirstFriction + 2], impulses.Twist);
+        impulses.Twist = Wide.Select(lanes, rows[FirstFriction + 2], impulses.Twist);
     }
 
     // An impulse along a direction at an arm from A, and the opposite on B.

@@ -10,7 +10,8 @@ namespace BepuPhysics.Constraints.Contact;
 // Friction rows   at the patch centre c, along two tangents                                  |f| <= mu sum(lambda_i)   (Coulomb, for the patch)
 // Twist row       J = [ 0, n, 0, -n ]                                                       |t| <= mu sum(lambda_i |c - c_i|)
 // A patch that lies on several statics side by side has a constraint for each. All of them have friction at the centre of the whole, so that theirs add up to
-// that of one patch on one static; there a single contact has a lever, and twist, too.
+// that of one patch on one static; there a single contact has a lever, and twist, too. So has one on kinematic bodies that do not turn: these have an arm that
+// makes no difference, in whose place the centre is written.
 // Friction is bounded by the sum of the normal impulses, so it does not depend on how many contacts represent the patch, and it is
 // solved after them, so that it knows the load of this very sweep.
 //
@@ -50,7 +51,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(ref prestep), impulses.Friction);
         if (TContacts.Count > 1)
             angularA += prestep.Normal * impulses.Twist;
-        else if (TBodies.Count == 1)
+        else
             WarmStartLoneTwist(ref prestep, impulses.Twist, ref angularA);
         ref var a = ref BodySlots.At(ref bodies, 0);
         a.Linear += linear * a.InverseMass;
@@ -83,15 +84,16 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             load += impulses.Normals[i];
         }
         var center = PatchCenter(ref prestep);
-        SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, prestep.Material.FrictionCoefficient * load, ref impulses.Friction);
+        var coefficient = Coefficient(ref prestep);
+        SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, coefficient * load, ref impulses.Friction);
         if (TContacts.Count > 1)
         {
             var moment = Vector<float>.Zero;
             for (int i = 0; i < TContacts.Count; ++i)
                 moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();
-            SolveTwist(ref bodies, prestep.Normal, prestep.Material.FrictionCoefficient * moment, ref impulses.Twist);
+            SolveTwist(ref bodies, prestep.Normal, coefficient * moment, ref impulses.Twist);
         }
-        else if (TBodies.Count == 1)
+        else
             SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
     }
 
@@ -111,16 +113,26 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var joins = JoinsFriction(ref prestep);
         if (joins == Vector<int>.Zero)
             return;
-        var before = BodySlots.At(ref bodies, 0).Angular;
+        // What B is moved by in the lanes that join is nothing, and in the others left.
+        ref var angular = ref BodySlots.At(ref bodies, 0).Angular;
+        var before = angular;
+        var angularB = TBodies.Count > 1 ? BodySlots.At(ref bodies, 1).Angular : default;
+        var solved = twist;
         var lever = (prestep.Contacts[0].OffsetA - center).Length();
-        SolveTwist(ref bodies, prestep.Normal, Wide.Mask(joins, prestep.Material.FrictionCoefficient * load * lever), ref twist);
-        ref var after = ref BodySlots.At(ref bodies, 0).Angular;
-        after = Vector3Wide.Select(joins, after, before);
+        SolveTwist(ref bodies, prestep.Normal, Wide.Mask(joins, Coefficient(ref prestep) * load * lever), ref solved);
+        angular = Vector3Wide.Select(joins, angular, before);
+        if (TBodies.Count > 1)
+            BodySlots.At(ref bodies, 1).Angular = angularB;
+        twist = Wide.Select(joins, solved, twist);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> JoinsFriction(ref ConvexContactPrestepWide<TContacts> prestep) =>
-        Vector.GreaterThan(prestep.OffsetB.LengthSquared(), Vector<float>.Zero);
+    static Vector<int> JoinsFriction(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
+        ? prestep.Material.SharesFriction : Vector.GreaterThan(prestep.OffsetB.LengthSquared(), Vector<float>.Zero);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Coefficient(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
+        ? Wide.Abs(prestep.Material.FrictionCoefficient) : prestep.Material.FrictionCoefficient;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveNormal(
@@ -277,10 +289,14 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     }
 
     // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did; of a patch on several statics,
-    // at that of the whole.
+    // at that of the whole. Two bodies rarely have one.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep) => TBodies.Count > 1
-        ? OwnCenter(ref prestep) : Vector3Wide.Select(JoinsFriction(ref prestep), prestep.OffsetB, OwnCenter(ref prestep));
+    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep)
+    {
+        var own = OwnCenter(ref prestep);
+        var joins = JoinsFriction(ref prestep);
+        return TBodies.Count > 1 && joins == Vector<int>.Zero ? own : Vector3Wide.Select(joins, prestep.OffsetB, own);
+    }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector3Wide OwnCenter(ref ConvexContactPrestepWide<TContacts> prestep)

@@ -65,7 +65,7 @@ ref struct PairImpact
         {
             var row = contacts.NormalRow(i);
             var velocity = row.Along(contacts.VelocityA, contacts.VelocityB);
-            if (!(contacts.Gap(i, row) + MathHelper.Min(velocity, 0) * dt <= 0))
+            if (!(contacts.Gap(i, row) - pair.Reach(MathHelper.Max(-velocity, 0), dt) <= 0))
                 continue;
             arms[impact.count] = contacts.Arm(i);
             impact.Add(row, velocity - row.Along(pair.GainA, pair.GainB) * notYet);

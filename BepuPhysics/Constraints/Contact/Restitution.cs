@@ -125,6 +125,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
                 pair.GainA = Difference(contacts.VelocityA, pair.GainA);
                 pair.GainB = Difference(contacts.VelocityB, pair.GainB);
             }
+            pair.Stopped = 0;
             Predict(ref pair, contacts, substep.Dt);
             // Whichever block writes it writes the same.
             if (pair.Time < BouncingPair.Never || pair.Overlaps)
@@ -155,9 +156,11 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
                 pair.Overlaps = true;
                 pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(0, speed) * dt - gap);
             }
-            if (!(speed > 0) || !(gap <= speed * dt) || !(speed > RestingSpeed(pair, contacts, row)))
+            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, row)))
                 continue;
             var time = MathHelper.Max(earliest, gap / speed);
+            if (pair.Stopped > 0)
+                time = MathHelper.Min(time, dt);
             if (!(time < pair.Time))
                 continue;
             pair.Time = time;
@@ -212,6 +215,8 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         {
             ref var pair = ref pairs[queue.First];
             ++pair.ImpactCount;
+            if (pair.Coefficient == 0)
+                pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
             var contacts = Contacts(pair);
             PairImpact.Find(contacts, pair, dt, out var changeA, out var changeB);
             pair.Impulse += NormalImpulse(contacts, changeA, changeB);

@@ -39,12 +39,10 @@ public class SeamMotionTests(ITestOutputHelper output)
         }
     }
 
-    // What is not yet as it should be. Slowing down from 20 m/s what stands is tilted, and hops by 7 mm/s on boxes; by 17 and 36 mm/s where triangles know
-    // of no neighbours, as those of a mesh do. A mover of two boxes on a floor of boxes may still hit one.
+    // What is not yet as it should be. Slowing down from 20 m/s a cylinder that stands is tilted, and hops by 8 mm/s on boxes; by 36 mm/s where triangles
+    // know of no neighbours, as those of a mesh do.
     static bool IsBeyond(SeamFloor floor, SeamMover mover, float friction, float speed) =>
-        (friction > 0 && speed == 20 && (
-            (floor == SeamFloor.Boxes && mover == SeamMover.StandingCylinder) ||
-            (floor == SeamFloor.LooseTriangles && mover is (SeamMover.StandingCylinder or SeamMover.Hull))));
+        friction > 0 && speed == 20 && mover == SeamMover.StandingCylinder && floor is (SeamFloor.Boxes or SeamFloor.LooseTriangles);
 
     void Compare(SeamFloor floor, SeamMover mover, float friction, float speed)
     {

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -46,7 +47,8 @@ unsafe struct LoadSupport
         Count = link.Count;
         Open = link.Open;
         Sign = link.IsUpperA ? 1 : -1;
-        Friction = Number(link.Prestep, ContactPrestepLayout.Friction(Count));
+        var friction = Number(link.Prestep, ContactPrestepLayout.Friction(Count));
+        Friction = MathF.Abs(friction);
         Normal = Three(link.Prestep, ContactPrestepLayout.Normal(Count)) * Sign;
         var offsetB = Three(link.Prestep, ContactPrestepLayout.OffsetB(Count));
         ToLower = offsetB * Sign;
@@ -64,7 +66,7 @@ unsafe struct LoadSupport
             touching += Arms[i];
             ++touches;
         }
-        if (!link.HasTwoBodies && offsetB != default)
+        if (link.HasTwoBodies ? float.IsNegative(friction) : offsetB != default)
             Center = offsetB;
         else
             Center = touches > 0 ? touching * (1f / touches) : all * (1f / Count);
