@@ -43,14 +43,14 @@ public sealed partial class Simulation
     }
 
     /// <summary>Puts islands to sleep that have rested long enough: reads rest and velocities.</summary>
-    /// <param name="threadDispatcher">Kept for callers: it takes less than a dispatch.</param>
+    /// <param name="threadDispatcher">Threads to use; null for the calling thread alone.</param>
     public void Sleep(IThreadDispatcher? threadDispatcher = null)
     {
         using var stage = world.Stage(operation: "Simulation.Sleep");
         if (NarrowPhase.IsAtRest)
             return;
         using var timer = Profiler.Time(Sleeper);
-        Sleeper.Update();
+        Sleeper.Update(threadDispatcher);
     }
 
     /// <summary>Bodies to bounds that contain their motion: reads poses and velocities, writes bounds and speculative margins.</summary>

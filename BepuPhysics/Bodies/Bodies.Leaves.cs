@@ -3,6 +3,7 @@ using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
@@ -47,28 +48,40 @@ public sealed unsafe partial class Bodies
         leaf = -1;
     }
 
-    /// <summary>Moves the leaf of a body that was put into another set from the tree where it was to that of its set.</summary>
-    internal void ChangeTree(ref BodySet set, int index)
+    /// <summary>Makes room for the leaves of bodies that fall asleep.</summary>
+    internal void ReserveStaticLeaves(int count)
     {
-        ref var leaf = ref set.Collidables[index].BroadPhaseIndex;
+        var needed = broadPhase.StaticTree.LeafCount + count;
+        if (needed > broadPhase.StaticTree.Leaves.Length)
+            broadPhase.MakeRoomFor(0, Math.Max(needed, 2 * broadPhase.StaticTree.LeafCount));
+    }
+
+    /// <summary>Moves the leaf of a body that is awake, and about to sleep, to the static tree. Before the body itself.</summary>
+    /// <param name="slot">The body.</param>
+    /// <param name="scratch">Pool for the time of the call; there is room for the leaf.</param>
+    internal void MoveLeafToStaticTree(int slot, BufferPool scratch)
+    {
+        var index = Locations[slot].Index;
+        ref var leaf = ref Awake.Collidables[index].BroadPhaseIndex;
         if (leaf < 0)
             return;
-        Vector3* min, max;
-        if (set.IsAsleep)
-        {
-            broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
-            var bounds = new BoundingBox(*min, *max);
-            RemoveFromBroadPhase(ref set, index);
-            leaf = broadPhase.AddStaticLeaf(ReferenceAt(set, index), bounds);
-        }
-        else
-        {
-            broadPhase.GetStaticBoundsPointers(leaf, out min, out max);
-            var bounds = new BoundingBox(*min, *max);
-            if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
-                FollowStaticLeaf(moved, leaf);
-            leaf = broadPhase.AddActiveLeaf(ReferenceAt(set, index), bounds);
-        }
+        broadPhase.GetActiveBoundsPointers(leaf, out var min, out var max);
+        var bounds = new BoundingBox(*min, *max);
+        RemoveFromBroadPhase(ref Awake, index);
+        leaf = broadPhase.AddStaticLeaf(ReferenceAt(Awake, index), bounds, scratch);
+    }
+
+    // Of a body that has woken.
+    void MoveLeafToActiveTree(int index)
+    {
+        ref var leaf = ref Awake.Collidables[index].BroadPhaseIndex;
+        if (leaf < 0)
+            return;
+        broadPhase.GetStaticBoundsPointers(leaf, out var min, out var max);
+        var bounds = new BoundingBox(*min, *max);
+        if (broadPhase.RemoveStaticLeafAt(leaf, out var moved))
+            FollowStaticLeaf(moved, leaf);
+        leaf = broadPhase.AddActiveLeaf(ReferenceAt(Awake, index), bounds);
     }
 
     /// <summary>Follows a leaf of the static tree, a static's or a sleeping body's, that has another index now.</summary>

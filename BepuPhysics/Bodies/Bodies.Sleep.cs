@@ -41,7 +41,7 @@ public sealed partial class Bodies
     /// <summary>Handle of the body that has a slot.</summary>
     internal BodyHandle HandleAt(int slot) => new(owners.ValueAt(slot));
 
-    /// <summary>Moves a body of the active set among those that sleep, without its constraints, and stops it.</summary>
+    /// <summary>Moves a body of the active set among those that sleep, without its constraints and its leaf, and stops it.</summary>
     internal int PutToSleep(int slot)
     {
         var index = Locations[slot].Index;
@@ -50,7 +50,6 @@ public sealed partial class Bodies
         var added = Asleep.Append(Awake, index);
         Asleep.MotionStates[added].Velocity = default;
         Locations[slot] = new() { SetIndex = AsleepSet, Index = added };
-        ChangeTree(ref Asleep, added);
         Awake.RemoveAt(index);
         if (index < Awake.Count)
         {
@@ -71,7 +70,7 @@ public sealed partial class Bodies
         // By this a kinematic body is known to be where the last step has left it, or not.
         Awake.Origins[added].Position = Awake.SoundPoses[added].Position;
         Locations[slot] = new() { SetIndex = 0, Index = added };
-        ChangeTree(ref Awake, added);
+        MoveLeafToActiveTree(added);
         Asleep.RemoveAt(index);
         if (index < Asleep.Count)
             Locations[Asleep.IndexToHandle[index].Slot].Index = index;

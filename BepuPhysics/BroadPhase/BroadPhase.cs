@@ -83,20 +83,23 @@ public sealed unsafe partial class BroadPhase : IDisposable
         return AddStaticLeaf(collidable, bounds);
     }
 
-    internal int AddStaticLeaf(CollidableReference collidable, BoundingBox bounds)
+    /// <param name="collidable">A static, or a body that falls asleep.</param>
+    /// <param name="bounds">Its bounds.</param>
+    /// <param name="scratch">Pool for the time of the call, where there is room for the leaf; null for that of the broad phase.</param>
+    internal int AddStaticLeaf(CollidableReference collidable, BoundingBox bounds, BufferPool? scratch = null)
     {
-        var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves);
+        var index = Add(collidable, bounds, ref StaticTree, ref StaticLeaves, scratch);
         upkeep.Note(collidable);
         return index;
     }
 
-    int Add(CollidableReference collidable, BoundingBox bounds, ref Tree tree, ref Buffer<CollidableReference> leaves)
+    int Add(CollidableReference collidable, BoundingBox bounds, ref Tree tree, ref Buffer<CollidableReference> leaves, BufferPool? scratch = null)
     {
         // All memory before the first change.
         if (tree.LeafCount == tree.Leaves.Length)
             tree.EnsureCapacity(Math.Max(16, tree.LeafCount * 2), Pool);
         FitLeaves(tree, ref leaves);
-        var index = tree.Add(bounds, Pool);
+        var index = tree.Add(bounds, scratch ?? Pool);
         leaves[index] = collidable;
         return index;
     }

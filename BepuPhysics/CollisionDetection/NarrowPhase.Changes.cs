@@ -3,7 +3,6 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities;
-using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
@@ -15,10 +14,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Below so many constraints that move or are new a dispatch costs as much as it saves.
     const int LeastForThreads = 128;
 
-    // So many of the notes, from the first on, have their constraint.
-    int appliedCount;
-    // Whether the flush leaves what constraints hold until all are in place. What is done is the same.
+    // Whether the flush says first which constraints there are, and all that follows from it comes later. What is done is the same.
     bool leavesColumns;
+    int noteCount;
     // Whether what a constraint holds is read where a change is noted, which many threads do; otherwise the flush reads it.
     bool readsEarly;
 
@@ -40,9 +38,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (Simulation.Events.UsesSensors)
             GatherSensed();
-        var noteCount = CountNotes();
-        leavesColumns = LeavesColumns(dispatcher, noteCount);
-        appliedCount = 0;
+        noteCount = CountNotes();
+        leavesColumns = LeavesColumns(dispatcher);
         MakeRoomForNew(noteCount - PairCount);
         if (leavesColumns && !readsEarly)
             ReadOld();
@@ -55,28 +52,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             for (int i = 0; i < workers.Length; ++i)
                 Gather(ref workers[i].Pending, i);
             SortByKey();
-            if (Simulation.Bodies.Asleep.Count != 0)
+            if (RequestTouched())
             {
                 // Constraints that wake are whole at once, and those that are replaced are read before others move.
-                FinishColumns(dispatcher);
+                FinishColumns(dispatcher, appliesNotes: false);
                 WakeTouched();
                 BeginColumns();
             }
-            for (; appliedCount < order.Count; ++appliedCount)
-            {
-                PrefetchPending(appliedCount);
-                Apply(ref order[appliedCount]);
-            }
+            if (!leavesColumns)
+                ApplyNow();
         }
         finally
         {
-            FinishColumns(dispatcher);
+            FinishColumns(dispatcher, appliesNotes: true);
         }
         WatchBouncingPairs();
     }
 
     // Whether what constraints hold waits: for many threads, or because so many are new that the memory of all doubles, which then need not be copied.
-    bool LeavesColumns(IThreadDispatcher? dispatcher, int noteCount) =>
+    bool LeavesColumns(IThreadDispatcher? dispatcher) =>
         noteCount >= LeastForThreads && (dispatcher is { ThreadCount: > 1 } || noteCount > PairCount);
 
     int CountNotes()
@@ -99,22 +93,34 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void BeginColumns()
     {
         if (leavesColumns)
-            Simulation.Solver.BeginDeferral();
+            Simulation.Solver.BeginDeferral(noteCount);
     }
 
-    void FinishColumns(IThreadDispatcher? dispatcher)
+    void FinishColumns(IThreadDispatcher? dispatcher, bool appliesNotes)
     {
         if (!leavesColumns)
             return;
-        Simulation.Solver.PrepareDeferred();
-        var work = new WriteWork { NarrowPhase = this };
-        StagedWork.Run(ref work, dispatcher);
-        Simulation.Solver.EndDeferral();
+        var work = new ChangeWork { NarrowPhase = this, ThreadCount = dispatcher?.ThreadCount ?? 1 };
+        try
+        {
+            if (appliesNotes && order.Count > 0)
+                Pool.TakeAtLeast(order.Count, out work.Targets);
+            StagedWork.Run(ref work, dispatcher);
+        }
+        finally
+        {
+            if (work.Targets.Allocated)
+                Pool.Return(ref work.Targets);
+            Simulation.Solver.EndDeferral();
+        }
+        work.Failure?.Throw();
     }
 
     // Who is touched is in the solver in this very step.
-    void WakeTouched()
+    bool RequestTouched()
     {
+        if (Simulation.Bodies.Asleep.Count == 0)
+            return false;
         var awakener = Simulation.Awakener;
         awakener.BeginRequests();
         awakener.RequestHeldByMovingKinematics();
@@ -127,7 +133,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (pending.Pair.B.Mobility != CollidableMobility.Static)
                 awakener.Request(pending.Pair.B.Slot);
         }
-        if (awakener.WakeRequested())
+        return awakener.HasRequests;
+    }
+
+    void WakeTouched()
+    {
+        if (Simulation.Awakener.WakeRequested())
             ReadOld();
     }
 
@@ -206,98 +217,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         pending.Old = worker.Old.Count - 1;
         new ContactConstraint(Simulation.Solver, manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId))
             .ReadPatch(manifold.Features, out worker.Old[pending.Old]);
-    }
-
-    // The structure alone: which constraints there are, and where. What they hold is written when all are there.
-    void Apply(ref NoteKey note)
-    {
-        ref var worker = ref workers[note.Worker];
-        ref var pending = ref worker.Pending[note.Index];
-        var ofChildren = pending.Children != ChildIds.None;
-        var index = Pairs.FindOrAdd(pending.Pair, ofChildren, Pool);
-        ref var cached = ref Pairs.Pairs.Values[index];
-        if (cached.IsOfChildren != ofChildren)
-        {
-            // One of the two has a shape of another kind now.
-            RemoveConstraints(index);
-            Pairs.Empty(ref cached, ofChildren, Pool);
-        }
-        ref var manifold = ref cached.Single;
-        var place = index;
-        if (ofChildren)
-        {
-            place = Pairs.FindOrAddIndex(ref cached, pending.Children, Pool);
-            ref var record = ref Pairs.Manifolds.Memory[place];
-            manifold = ref record.Manifold;
-            if (pending.Children.IsPatch)
-                record.Patch.Write(pending.Manifold);
-        }
-        if (pending.KeepsParentHistory && cached.Single.History < 0)
-            cached.Single.History = Pairs.Parents.Take(Pool);
-        if (pending.KeepsHistory && manifold.History < 0)
-            manifold.History = Pairs.Histories.Take(Pool);
-        var contactCount = pending.Manifold.Count;
-        var old = PendingManifold.NotRead;
-        if (manifold.HasConstraint)
-        {
-            if (pending.Old == PendingManifold.NotRead && contactCount > 0 && pending.Inherited == StaticPairs.Nothing)
-            {
-                Check.That(!leavesColumns);
-                Read(ref worker, ref pending, manifold);
-            }
-            old = pending.Old;
-            RemoveConstraint(ref cached, ref manifold);
-        }
-        note.SetNothing();
-        if (contactCount == 0)
-            return;
-        AddConstraint(pending.Pair, ConstraintType(pending.Pair, contactCount), ref cached, ref manifold);
-        pending.Old = old;
-        note.SetConstraint(manifold.Constraint, place);
-        if (!leavesColumns)
-            WriteAdded(note);
-    }
-
-    // First the constraints that have moved, then those that are new. Each of these has a lane of its own, so it does not matter who writes which when.
-    struct WriteWork : IStagedWork
-    {
-        const int PerBlock = 32;
-
-        public NarrowPhase<TCallbacks> NarrowPhase;
-
-        public readonly int StageCount => 2;
-        public readonly int GetBlockCount(int stage) =>
-            stage == 0 ? NarrowPhase.Simulation.Solver.DeferredBatchCount : (NarrowPhase.appliedCount + PerBlock - 1) / PerBlock;
-
-        public readonly void Execute(int stage, int block, int workerIndex)
-        {
-            NarrowPhase.World.MarkWorker();
-            if (stage == 0)
-            {
-                NarrowPhase.Simulation.Solver.DoDeferred(block);
-                return;
-            }
-            var end = Math.Min((block + 1) * PerBlock, NarrowPhase.appliedCount);
-            for (int i = block * PerBlock; i < end; ++i)
-                NarrowPhase.WriteAdded(NarrowPhase.order[i]);
-        }
-    }
-
-    void WriteAdded(in NoteKey note)
-    {
-        if (!note.HasConstraint)
-            return;
-        ref var worker = ref workers[note.Worker];
-        ref var pending = ref worker.Pending[note.Index];
-        ContactPatch none = default;
-        ref var old = ref none;
-        if (pending.Inherited != StaticPairs.Nothing)
-            old = ref worker.Statics.Inheritances[pending.Inherited].Load;
-        else if (pending.Old != PendingManifold.NotRead)
-            old = ref worker.Old[pending.Old];
-        ref var manifold = ref pending.Children == ChildIds.None ? ref Pairs.Pairs.Values[note.Place].Single : ref Pairs.Manifolds.Memory[note.Place].Manifold;
-        new ContactConstraint(Simulation.Solver, note.Constraint, pending.Manifold.Count)
-            .WriteNew(ref old, pending.Manifold, pending.Material, pending.FrictionCenter, ref manifold.Features);
     }
 
     void WatchBouncingPairs()

@@ -289,7 +289,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var cached = ref Pairs.Pairs.Values[index];
             ref var manifold = ref Pairs.FindOrAdd(ref cached, gone.Children, Pool).Manifold;
             if (manifold.HasConstraint)
-                RemoveConstraint(ref cached, ref manifold);
+                RemoveConstraint(gone.Pair, ref cached, ref manifold);
             Pairs.Remove(index, gone.Children, Pool);
         }
     }

@@ -55,13 +55,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
         /// <summary>Whether a constraint was added for it: it has a place then instead of its key, which nobody needs any more.</summary>
         public readonly bool HasConstraint => (uint)Key != Nothing;
-        /// <summary>The constraint that was added.</summary>
-        public readonly ConstraintHandle Constraint => new((int)Key);
+        /// <summary>Its number (<see cref="Solver.AddLater"/>), or its handle where it was added at once.</summary>
+        public readonly int Number => (int)Key;
         /// <summary>Place of the pair, or of the manifold of two children, where it is remembered what its contacts are called.</summary>
         public readonly int Place => (int)(Key >> 32);
 
         public void SetNothing() => Key = Nothing;
-        public void SetConstraint(ConstraintHandle constraint, int place) => Key = (ulong)place << 32 | (uint)constraint.Value;
+        public void SetConstraint(int number, int place) => Key = (ulong)place << 32 | (uint)number;
     }
 
     // By slots alone: whether these were others' before must not change the order. The notes of one pair are one worker's, which has made

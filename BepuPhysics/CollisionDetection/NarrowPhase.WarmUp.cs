@@ -26,7 +26,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OverlapFinder.Compile<LayeredOverlaps>();
         }
         StagedWork.Compile<FlushWork>();
-        StagedWork.Compile<WriteWork>();
+        StagedWork.Compile<ChangeWork>();
         StagedWork.Compile<SeamWork>();
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<ContactPatch>));

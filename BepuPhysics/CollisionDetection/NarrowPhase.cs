@@ -176,23 +176,45 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         foreach (ref var manifold in Pairs.ManifoldsOf(index))
         {
             if (manifold.HasConstraint)
-                RemoveConstraint(ref Pairs.Pairs.Values[index], ref manifold);
+                RemoveConstraint(Pairs.Pairs.Keys[index], ref Pairs.Pairs.Values[index], ref manifold);
         }
     }
 
     /// <summary>Removes the constraint of a manifold, which has one.</summary>
-    private protected void RemoveConstraint(ref CachedPair cached, ref CachedManifold manifold)
+    private protected void RemoveConstraint(in CollidablePair pair, ref CachedPair cached, ref CachedManifold manifold)
     {
-        Simulation.Solver.RemoveWithoutNotice(manifold.Constraint);
+        if (Simulation.Solver.Defers)
+            Simulation.Solver.RemoveLater(manifold.Constraint, EndsOf(pair));
+        else
+            Simulation.Solver.RemoveWithoutNotice(manifold.Constraint);
         manifold.ConstraintTypeId = CachedManifold.NoConstraint;
         CountConstraint(ref cached, -1);
     }
 
-    /// <summary>Adds the constraint of a manifold, which has none.</summary>
-    private protected void AddConstraint(in CollidablePair pair, int typeId, ref CachedPair cached, ref CachedManifold manifold)
+    // Of one that is removed it does not matter who is kinematic.
+    ContactEnds EndsOf(in CollidablePair pair)
     {
-        Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
-        var handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
+        var locations = Simulation.Bodies.Locations;
+        var reference = pair.B.Mobility == CollidableMobility.Static ? -1 : locations[pair.B.Slot].Index;
+        return new(pair.A.Slot, locations[pair.A.Slot].Index, pair.B.Slot, reference);
+    }
+
+    /// <summary>Adds the constraint of a manifold, which has none.</summary>
+    /// <returns>Its number, if it is added later, otherwise its handle.</returns>
+    private protected int AddConstraint(in CollidablePair pair, in ContactEnds ends, int typeId, ref CachedPair cached, ref CachedManifold manifold)
+    {
+        ConstraintHandle handle;
+        int number;
+        if (Simulation.Solver.Defers)
+        {
+            handle = Simulation.Solver.AddLater(ends, typeId, out number);
+        }
+        else
+        {
+            Span<BodyHandle> bodies = [pair.A.BodyHandle, pair.B.BodyHandle];
+            handle = Simulation.Solver.AddUnwritten(pair.B.Mobility == CollidableMobility.Static ? bodies[..1] : bodies, typeId);
+            number = handle.Value;
+        }
         if (handle.Slot >= pairOfConstraint.Length)
             Pool.ResizeToAtLeast(ref pairOfConstraint, Math.Max(256, handle.Slot * 2), pairOfConstraint.Length);
         pairOfConstraint[handle.Slot] = pair;
@@ -201,6 +223,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         CountConstraint(ref cached, 1);
         if (Simulation.Events.IsUsed)
             Simulation.Events.NoteContacts(pair);
+        return number;
     }
 
     // A pair has contacts from its first constraint to its last.

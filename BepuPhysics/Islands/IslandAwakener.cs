@@ -122,6 +122,9 @@ public sealed unsafe class IslandAwakener
         }
     }
 
+    /// <summary>Whether islands are listed that are to wake.</summary>
+    internal bool HasRequests => requests.Count > 0;
+
     /// <summary>Begins to list islands that are to wake.</summary>
     internal void BeginRequests() => requests.Count = 0;
 

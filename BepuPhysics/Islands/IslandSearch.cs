@@ -42,6 +42,9 @@ readonly unsafe struct IslandSearch
     /// <summary>Whether there are more than are given.</summary>
     internal readonly bool HasMore;
 
+    /// <summary>Number of bodies of all islands that are given.</summary>
+    internal readonly int BodyCount => starts[Count];
+
     /// <summary>Slots of the bodies of an island.</summary>
     internal readonly ReadOnlySpan<int> SlotsOf(int island) => new(slots.Memory + starts[island], starts[island + 1] - starts[island]);
 

@@ -40,7 +40,7 @@ public sealed unsafe class IslandSleeper
     }
 
     /// <summary>Puts islands to sleep, if there are such as may.</summary>
-    internal void Update()
+    internal void Update(IThreadDispatcher? dispatcher)
     {
         var ripeCount = bodies.RipeCount;
         if (ripeCount != ripeInVain)
@@ -60,16 +60,7 @@ public sealed unsafe class IslandSleeper
         pool.TakeAtLeast<RestKind>(Math.Max(1, bodies.Awake.Count), out var kinds);
         Classify(kinds, ref kinematics);
         var search = new IslandSearch(bodies, solver, kinds, limit, pool);
-        int asleep = 0;
-        for (int i = 0; i < search.Count; ++i)
-        {
-            var slots = search.SlotsOf(i);
-            // Who is no number is looked at here, where few are looked at, and keeps its island awake.
-            if (!AreSound(slots))
-                continue;
-            islands.PutToSleep(slots);
-            asleep += slots.Length;
-        }
+        var asleep = PutToSleep(search, dispatcher);
         var hasMore = search.HasMore;
         search.Dispose(pool);
         pool.Return(ref kinds);
@@ -78,6 +69,30 @@ public sealed unsafe class IslandSleeper
         stepsToWait = hasMore ? 0 : asleep > 0 ? StepsAfterFinding : StepsInVain;
         ripeInVain = asleep > 0 || hasMore ? 0 : ripeCount;
         stepsInVain = 0;
+    }
+
+    int PutToSleep(in IslandSearch search, IThreadDispatcher? dispatcher)
+    {
+        if (search.Count == 0)
+            return 0;
+        var slots = new QuickList<int>(search.BodyCount, pool);
+        var ends = new QuickList<int>(search.Count, pool);
+        for (int i = 0; i < search.Count; ++i)
+        {
+            var island = search.SlotsOf(i);
+            // Who is no number is looked at here, where few are looked at, and keeps its island awake.
+            if (!AreSound(island))
+                continue;
+            foreach (var slot in island)
+                slots.AddUnsafely(slot);
+            ends.AddUnsafely(slots.Count);
+        }
+        var count = slots.Count;
+        if (count > 0)
+            islands.PutToSleep(slots.AsSpan(), ends.AsSpan(), dispatcher);
+        slots.Dispose(pool);
+        ends.Dispose(pool);
+        return count;
     }
 
     // What a game has written since the last step counts: a body that was given a velocity rests no more.
@@ -113,7 +128,7 @@ public sealed unsafe class IslandSleeper
                 hasMore = true;
                 return;
             }
-            islands.PutToSleep(slots.Slice(i, 1));
+            islands.PutToSleep(slots.Slice(i, 1), [1]);
             ++asleep;
         }
     }
@@ -150,11 +165,8 @@ public sealed unsafe class IslandSleeper
             for (int i = 0; i < found.Count; ++i)
                 CheckSound(found[i]);
             for (int i = 0, start = 0; i < ends.Count; start = ends[i++])
-            {
-                var island = found.Span.AsSpan()[start..ends[i]];
-                island.Sort();
-                islands.PutToSleep(island);
-            }
+                found.AsSpan()[start..ends[i]].Sort();
+            islands.PutToSleep(found.AsSpan(), ends.AsSpan());
         }
         finally
         {

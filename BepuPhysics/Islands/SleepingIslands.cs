@@ -1,8 +1,10 @@
 using System;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
+using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
 
@@ -23,6 +25,11 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
         public int Count;
     }
 
+    // Fewer bodies fall asleep in less time than a dispatch takes.
+    const int LeastForThreads = 128;
+
+    readonly Bodies bodies = bodies;
+    readonly BufferPool pool = pool;
     IdPool ids;
     Buffer<Island> islands;
     QuickList<int> slots = new(64, pool);
@@ -38,13 +45,53 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
     /// <summary>Lowest slot of an island's bodies; negative if the island has woken.</summary>
     internal int LowestSlotOf(int island) => islands[island].Count > 0 ? islands[island].LowestSlot : -1;
 
-    /// <summary>Puts bodies of the active set to sleep together.</summary>
-    /// <param name="island">Their slots, in ascending order: an island of dynamic bodies, or a kinematic body none of whose constraints is awake.</param>
-    internal void PutToSleep(ReadOnlySpan<int> island)
+    /// <summary>Puts islands of the active set to sleep: constraints and pairs beside leaves, then bodies.</summary>
+    /// <param name="all">
+    /// Slots of one island after the other, in ascending order in each: an island of dynamic bodies, or a kinematic body none of whose constraints is awake.
+    /// </param>
+    /// <param name="ends">Where each island ends.</param>
+    /// <param name="dispatcher">The threads; null for the caller alone.</param>
+    internal void PutToSleep(ReadOnlySpan<int> all, ReadOnlySpan<int> ends, IThreadDispatcher? dispatcher = null)
     {
-        foreach (var slot in island)
-            PutConstraintsToSleep(slot);
-        bodies.Asleep.ReserveAsleep(bodies.Asleep.Count + island.Length, bodies.Pool);
+        bodies.Asleep.ReserveAsleep(bodies.Asleep.Count + all.Length, bodies.Pool);
+        bodies.ReserveStaticLeaves(all.Length);
+        fixed (int* slots = all)
+        {
+            var work = new SleepWork { Islands = this, Slots = slots, Count = all.Length, Dispatcher = dispatcher };
+            StagedWork.Run(ref work, all.Length < LeastForThreads ? null : dispatcher);
+        }
+        for (int i = 0, start = 0; i < ends.Length; start = ends[i++])
+            PutBodiesToSleep(all[start..ends[i]]);
+    }
+
+    // Constraints and pairs know nothing of leaves, and each of the two goes in one order.
+    struct SleepWork : IStagedWork
+    {
+        public SleepingIslands Islands;
+        public int* Slots;
+        public int Count;
+        public IThreadDispatcher? Dispatcher;
+
+        public readonly int StageCount => 1;
+        public readonly int GetBlockCount(int stage) => 2;
+
+        public readonly void Execute(int stage, int block, int workerIndex)
+        {
+            if (block == 0)
+            {
+                for (int i = 0; i < Count; ++i)
+                    Islands.PutConstraintsToSleep(Slots[i]);
+                return;
+            }
+            // Not the pool that constraints take their memory from at the same time.
+            var scratch = Dispatcher is null ? Islands.pool : Dispatcher.WorkerPools[workerIndex];
+            for (int i = 0; i < Count; ++i)
+                Islands.bodies.MoveLeafToStaticTree(Slots[i], scratch);
+        }
+    }
+
+    void PutBodiesToSleep(ReadOnlySpan<int> island)
+    {
         var id = Add(island[0], island.Length);
         var last = bodies.Asleep.Count + island.Length - 1;
         for (int i = 0; i < island.Length; ++i)

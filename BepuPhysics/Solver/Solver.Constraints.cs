@@ -3,6 +3,7 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
 
 namespace BepuPhysics;
 
@@ -81,6 +82,7 @@ public sealed unsafe partial class Solver
     /// <summary>Removes a constraint that exists and tells nobody.</summary>
     internal void RemoveWithoutNotice(ConstraintHandle handle)
     {
+        Check.That(!Defers);
         ForgetOptions(handle.Slot);
         RemoveFromBodies(handle);
         RemoveFromBatch(Locations[handle.Slot]);
@@ -190,6 +192,7 @@ public sealed unsafe partial class Solver
     {
         if (HandleOwners.NeedsSlot(HandlePool, MaximumCount, "constraints", out var slotCount))
             EnsureSlots(slotCount);
+        Check.That(!Defers);
         Edges.EnsureBodiesPerConstraint(bodyHandles.Length, bodies.Sets, pool);
         var handle = new ConstraintHandle(owners.Claim(HandlePool.Take()));
         Locations[handle.Slot] = Allocate(handle, bodyHandles, typeId);
@@ -223,10 +226,7 @@ public sealed unsafe partial class Solver
                 batch.DynamicBodies.Add(dynamics[i], pool);
         }
         ref var typeBatch = ref batch.FindOrCreate(typeId, pool);
-        var index = Processor(typeId).Allocate(
-            ref typeBatch, handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool, isWrittenWhole: defersColumns);
-        if (defersColumns)
-            DeferClearing(batchIndex, ref typeBatch, index);
+        var index = Processor(typeId).Allocate(ref typeBatch, handle, encoded[..bodyHandles.Length], MinimumCapacityPerTypeBatch, pool);
         NoteJointChange(typeId);
         return new() { SetIndex = 0, BatchIndex = batchIndex, TypeId = typeId, IndexInTypeBatch = index };
     }
@@ -288,15 +288,17 @@ public sealed unsafe partial class Solver
         }
         NoteJointChange(location.TypeId);
         var index = location.IndexInTypeBatch;
-        var moved = processor.Remove(ref typeBatch, index, movesColumns: !defersColumns);
+        var moved = processor.Remove(ref typeBatch, index);
         if (moved.Value >= 0)
-        {
             Locations[moved.Slot].IndexInTypeBatch = index;
-            if (defersColumns)
-                DeferMove(location.BatchIndex, ref typeBatch, typeBatch.ConstraintCount, index);
-        }
         if (typeBatch.ConstraintCount == 0)
-            batch.RemoveTypeBatch(processor, pool);
+            GiveUp(ref batches, ref batch, processor);
+    }
+
+    // A type batch that is empty.
+    void GiveUp(ref QuickList<ConstraintBatch> batches, ref ConstraintBatch batch, TypeProcessor processor)
+    {
+        batch.RemoveTypeBatch(processor, pool);
         // The batches before keep their indices, which tell colours.
         while (batches.Count > 0 && batches[batches.Count - 1].TypeBatches.Count == 0)
         {

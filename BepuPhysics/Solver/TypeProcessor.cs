@@ -55,41 +55,40 @@ public abstract partial class TypeProcessor
     /// <param name="encodedBodies">References to its bodies.</param>
     /// <param name="minimumCapacity">Constraints that a new batch has room for.</param>
     /// <param name="pool">Source of memory.</param>
-    /// <param name="isWrittenWhole">Whether description and impulses are left alone, as the caller writes both, and clears what else is in the bundle.</param>
     /// <returns>Its index in the batch.</returns>
-    internal int Allocate(ref TypeBatch batch, ConstraintHandle handle, ReadOnlySpan<int> encodedBodies, int minimumCapacity, BufferPool pool,
-        bool isWrittenWhole = false)
+    internal int Allocate(ref TypeBatch batch, ConstraintHandle handle, ReadOnlySpan<int> encodedBodies, int minimumCapacity, BufferPool pool)
     {
         Check.That(encodedBodies.Length == BodiesPerConstraint);
-        if (batch.ConstraintCount == batch.IndexToHandle.Length)
-            Resize(ref batch, Math.Max(Math.Max(1, minimumCapacity), batch.ConstraintCount * 2), pool);
+        MakeRoomForOne(ref batch, minimumCapacity, pool);
         var index = batch.ConstraintCount++;
         batch.IndexToHandle[index] = handle;
         if (index % Vector<float>.Count == 0)
-            ClearBundle(ref batch, index / Vector<float>.Count, isWrittenWhole);
+            ClearBundle(ref batch, index / Vector<float>.Count);
         for (int slot = 0; slot < encodedBodies.Length; ++slot)
             BodyReference(ref batch, index, slot) = encodedBodies[slot];
-        if (!isWrittenWhole)
-            ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
+        ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
         return index;
+    }
+
+    /// <summary>Makes room for one more constraint.</summary>
+    internal void MakeRoomForOne(ref TypeBatch batch, int minimumCapacity, BufferPool pool)
+    {
+        if (batch.ConstraintCount == batch.IndexToHandle.Length)
+            Resize(ref batch, Math.Max(Math.Max(1, minimumCapacity), batch.ConstraintCount * 2), pool);
     }
 
     /// <summary>Removes a constraint by moving the last one into its place.</summary>
     /// <param name="batch">The batch.</param>
     /// <param name="index">The constraint's index.</param>
-    /// <param name="movesColumns">Whether description and impulses move along; otherwise the caller sees to that.</param>
     /// <returns>Handle of the constraint that was moved; its value is -1 where none was.</returns>
-    internal ConstraintHandle Remove(ref TypeBatch batch, int index, bool movesColumns = true)
+    internal ConstraintHandle Remove(ref TypeBatch batch, int index)
     {
         var last = --batch.ConstraintCount;
         var moved = new ConstraintHandle(-1);
         if (index != last)
         {
             moved = batch.IndexToHandle[last];
-            var move = new MoveInBundles(last, index);
-            VisitNames(ref batch, ref move);
-            if (movesColumns)
-                VisitContents(ref batch, ref move);
+            Move(ref batch, last, index);
         }
         for (int slot = 0; slot < BodiesPerConstraint; ++slot)
             BodyReference(ref batch, last, slot) = EncodedBody.Empty;
@@ -128,40 +127,43 @@ public abstract partial class TypeProcessor
 
     /// <summary>Every column of a type batch, in one place, with the number of values that a constraint has in it.</summary>
     // The handles tell the capacity, so they come last, should the system refuse memory in between.
-    void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
-    {
-        VisitContents(ref batch, ref visitor);
-        VisitNames(ref batch, ref visitor);
-    }
-
-    // What a constraint holds. Never inlined, as the next: what calls both would be more than the inliner takes.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void VisitContents<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
+    void VisitColumns<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
     {
         visitor.Visit(ref batch.Prestep, PrestepFloats);
         visitor.Visit(ref batch.AccumulatedImpulses, ImpulseFloats);
-    }
-
-    // Who a constraint is, and what it connects.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    void VisitNames<TVisitor>(ref TypeBatch batch, ref TVisitor visitor) where TVisitor : struct, IColumnVisitor
-    {
         visitor.Visit(ref batch.BodyReferences, BodiesPerConstraint);
         visitor.Visit(ref batch.IndexToHandle, 1);
     }
 
-    /// <summary>Copies what a constraint holds to the place of another one.</summary>
-    internal void MoveColumns(ref TypeBatch batch, int from, int to)
+    /// <summary>Copies a constraint to the place of another one.</summary>
+    internal void Move(ref TypeBatch batch, int from, int to)
     {
         var move = new MoveInBundles(from, to);
-        VisitContents(ref batch, ref move);
+        VisitColumns(ref batch, ref move);
+    }
+
+    /// <summary>Says who a constraint is, on one body or two, and nothing else.</summary>
+    internal void WriteNames(ref TypeBatch batch, int index, ConstraintHandle handle, int referenceA, int referenceB)
+    {
+        batch.IndexToHandle[index] = handle;
+        ref var reference = ref BodyReference(ref batch, index, 0);
+        reference = referenceA;
+        if (BodiesPerConstraint > 1)
+            Unsafe.Add(ref reference, Vector<float>.Count) = referenceB;
     }
 
     /// <summary>Clears what is in the lanes of the last bundle that have no constraint.</summary>
-    internal void ClearUnusedLanes(ref TypeBatch batch)
+    /// <param name="batch">The type batch.</param>
+    /// <param name="usedBundles">Number of bundles that have been in use before: in these there is no number that none may be.</param>
+    internal void ClearUnusedLanes(ref TypeBatch batch, int usedBundles)
     {
         for (int index = batch.ConstraintCount; index % Vector<float>.Count != 0; ++index)
         {
+            for (int slot = 0; slot < BodiesPerConstraint; ++slot)
+                BodyReference(ref batch, index, slot) = EncodedBody.Empty;
+            if (batch.BundleCount <= usedBundles)
+                continue;
             ClearColumn(ref batch.Prestep, PrestepFloats, index);
             ClearColumn(ref batch.AccumulatedImpulses, ImpulseFloats, index);
         }
@@ -179,12 +181,9 @@ public abstract partial class TypeProcessor
     {
         // Whole bundles are addressed, so all columns hold whole bundles. What is not written yet is not copied, nor touched: a type batch that doubles
         // many times in a flush costs one of its sizes.
-        var bundles = BundleIndexing.GetBundleCount(capacity);
-        var written = batch.Pending.IsListed ? Math.Min(batch.Pending.WrittenBundleCount, batch.BundleCount) : batch.BundleCount;
-        var resizeContents = new ResizeBundles(bundles, written, pool);
-        VisitContents(ref batch, ref resizeContents);
-        var resizeNames = new ResizeBundles(bundles, batch.BundleCount, pool);
-        VisitNames(ref batch, ref resizeNames);
+        var written = batch.Pending.IsListed ? BundleIndexing.GetBundleCount(batch.Pending.ConstraintCount) : batch.BundleCount;
+        var resize = new ResizeBundles(BundleIndexing.GetBundleCount(capacity), written, pool);
+        VisitColumns(ref batch, ref resize);
     }
 
     /// <summary>Copies all constraints out of a type batch, or others into one that is empty.</summary>
@@ -202,14 +201,11 @@ public abstract partial class TypeProcessor
         index / Vector<float>.Count * floats * Vector<float>.Count + index % Vector<float>.Count;
 
     // Unused lanes are computed with and never stored. Zeros keep them from being slow denormals or from trapping in a checked build.
-    void ClearBundle(ref TypeBatch batch, int bundle, bool isWrittenWhole)
+    void ClearBundle(ref TypeBatch batch, int bundle)
     {
         var lanes = Vector<float>.Count;
-        if (!isWrittenWhole)
-        {
-            batch.Prestep.Clear(bundle * lanes * PrestepFloats, lanes * PrestepFloats);
-            batch.AccumulatedImpulses.Clear(bundle * lanes * ImpulseFloats, lanes * ImpulseFloats);
-        }
+        batch.Prestep.Clear(bundle * lanes * PrestepFloats, lanes * PrestepFloats);
+        batch.AccumulatedImpulses.Clear(bundle * lanes * ImpulseFloats, lanes * ImpulseFloats);
         for (int i = 0; i < lanes * BodiesPerConstraint; ++i)
             batch.BodyReferences[bundle * lanes * BodiesPerConstraint + i] = EncodedBody.Empty;
     }

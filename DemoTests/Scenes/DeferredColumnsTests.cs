@@ -8,95 +8,116 @@ using Xunit;
 
 namespace DemoTests.Scenes;
 
-/// <summary>Constraints that come and go while what they hold is deferred end up as if each had come and gone at once.</summary>
+/// <summary>Contact constraints that come and go while what follows from that is deferred end up as if each had come and gone at once.</summary>
 public class DeferredColumnsTests
 {
     const int BodyCount = 120;
+    const int KinematicCount = 6;
 
     [Theory]
-    [InlineData(1)]
-    [InlineData(2)]
-    [InlineData(3)]
-    public void The_order_of_moves_is_kept(int seed)
+    [InlineData(1, 1)]
+    [InlineData(2, 2)]
+    [InlineData(3, 5)]
+    [InlineData(4, 16)]
+    public void Order_places_and_lists_are_kept(int seed, int threadCount)
     {
         using var now = new World(seed);
         using var later = new World(seed);
         for (int round = 0; round < 30; ++round)
         {
-            now.Change(round, isDeferred: false);
-            later.Change(round, isDeferred: true);
+            now.Change(round, deferredThreads: 0);
+            later.Change(round, threadCount);
             Assert.Equal(now.Describe(), later.Describe());
-            later.Simulation.Validate();
+            later.Simulation.Solver.Validate();
         }
     }
 
-    /// <summary>Two types of constraints, each with a number that no other has in all that it holds.</summary>
+    /// <summary>Constraints of several types, each with a number that no other has in all that it holds.</summary>
     sealed class World : IDisposable
     {
-        // Type batches grow from nothing, also in the midst of it.
-        readonly TestWorld world = new(new() { Contacts = Demos.Accuracy.ContactScope.None }, sizes: new(64, 64, 64, 64, 64, 1, 4));
+        // Type batches grow from nothing, also in the midst of it; few batches, so that some constraints go to the last one.
+        readonly TestWorld world = new(
+            new() { Contacts = Demos.Accuracy.ContactScope.None }, fallbackBatchThreshold: 6, sizes: new(64, 64, 64, 64, 64, 1, 4));
         readonly List<BodyHandle> bodies = [];
-        readonly List<(ConstraintHandle Handle, float Number)> constraints = [];
+        readonly List<(ConstraintHandle Handle, ContactEnds Ends, float Number)> constraints = [];
         readonly int seed;
 
         public World(int seed)
         {
             this.seed = seed;
             for (int i = 0; i < BodyCount; ++i)
-                bodies.Add(world.AddDynamic(new Sphere(.5f), 1, new RigidPose(new Vector3(2 * i, 0, 0))));
-            // So that both types are known.
-            var ball = world.Solver.Add(bodies[0], bodies[1], new BallSocket { SpringSettings = new(30, 1) });
-            var distance = world.Solver.Add(bodies[0], bodies[1], new CenterDistanceConstraint { TargetDistance = 1, SpringSettings = new(30, 1) });
-            world.Solver.Remove(ball);
-            world.Solver.Remove(distance);
+            {
+                var pose = new RigidPose(new Vector3(2 * i, 0, 0));
+                bodies.Add(i < KinematicCount ? world.AddKinematic(new Sphere(.5f), pose) : world.AddDynamic(new Sphere(.5f), 1, pose));
+            }
         }
 
         public Simulation Simulation => world.Simulation;
 
         // Now and then all go, with their type batches, and others come.
-        public void Change(int round, bool isDeferred)
+        public void Change(int round, int deferredThreads)
         {
             var random = new Random(seed * 1000 + round);
             var solver = world.Solver;
-            var added = new List<(ConstraintHandle Handle, float Number)>();
-            if (isDeferred)
-                solver.BeginDeferral();
+            var added = new List<(int Number, int Index)>();
+            if (deferredThreads > 0)
+                solver.BeginDeferral(1);
             int removals = round % 7 == 6 ? constraints.Count : random.Next(constraints.Count + 1);
+            var old = constraints.Count;
             for (int i = 0; i < removals; ++i)
-                Remove(random.Next(constraints.Count), added);
-            for (int i = random.Next(180); i > 0; --i)
+                Remove(random.Next(old--));
+            for (int i = random.Next(round % 5 == 4 ? 1500 : 180); i > 0; --i)
             {
-                Add(random, added, round * 200 + i, isDeferred);
-                // Also one that nobody has written yet.
-                if (constraints.Count > 0 && random.Next(3) == 0)
-                    Remove(random.Next(constraints.Count), added);
+                Add(random, added, round * 2000 + i, deferredThreads > 0);
+                if (old > 0 && random.Next(3) == 0)
+                    Remove(random.Next(old--));
             }
-            if (!isDeferred)
+            if (deferredThreads == 0)
                 return;
-            solver.PrepareDeferred();
+            solver.PrepareDeferred(deferredThreads);
             // From the last: they are independent of each other.
-            for (int i = solver.DeferredBatchCount - 1; i >= 0; --i)
+            for (int i = solver.DeferredBlockCount - 1; i >= 0; --i)
                 solver.DoDeferred(i);
+            foreach ((int number, int value) in added)
+                Write(solver.Place(number), value);
+            for (int i = solver.LastBlockCount - 1; i >= 0; --i)
+                solver.DoLast(i);
             solver.EndDeferral();
-            foreach ((ConstraintHandle handle, float number) in added)
-                Write(handle, number);
         }
 
-        void Add(Random random, List<(ConstraintHandle, float)> added, float number, bool isDeferred)
+        void Add(Random random, List<(int, int)> added, int number, bool isDeferred)
         {
-            int a = random.Next(BodyCount), b = (a + 1 + random.Next(BodyCount - 1)) % BodyCount;
-            int type = random.Next(2) == 0 ? BallSocket.ConstraintTypeId : CenterDistanceConstraint.ConstraintTypeId;
-            var handle = world.Solver.AddUnwritten([bodies[a], bodies[b]], type);
-            constraints.Add((handle, number));
-            added.Add((handle, number));
-            if (!isDeferred)
+            int a = random.Next(KinematicCount, BodyCount), b = (a + 1 + random.Next(BodyCount - 1)) % BodyCount;
+            var isAlone = random.Next(3) == 0;
+            var type = ConstraintTypeIds.ConvexContact(1 + random.Next(4), isAlone ? 1 : 2);
+            var ends = new ContactEnds(bodies[a].Slot, ReferenceTo(a), bodies[b].Slot, isAlone ? -1 : ReferenceTo(b));
+            ConstraintHandle handle;
+            if (isDeferred)
+            {
+                handle = world.Solver.AddLater(ends, type, out var place);
+                added.Add((place, number));
+            }
+            else
+            {
+                handle = world.Solver.AddUnwritten(isAlone ? [bodies[a]] : [bodies[a], bodies[b]], type);
                 Write(handle, number);
+            }
+            constraints.Add((handle, ends, number));
         }
 
-        void Remove(int index, List<(ConstraintHandle, float)> added)
+        int ReferenceTo(int body)
         {
-            world.Solver.RemoveWithoutNotice(constraints[index].Handle);
-            added.Remove(constraints[index]);
+            var index = world.Simulation.Bodies.Locations[bodies[body].Slot].Index;
+            return body < KinematicCount ? index | EncodedBody.KinematicFlag : index;
+        }
+
+        // One that was there before the round; the others keep their order.
+        void Remove(int index)
+        {
+            if (world.Solver.Defers)
+                world.Solver.RemoveLater(constraints[index].Handle, constraints[index].Ends);
+            else
+                world.Solver.RemoveWithoutNotice(constraints[index].Handle);
             constraints.RemoveAt(index);
         }
 
@@ -113,7 +134,7 @@ public class DeferredColumnsTests
         public List<string> Describe()
         {
             var result = new List<string>();
-            foreach ((ConstraintHandle handle, float number) in constraints)
+            foreach (var (handle, _, number) in constraints)
             {
                 var location = world.Solver.Locations[handle.Slot];
                 var processor = world.Solver.Processor(location.TypeId);
@@ -121,7 +142,15 @@ public class DeferredColumnsTests
                 processor.ReadColumn(ref world.Solver.TypeBatchAt(location), location.IndexInTypeBatch, column);
                 for (int i = 0; i < column.Length; ++i)
                     Assert.Equal(number + i / 64f, column[i]);
-                result.Add($"{handle} {location.BatchIndex} {location.TypeId} {location.IndexInTypeBatch}");
+                var place = world.Solver.Sets[0].Batches[location.BatchIndex].Find(location.TypeId);
+                result.Add($"{handle} {location.BatchIndex} {location.TypeId} {place} {location.IndexInTypeBatch}");
+            }
+            foreach (var body in bodies)
+            {
+                var list = new List<string>();
+                foreach (var constraint in Simulation.Bodies[body].Constraints)
+                    list.Add($"{constraint.ConnectingConstraintHandle}.{constraint.BodyIndexInConstraint}");
+                result.Add(string.Join(' ', list));
             }
             return result;
         }

@@ -40,8 +40,10 @@ unsafe struct PairRecords<T> where T : unmanaged
             ids = new IdPool(InitialCapacity, pool);
         var index = ids.Take() + 1;
         if (index >= records.Length)
+        {
             pool.ResizeToAtLeast(ref records, Math.Max(InitialCapacity, index * 2), records.Length);
-        records[0] = default;
+            records[0] = default;
+        }
         records[index] = default;
         return index;
     }
