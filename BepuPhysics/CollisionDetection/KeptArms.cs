@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
@@ -56,24 +55,41 @@ struct KeptArms
     {
         if (oldCount < LeastCount || manifold.Count < LeastCount)
             return false;
-        return (manifold.Contact0.Depth > 0 && manifold.Contact1.Depth > 0 && manifold.Contact2.Depth > 0 &&
-            (manifold.Count == LeastCount || manifold.Contact3.Depth > 0)) || (wasHeld && TouchesWithinBand(manifold, hasTwoBodies));
+        // What is held lies at zero, where the sign of a depth is rounding: branches on it would be guesses.
+        if (wasHeld)
+            return TouchesWithinBand(manifold, hasTwoBodies);
+        return manifold.Contact0.Depth > 0 && manifold.Contact1.Depth > 0 && manifold.Contact2.Depth > 0 &&
+            (manifold.Count == LeastCount || manifold.Contact3.Depth > 0);
     }
 
     // Twice the band: what is beyond it has not been taken out yet.
     static bool TouchesWithinBand(in ConvexContactManifold manifold, bool hasTwoBodies)
     {
-        float extent = float.MaxValue, least = float.MaxValue;
-        for (int i = 0; i < manifold.Count; ++i)
+        // Of three contacts the last lane holds the first once more.
+        ref readonly var last = ref manifold.Count == LeastCount ? ref manifold.Contact0 : ref manifold.Contact3;
+        var x = Vector128.Create(manifold.Contact0.Offset.X, manifold.Contact1.Offset.X, manifold.Contact2.Offset.X, last.Offset.X);
+        var y = Vector128.Create(manifold.Contact0.Offset.Y, manifold.Contact1.Offset.Y, manifold.Contact2.Offset.Y, last.Offset.Y);
+        var z = Vector128.Create(manifold.Contact0.Offset.Z, manifold.Contact1.Offset.Z, manifold.Contact2.Offset.Z, last.Offset.Z);
+        var depths = Vector128.Create(manifold.Contact0.Depth, manifold.Contact1.Depth, manifold.Contact2.Depth, last.Depth);
+        var extents = Extents(manifold.Normal, x, y, z);
+        if (hasTwoBodies)
         {
-            ref readonly var contact = ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i);
-            least = MathHelper.Min(least, contact.Depth);
-            extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(contact.Offset, manifold.Normal)));
-            if (hasTwoBodies)
-                extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(contact.Offset - manifold.OffsetB, manifold.Normal)));
+            var aboutB = Extents(manifold.Normal,
+                x - Vector128.Create(manifold.OffsetB.X), y - Vector128.Create(manifold.OffsetB.Y), z - Vector128.Create(manifold.OffsetB.Z));
+            extents = Least(extents, aboutB);
         }
-        return least >= -2 * ContactMaterialWide.BandPerExtent * extent;
+        // The least of all lanes, in each of them.
+        extents = Least(extents, Vector128.Shuffle(extents, Vector128.Create(2, 3, 0, 1)));
+        extents = Least(extents, Vector128.Shuffle(extents, Vector128.Create(1, 0, 3, 2)));
+        return Vector128.GreaterThanOrEqualAll(depths, extents * (-2 * ContactMaterialWide.BandPerExtent));
     }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Extents(in Vector3 normal, Vector128<float> x, Vector128<float> y, Vector128<float> z) =>
+        Vector128.Abs(x * Vector128.Create(normal.X) + y * Vector128.Create(normal.Y) + z * Vector128.Create(normal.Z));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Least(Vector128<float> a, Vector128<float> b) => Vector128.ConditionalSelect(Vector128.LessThan(a, b), a, b);
 
     /// <summary>Finds the contacts that are where they were.</summary>
     /// <param name="old">The patch of the last step.</param>

@@ -34,15 +34,20 @@ static class SolverPoints
 /// <summary>An optional stage of the solver. A stage without blocks at a point costs nothing there.</summary>
 interface ISolverStage
 {
-    /// <summary>Whether it changes velocities.</summary>
+    /// <summary>Whether it changes velocities after the substeps.</summary>
     bool ChangesVelocities => true;
 
     /// <summary>Makes ready for a step. Called on the caller's thread.</summary>
     /// <returns>Whether it may have blocks anywhere in the step; one that has none is not asked where.</returns>
     bool BeginStep() => true;
 
-    /// <summary>Number of independent blocks of work at a point, known before the step.</summary>
+    /// <summary>Number of independent blocks of work at a point, as far as it is known before the step.</summary>
     int GetBlockCount(SolverPoint point);
+
+    /// <summary>How many blocks there are after all, now that all is done that comes before them. Called once per point, on some worker.</summary>
+    /// <param name="point">The point.</param>
+    /// <param name="most">What <see cref="GetBlockCount"/> has said.</param>
+    int CountBlocks(SolverPoint point, int most) => most;
 
     /// <summary>Does one block. Called on worker threads.</summary>
     void Execute(SolverPoint point, in Substep substep, int block);

@@ -307,8 +307,16 @@ public sealed unsafe partial class Solver
 
         public readonly int StageCount => Stages.Count;
 
-        public readonly int GetBlockCount(int stage) =>
-            Stages[stage].Kind == StageKind.JoinParts ? BlockCount(Split.BodyCount, SplitBodiesPerBlock) : Stages[stage].BlockCount;
+        public readonly int GetBlockCount(int stageIndex)
+        {
+            ref var stage = ref Stages[stageIndex];
+            return stage.Kind switch
+            {
+                StageKind.JoinParts => BlockCount(Split.BodyCount, SplitBodiesPerBlock),
+                StageKind.Optional => Solver.OptionalStages[stage.Optional].CountBlocks(stage.Point, stage.BlockCount),
+                _ => stage.BlockCount,
+            };
+        }
 
         public void Execute(int stageIndex, int blockIndex, int workerIndex)
         {

@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using System.Runtime.Intrinsics.X86;
+using BepuUtilities.Diagnostics;
 
 namespace BepuUtilities;
 
@@ -18,6 +19,7 @@ public static unsafe partial class Transpose
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector4Wide GatherHalf(float* rows, int strideInFloats, in RowOffsets offsets)
     {
+        Check.That(((nuint)rows & 15) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
             return GatherHalf8(rows, strideInFloats, offsets);
         if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)
@@ -33,6 +35,7 @@ public static unsafe partial class Transpose
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void ScatterHalf(in Vector4Wide values, float* rows, int strideInFloats, in RowOffsets offsets)
     {
+        Check.That(((nuint)rows & 15) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
             ScatterHalf8(values, rows, strideInFloats, offsets);
         else if (Vector<float>.Count == 4 && Vector128.IsHardwareAccelerated)

@@ -18,12 +18,13 @@ sealed class LoadPathWorld : IDisposable
     readonly IThreadDispatcher? dispatcher;
     readonly List<(BodyHandle Body, Vector3 Start)> boxes = [];
 
-    public LoadPathWorld(LoadPathMode mode, Vector3? gravity = null, int substeps = 4, int relaxations = 0, int threads = 1, float frequency = 0)
+    public LoadPathWorld(LoadPathMode mode, Vector3? gravity = null, int substeps = 4, int relaxations = 0, int threads = 1, float frequency = 0,
+        float friction = Friction)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         Gravity = gravity ?? new Vector3(0, -9.81f, 0);
         var material = new DefaultNarrowPhaseCallbacks().Material;
-        material.FrictionCoefficient = Friction;
+        material.FrictionCoefficient = friction;
         if (frequency > 0)
             material.SpringSettings = new(frequency, 1);
         Simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(material), new DefaultPoseIntegratorCallbacks(Gravity),

@@ -1,4 +1,6 @@
+using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
@@ -27,6 +29,10 @@ struct ContactMaterialWide
     /// </summary>
     internal const float BandPerExtent = 1e-3f;
 
+    const float LeastBand = 1e-30f;
+    const int LoneBit = 1;
+    const int RestBit = 2;
+
     /// <summary>
     /// Patches that are held for the step, by the load path: their frequency is negative, less half the width of the band, m, in which they know no
     /// overlap. What a game gives is not negative, and is written anew for each step. When the step ends the frequency becomes zero again, a negative one.
@@ -38,6 +44,43 @@ struct ContactMaterialWide
     /// a game gives is not. With one body the place of friction says so.
     /// </summary>
     internal readonly Vector<int> SharesFriction => Vector.LessThan(Vector.AsVectorInt32(FrictionCoefficient), Vector<int>.Zero);
+
+    /// <summary>Held patches whose first body has no constraint but them: the last bit of their frequency says so.</summary>
+    internal readonly Vector<int> IsHeldAlone => HeldWith(LoneBit);
+
+    /// <summary>Of these, patches whose body the warm start of this substep has brought to rest: the last bit but one.</summary>
+    internal readonly Vector<int> IsAtRest => HeldWith(RestBit);
+
+    /// <summary>Says which of the patches that are held alone have their body at rest.</summary>
+    internal void SetAtRest(Vector<int> lone, Vector<int> rests)
+    {
+        var bits = Vector.AsVectorInt32(SpringSettings.AngularFrequency);
+        var changed = (bits & new Vector<int>(~RestBit)) | (rests & new Vector<int>(RestBit));
+        SpringSettings.AngularFrequency = Vector.AsVectorSingle(Wide.Select(lone, changed, bits));
+    }
+
+    /// <summary>The frequency of a held patch.</summary>
+    /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
+    /// <param name="lone">Whether its first body has no other constraint.</param>
+    // A band of no width at all would be a spring that is not held.
+    internal static Vector<float> HeldSpring(Vector<float> band, Vector<int> lone)
+    {
+        var bits = Vector.AsVectorInt32(-Wide.Max(band, new(LeastBand)));
+        return Vector.AsVectorSingle((bits & new Vector<int>(~(LoneBit | RestBit))) | (lone & new Vector<int>(LoneBit)));
+    }
+
+    /// <summary>The frequency of a held patch of a body that has other constraints too.</summary>
+    /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
+    internal static float HeldSpring(float band) =>
+        BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly Vector<int> HeldWith(int bit)
+    {
+        var bits = Vector.AsVectorInt32(SpringSettings.AngularFrequency);
+        var wanted = new Vector<int>(int.MinValue | bit);
+        return Vector.Equals(bits & wanted, wanted);
+    }
 
     /// <summary>Least depth of a contact that touches, m: zero, or less by the band of a held patch, in which depths mean nothing.</summary>
     internal readonly Vector<float> LeastDepth => Wide.Min(SpringSettings.AngularFrequency, Vector<float>.Zero);

@@ -56,6 +56,12 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         ref var a = ref BodySlots.At(ref bodies, 0);
         a.Linear += linear * a.InverseMass;
         a.Angular += a.InverseInertia * angularA;
+        if (MayRestAlone)
+        {
+            var lone = prestep.Material.IsHeldAlone;
+            if (lone != Vector<int>.Zero)
+                BringToRest(lone, linear, load, ref a, ref prestep, ref impulses);
+        }
         if (TBodies.Count > 1)
         {
             ref var b = ref BodySlots.At(ref bodies, 1);
@@ -70,10 +76,19 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     public static void Solve(
         ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
-        var softness = prestep.Material.SpringSettings.ForSubstep(substep, substep.Contacts);
-        var band = Vector<float>.Zero;
         var isHeld = prestep.Material.IsHeld;
         var anyHeld = isHeld != Vector<int>.Zero;
+        var rests = Vector<int>.Zero;
+        Unsafe.SkipInit(out ConvexContactImpulsesWide<TNormals> before);
+        if (MayRestAlone && anyHeld)
+        {
+            rests = Resting(ref bodies, ref prestep);
+            if (Vector.EqualsAll(rests, new Vector<int>(-1)))
+                return;
+            before = impulses;
+        }
+        var softness = prestep.Material.SpringSettings.ForSubstep(substep, substep.Contacts);
+        var band = Vector<float>.Zero;
         if (anyHeld)
             band = Harden(isHeld, substep, prestep.Material.SpringSettings.AngularFrequency, ref softness);
         var inverseDt = new Vector<float>(substep.InverseDt);
@@ -95,6 +110,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         }
         else
             SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
+        if (MayRestAlone && rests != Vector<int>.Zero)
+            LeaveAtRest(rests, before, ref BodySlots.At(ref bodies, 0), ref impulses);
     }
 
     // Lanes without a centre of their own have no twist, and are left as they are to the last bit.

@@ -27,7 +27,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     const float ActiveShare = 0.05f;
 
     SupportGraph graph;
-    // Velocities before the first integration.
+    // Velocities before the first integration: those of the centres, the others are not written.
     Buffer<BodyVelocity> before;
     // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
     Buffer<SupportLink> found;
@@ -39,21 +39,27 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     // hand down, and all of their supports would be more memory than the contacts themselves.
     Buffer<LoadSupport> supports;
     readonly Room[] rooms = new Room[MaximumBlocks];
-    // Whether contacts may be held.
+    // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
+    readonly bool[] mayHold = new bool[MaximumBlocks];
+    readonly bool[] holdsLone = new bool[MaximumBlocks];
     bool hasBegun;
 
     LoadPathMode Mode => solver.LoadPath;
+
+    bool ISolverStage.ChangesVelocities => false;
 
     bool ISolverStage.BeginStep()
     {
         if (Mode == LoadPathMode.Off)
             return false;
-        CountBundles();
+        bundleCount = ContactBundles.Count(solver.ActiveSet);
         if (bundleCount == 0)
             return false;
+        blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
         pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out before);
         pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
         hasBegun = true;
+        mayHold.AsSpan(0, blockCount).Fill(true);
         return true;
     }
 
@@ -62,23 +68,15 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         SolverPoint.BeforeSubsteps => BodyBlockCount,
         SolverPoint.AmidBeforeFirstWarmStart => 1,
         SolverPoint.BeforeFirstWarmStart or SolverPoint.LastBeforeFirstWarmStart or
-            SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart => blockCount,
+            SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart or SolverPoint.AfterSubsteps => blockCount,
         _ => 0,
     };
 
-    int BodyBlockCount => Math.Clamp(bodies.Awake.Count / LeastBodiesPerBlock, 1, MaximumBlocks);
+    // Where nothing rests on anything, or all of it alone, there is no graph to work on.
+    int ISolverStage.CountBlocks(SolverPoint point, int most) =>
+        point is SolverPoint.LastBeforeFirstWarmStart or SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart && graph.Nodes.Count == 0 ? 0 : most;
 
-    void CountBundles()
-    {
-        bundleCount = 0;
-        ref var batches = ref solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
-        {
-            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
-                bundleCount += Bundles(batches[i], j);
-        }
-        blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
-    }
+    int BodyBlockCount => Math.Clamp(bodies.Awake.Count / LeastBodiesPerBlock, 1, MaximumBlocks);
 
     void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
     {
@@ -103,6 +101,9 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
                     Transfer(island, ref rooms[block]);
                 break;
+            case SolverPoint.AfterSubsteps:
+                LetGo(block);
+                break;
         }
     }
 
@@ -111,12 +112,11 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         ref var set = ref bodies.Awake;
         var end = FirstOf(block + 1, BodyBlockCount, set.Count);
         for (int i = FirstOf(block, BodyBlockCount, set.Count); i < end; ++i)
-            before[i] = set.MotionStates[i].Velocity;
+            before[i].Linear = set.MotionStates[i].Velocity.Linear;
     }
 
-    static int Bundles(in ConstraintBatch batch, int typeBatch) =>
-        batch.Kind == BatchKind.Coloured && batch.TypeBatches[typeBatch].TypeId < ConstraintTypeIds.ContactTypeCount
-            ? batch.TypeBatches[typeBatch].BundleCount : 0;
+    ContactBundles BundlesOf(int block) =>
+        new(ref solver.ActiveSet, FirstOf(block, blockCount, bundleCount), FirstOf(block + 1, blockCount, bundleCount));
 
     static int FirstOf(int block, int blockCount, int count) => (int)((long)count * block / blockCount);
 
@@ -127,22 +127,13 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
         var start = FirstOf(block, blockCount, bundleCount);
-        var end = FirstOf(block + 1, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;
-        int first = 0;
-        ref var batches = ref solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
+        holdsLone[block] = false;
+        for (var bundles = BundlesOf(block); bundles.MoveNext();)
         {
-            for (int j = 0; j < batches[i].TypeBatches.Count && first < end; ++j)
-            {
-                ref var batch = ref batches[i].TypeBatches[j];
-                var bundles = Bundles(batches[i], j);
-                var last = Math.Min(end - first, bundles);
-                for (int k = Math.Max(start - first, 0); k < last; ++k)
-                    count += finder.Find(ref batch, k, links + count);
-                first += bundles;
-            }
+            for (int i = bundles.First; i < bundles.End; ++i)
+                count += finder.Find(ref bundles.TypeBatch, i, links + count, ref holdsLone[block]);
         }
         pieces[block] = (start * Vector<float>.Count, count);
     }
@@ -203,7 +194,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             ref var node = ref graph.Nodes[i];
             SetTolerance(ref node, dt);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Links[j].Spring = SupportLink.HeldSpring(graph.Links[j].Band);
+                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(graph.Links[j].Band);
         }
     }
 
@@ -365,13 +356,13 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
     internal void Abandon() => graph = default;
 
-    // Lets go of the contacts, and gives back what the step took: the graph is kept where there is one.
+    // Gives back what the step took: the graph is kept where there is one. Contacts are let go of here only if an exception has broken the step off.
     void ISolverStage.EndStep()
     {
-        if (hasBegun)
-            LetGo();
-        else
+        if (!hasBegun)
             graph.Dispose(pool);
+        for (int block = 0; hasBegun && block < blockCount; ++block)
+            LetGo(block);
         hasBegun = false;
         if (before.Allocated)
             pool.Return(ref before);
@@ -382,18 +373,24 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     }
 
     // The sign of the zero tells the next step that they were held.
-    void LetGo()
+    void LetGo(int block)
     {
-        ref var batches = ref solver.ActiveSet.Batches;
-        for (int i = 0; i < batches.Count; ++i)
+        if (!mayHold[block])
+            return;
+        mayHold[block] = false;
+        if (!holdsLone[block] && graph.Nodes.Count == 0)
+            return;
+        for (var bundles = BundlesOf(block); bundles.MoveNext();)
         {
-            for (int j = 0; j < batches[i].TypeBatches.Count; ++j)
+            ref var batch = ref bundles.TypeBatch;
+            var count = ConstraintTypeIds.ContactCount(batch.TypeId);
+            var stride = ContactPrestepLayout.PrestepFloats(count);
+            var spring = (Vector<float>*)batch.Prestep.Memory + bundles.First * stride + ContactPrestepLayout.Spring(count);
+            for (int i = bundles.First; i < bundles.End; ++i, spring += stride)
             {
-                ref var batch = ref batches[i].TypeBatches[j];
-                var count = ConstraintTypeIds.ContactCount(batch.TypeId);
-                var spring = (Vector<float>*)batch.Prestep.Memory + ContactPrestepLayout.Spring(count);
-                for (int k = Bundles(batches[i], j); k > 0; --k, spring += ContactPrestepLayout.PrestepFloats(count))
-                    *spring = Wide.Select(Vector.LessThan(*spring, Vector<float>.Zero), new Vector<float>(-0f), *spring);
+                var isHeld = Vector.LessThan(*spring, Vector<float>.Zero);
+                if (isHeld != Vector<int>.Zero)
+                    *spring = Wide.Select(isHeld, new Vector<float>(-0f), *spring);
             }
         }
     }

@@ -6,7 +6,7 @@ namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>Finds the contact constraints of a bundle that carry one of their bodies against what pulls at it, and are quiet.</summary>
 /// <param name="bodies">The bodies, after the first integration.</param>
-/// <param name="before">Their velocities before it, a row each.</param>
+/// <param name="before">Their velocities before it, a row each, of which only the first half is read.</param>
 /// <param name="constraints">Their lists of constraints, a row each.</param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
@@ -22,7 +22,6 @@ readonly unsafe struct SupportFinder(
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
     internal const int LeastContacts = 3;
-    const int FloatsPerVelocity = 8;
     // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
     const float LeastSlope = 0.8f;
@@ -34,9 +33,13 @@ readonly unsafe struct SupportFinder(
     const float SlidingSteps = 0.1f;
 
     /// <summary>Holds the contacts of what rests alone on a static, and writes what else is found in a bundle, in the order of lanes.</summary>
+    /// <param name="batch">The type batch.</param>
+    /// <param name="bundle">The bundle.</param>
+    /// <param name="found">Room for one per lane.</param>
+    /// <param name="holds">Becomes true where contacts are held.</param>
     /// <returns>How many were found, at most one per lane.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal int Find(ref TypeBatch batch, int bundle, SupportLink* found)
+    internal int Find(ref TypeBatch batch, int bundle, SupportLink* found, ref bool holds)
     {
         var count = ConstraintTypeIds.ContactCount(batch.TypeId);
         var hasB = batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
@@ -46,21 +49,22 @@ readonly unsafe struct SupportFinder(
         // Springs that a game asked for stay springs.
         var carries = Vector.Equals(prestep[ContactPrestepLayout.Spring(count)], Vector<float>.Zero);
         carries &= Vector.GreaterThanOrEqual(references[0], Vector<int>.Zero);
+        // On so few contacts nothing rests by itself.
+        if (!hasB && count < LeastContacts && carries != Vector<int>.Zero)
+            carries = Vector.AndNot(carries, IsAlone((int*)references));
         if (carries == Vector<int>.Zero)
             return 0;
-        var velocityA = Read(references[0], out var gainA);
-        carries &= Vector.GreaterThan(velocityA.InverseMass, Vector<float>.Zero);
+        // What is on its way is most of what does not rest: the velocities of the centres tell it from the others.
+        SolverBodyWide bodyA = default, bodyB = default;
+        Read(references[0], ref bodyA, out var gainA);
         var gain = gainA;
         var fastest = gainA.Length();
-        SolverBodyWide velocityB = default;
         Vector3Wide gainB = default;
         var fixedB = new Vector<int>(-1);
         if (hasB)
         {
-            velocityB = Read(references[1], out gainB);
+            Read(references[1], ref bodyB, out gainB);
             fixedB = Vector.Equals(references[1] & new Vector<int>(EncodedBody.KinematicFlag), new(EncodedBody.KinematicFlag));
-            var stands = Vector.Equals(velocityB.Linear.LengthSquared() + velocityB.Angular.LengthSquared(), Vector<float>.Zero);
-            carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(velocityB.InverseMass, Vector<float>.Zero));
             gain = Vector3Wide.Select(fixedB, gainA, gainA + gainB);
             fastest = Wide.Max(fastest, Wide.Select(fixedB, Vector<float>.Zero, gainB.Length()));
         }
@@ -68,12 +72,20 @@ readonly unsafe struct SupportFinder(
         var along = -Vector3Wide.Dot(gain, normal);
         var isUpperA = Vector.GreaterThan(along, Vector<float>.Zero);
         carries &= Vector.GreaterThan(along * along, new Vector<float>(LeastSlope * LeastSlope) * gain.LengthSquared()) & (isUpperA | ~fixedB);
+        var resting = new Vector<float>(RestingSteps) * fastest;
+        carries &= Vector.LessThan((bodyA.Linear - gainA).LengthSquared(), resting * resting);
+        carries &= Vector.LessThan((bodyB.Linear - gainB).LengthSquared(), resting * resting);
         if (carries == Vector<int>.Zero)
             return 0;
 
-        var resting = new Vector<float>(RestingSteps) * fastest;
-        carries &= Vector.LessThan((velocityA.Linear - gainA).LengthSquared(), resting * resting);
-        carries &= Vector.LessThan((velocityB.Linear - gainB).LengthSquared(), resting * resting);
+        ReadRest(references[0], ref bodyA);
+        carries &= Vector.GreaterThan(bodyA.InverseMass, Vector<float>.Zero);
+        if (hasB)
+        {
+            ReadRest(references[1], ref bodyB);
+            var stands = Vector.Equals(bodyB.Linear.LengthSquared() + bodyB.Angular.LengthSquared(), Vector<float>.Zero);
+            carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
+        }
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         var quiet = new Vector<float>(quietSteps) * fastest;
         var slides = Vector<int>.Zero;
@@ -84,7 +96,7 @@ readonly unsafe struct SupportFinder(
         {
             var arm = ((ContactPrestepWide*)prestep)[i].OffsetA;
             var armB = arm - offsetB;
-            var velocity = velocityA.Linear + Vector3Wide.Cross(velocityA.Angular, arm) - velocityB.Linear - Vector3Wide.Cross(velocityB.Angular, armB);
+            var velocity = bodyA.Linear + Vector3Wide.Cross(bodyA.Angular, arm) - bodyB.Linear - Vector3Wide.Cross(bodyB.Angular, armB);
             var apart = Vector3Wide.Dot(velocity, normal);
             carries &= Vector.LessThan(apart, quiet) & Vector.LessThan((velocity - normal * apart).LengthSquared(), quiet * quiet);
             // What the integration has added is no sliding: the warm start takes it away.
@@ -107,13 +119,17 @@ readonly unsafe struct SupportFinder(
         radius = Vector.SquareRoot(radius);
         if (!hasB)
         {
-            var alone = carries & IsBorne(count, velocityA, normal, impulses, fastest, radius);
+            var alone = carries & IsBorne(count, bodyA, normal, impulses, fastest, radius);
             if (alone != Vector<int>.Zero)
                 alone &= IsAlone((int*)references);
-            Hold(Vector.AndNot(alone, slides), count, open, band, prestep + ContactPrestepLayout.Spring(count));
-            carries = Vector.AndNot(carries, alone);
-            if (carries == Vector<int>.Zero)
-                return 0;
+            if (alone != Vector<int>.Zero)
+            {
+                holds = true;
+                Hold(Vector.AndNot(alone, slides), count, open, band, prestep + ContactPrestepLayout.Spring(count));
+                carries = Vector.AndNot(carries, alone);
+                if (carries == Vector<int>.Zero)
+                    return 0;
+            }
         }
 
         var lowerA = Vector.AndNot(new Vector<int>(-1), isUpperA);
@@ -169,7 +185,7 @@ readonly unsafe struct SupportFinder(
         for (int i = 0; i < count; ++i)
             touching -= open >> i & Vector<int>.One;
         lanes &= Vector.GreaterThanOrEqual(touching, new(LeastContacts));
-        *spring = Wide.Select(lanes, SupportLink.HeldSpring(band), *spring);
+        *spring = Wide.Select(lanes, ContactMaterialWide.HeldSpring(band, lone: new(-1)), *spring);
     }
 
     static Vector<int> IsAtLimit(int count, Vector<float>* prestep, Vector<float>* impulses)
@@ -181,14 +197,22 @@ readonly unsafe struct SupportFinder(
         return Vector.GreaterThan(((Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count)))->LengthSquared(), limit * limit);
     }
 
-    // Velocities, masses, and what the integration has added to the velocities of the centres.
+    // The velocities of the centres, and what the integration has added to them.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    SolverBodyWide Read(Vector<int> references, out Vector3Wide gain)
+    void Read(Vector<int> references, ref SolverBodyWide body, out Vector3Wide gain)
     {
         var rows = new RowOffsets(references);
-        bodies.Gather(rows, BodyAccess.Velocity | BodyAccess.Mass, default, out var body);
-        var row = Transpose.Gather((float*)before, FloatsPerVelocity, rows);
-        gain = body.Linear - new Vector3Wide(row.R0, row.R1, row.R2);
-        return body;
+        bodies.Gather(rows, BodyAccess.Linear, default, out var read);
+        body.Linear = read.Linear;
+        var half = Transpose.GatherHalf((float*)before, Rows8.Count, rows);
+        gain = body.Linear - new Vector3Wide(half.X, half.Y, half.Z);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void ReadRest(Vector<int> references, ref SolverBodyWide body)
+    {
+        bodies.Gather(new RowOffsets(references), BodyAccess.Angular | BodyAccess.InverseMass, default, out var read);
+        body.Angular = read.Angular;
+        body.InverseMass = read.InverseMass;
     }
 }

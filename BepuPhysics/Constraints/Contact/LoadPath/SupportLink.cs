@@ -1,13 +1,10 @@
 using System.Numerics;
-using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>Which body a contact constraint carries, and where its numbers are: all that the graph has to know of it.</summary>
 unsafe struct SupportLink
 {
-    const float LeastBand = 1e-30f;
-
     /// <summary>First number of its description: its column in its type batch.</summary>
     public float* Prestep;
     /// <summary>First of its accumulated impulses.</summary>
@@ -36,12 +33,4 @@ unsafe struct SupportLink
 
     /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
     internal readonly ref float Spring => ref Prestep[ContactPrestepLayout.Spring(Count) * Vector<float>.Count];
-
-    /// <summary>What <see cref="Spring"/> is while the constraint is held.</summary>
-    /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
-    // A band of no width at all would be a spring that is not held.
-    internal static Vector<float> HeldSpring(Vector<float> band) => -Wide.Max(band, new(LeastBand));
-
-    /// <inheritdoc cref="HeldSpring(Vector{float})"/>
-    internal static float HeldSpring(float band) => -MathHelper.Max(band, LeastBand);
 }
