@@ -20,6 +20,11 @@ public partial class MigrationPageTests
     {
         ["set.DynamicsState[i]"] = "SmallNamesTests.Dynamics_of_a_set_are_read_and_written_as_where_they_lie_in_one_place",
         ["ref var dynamics"] = "BodyReferenceTests.Dynamics_are_the_bodys_own",
+        ["sweeps: their samples in time"] = "RecordedHashTests.The_hash_of_a_scene_is_what_it_was",
+        ["sweeps against triangles"] = "SweepTests.Triangles_are_hit_from_their_fronts",
+        ["sweeps that begin where shapes touch"] = "SweepTests.What_touches_and_leaves_or_slides_hits_nothing",
+        ["hitLocation"] = "SweepTests.A_box_hits_the_ground_with_its_lowest_corner",
+        ["minimumProgression"] = "SweepTests.The_parameters_of_accuracy_do_what_they_say",
         ["profiler"] = "MigrationTests.Stages_are_timed",
         ["constraint descriptions"] = "SmallNamesTests.A_description_need_not_check_itself_and_is_not_boxed",
         ["four type processors"] = "DocSamplesTests.Code_of_a_page_is_among_the_samples",

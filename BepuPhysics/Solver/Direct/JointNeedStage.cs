@@ -100,8 +100,8 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
     static bool MayBeOff(in JointErrorWide errors)
     {
         var limit = new Vector<float>(JointNeed.Tolerance * JointNeed.Tolerance) * Wide.Min(errors.ArmASquared, errors.ArmBSquared);
-        return Vector.GreaterThanAny(errors.Linear * errors.Linear, limit) ||
-            Vector.GreaterThanAny(errors.Angular, new Vector<float>(JointNeed.Tolerance));
+        return Vector.LessThanAny(limit, errors.Linear * errors.Linear) ||
+            Vector.LessThanAny(new Vector<float>(JointNeed.Tolerance), errors.Angular);
     }
 
     static bool IsOff(TypeProcessor processor, ref TypeBatch batch, int index, in JointErrorWide errors, int lane, in BodySet set)
