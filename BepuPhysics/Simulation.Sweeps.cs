@@ -104,7 +104,12 @@ public sealed unsafe partial class Simulation
         var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &swept), motion.OrientationA, motion.AngularA);
         var tester = new WorldSweep<THitHandler>
         {
-            Simulation = this, Pool = pool, Handler = hitHandler, Layers = layers, Motion = &motion, Swept = &body,
+            Simulation = this,
+            Pool = pool,
+            Handler = hitHandler,
+            Layers = layers,
+            Motion = &motion,
+            Swept = &body,
             Position = new(pose.Position),
         };
         GetSweptBounds(body, motion, tester.Position, out var min, out var max);

@@ -64,7 +64,10 @@ static class DirectStructures
             {
                 world.Solver.Add(bodies[parent], bodies[i], new Hinge
                 {
-                    LocalOffsetA = offset / 2, LocalOffsetB = -offset / 2, LocalHingeAxisA = Vector3.UnitX, LocalHingeAxisB = Vector3.UnitX,
+                    LocalOffsetA = offset / 2,
+                    LocalOffsetB = -offset / 2,
+                    LocalHingeAxisA = Vector3.UnitX,
+                    LocalHingeAxisB = Vector3.UnitX,
                 });
             }
         }

@@ -247,4 +247,5 @@ unsafe struct MeshNode
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector128<float> Clamp(Vector128<float> line, float first, float last) =>
-        BoxMath.Min(BoxMath.Max(line, Vector128.Create(first)), Vector128.Create(last));}
+        BoxMath.Min(BoxMath.Max(line, Vector128.Create(first)), Vector128.Create(last));
+}

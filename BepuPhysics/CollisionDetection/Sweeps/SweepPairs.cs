@@ -39,8 +39,13 @@ static unsafe class SweepPairs
         }
         var flipped = motion with
         {
-            OrientationA = motion.OrientationB, OrientationB = motion.OrientationA, LinearA = motion.LinearB, LinearB = motion.LinearA,
-            AngularA = motion.AngularB, AngularB = motion.AngularA, OffsetB = -motion.OffsetB,
+            OrientationA = motion.OrientationB,
+            OrientationB = motion.OrientationA,
+            LinearA = motion.LinearB,
+            LinearB = motion.LinearA,
+            AngularA = motion.AngularB,
+            AngularB = motion.AngularA,
+            OffsetB = -motion.OffsetB,
         };
         var partB = new ImpactBody(ImpactCore.Of(typeB, b), flipped.OrientationA, flipped.AngularA);
         TestPart(flipped, ref partB, 0, typeA, a, ref filter, true, shapes, pool, ref hit);
