@@ -16,11 +16,6 @@ static class CompareCommand
     /// <summary>Reads the arguments after the word compare, measures, and returns the exit status.</summary>
     public static int Run(string[] arguments)
     {
-        var peer = new Option<string>("--peer")
-        {
-            Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or a built scene program (.dll).",
-            Required = true,
-        };
         var ours = new Option<string?>("--ours")
         {
             Description = "Scene program (.dll) to take for ours [default: Demos as built with this program].",
@@ -29,39 +24,22 @@ static class CompareCommand
         var threads = List("--threads", "Thread counts.", "1,2");
         var settings = List("--settings", "Iterations x substeps.", "1x4,8x1");
         var lanes = List("--lanes", "Floats in a vector: 4, 8, 16; empty for the machine's own.", "");
-        var runs = new Option<int>("--runs") { Description = "Pairs of runs of each case.", DefaultValueFactory = _ => 5 };
         var frames = new Option<int?>("--frames") { Description = "Steps of each run [default: as the scene says]." };
         var warmup = new Option<int?>("--warmup") { Description = "First steps that are not measured." };
         var sleep = new Option<bool?>("--sleep") { Description = "Whether bodies may fall asleep [default: as the scene says]." };
-        var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
-        var root = new RootCommand("Compares this engine with a peer, scene by scene.");
-        Option[] options = [peer, ours, scenes, threads, settings, lanes, runs, frames, warmup, sleep, csv];
-        foreach (Option option in options)
-            root.Options.Add(option);
-        root.SetAction(parsed =>
+        var command = new PeerCommand("Compares this engine with a peer, scene by scene.", "a built scene program", "Pairs of runs of each case.",
+            ours, scenes, threads, settings, lanes, frames, warmup, sleep);
+        return command.Run(arguments, (parsed, openPeer, runs, csv) =>
         {
-            try
-            {
-                List<CompareCase> cases = Plan(parsed.GetRequiredValue(scenes), parsed.GetRequiredValue(threads),
-                    parsed.GetRequiredValue(settings), parsed.GetRequiredValue(lanes));
-                if (parsed.GetValue(runs) < 1)
-                    throw new CompareException("--runs has to be at least 1");
-                var ourProgram = new SceneProgram(parsed.GetValue(ours) ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"));
-                SceneProgram peerProgram = SceneProgram.OpenPeer(parsed.GetRequiredValue(peer));
-                List<CompareOutcome> outcomes = Measure(cases, ourProgram, peerProgram, parsed.GetValue(runs),
-                    parsed.GetValue(frames), parsed.GetValue(warmup), parsed.GetValue(sleep));
-                CompareReport.Write(Console.Out, outcomes);
-                if (parsed.GetValue(csv) is string path)
-                    CompareReport.WriteCsv(path, outcomes);
-                return 0;
-            }
-            catch (Exception error) when (error is CompareException or IOException or UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine($"error: {error.Message}");
-                return 1;
-            }
+            List<CompareCase> cases = Plan(parsed.GetRequiredValue(scenes), parsed.GetRequiredValue(threads),
+                parsed.GetRequiredValue(settings), parsed.GetRequiredValue(lanes));
+            var ourProgram = new SceneProgram(parsed.GetValue(ours) ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"));
+            List<CompareOutcome> outcomes = Measure(
+                cases, ourProgram, openPeer(), runs, parsed.GetValue(frames), parsed.GetValue(warmup), parsed.GetValue(sleep));
+            CompareReport.Write(Console.Out, outcomes);
+            if (csv is not null)
+                CompareReport.WriteCsv(csv, outcomes);
         });
-        return root.Parse(arguments).Invoke();
     }
 
     static List<CompareOutcome> Measure(List<CompareCase> cases, SceneProgram ours, SceneProgram peer, int runs, int? frames, int? warmup,

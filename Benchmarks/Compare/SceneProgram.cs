@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
+using System.Linq;
 using Demos.Running;
 using Demos.Scenes;
 using Demos.Terminal;
@@ -42,11 +43,8 @@ sealed class SceneProgram(string assemblyPath)
         }
     }
 
-    /// <summary>Runs anything else, which has to end well, and is compiled once and for all.</summary>
-    public void Do(params string[] arguments) => Do(null, arguments);
-
-    /// <summary>The same with the widest vectors that the runtime may use, in floats; null for its own choice.</summary>
-    public void Do(int? lanes, string[] arguments)
+    // Anything else, which has to end well, and is compiled once and for all.
+    void Do(int? lanes, string[] arguments)
     {
         var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
         start.ArgumentList.Add(assemblyPath);
@@ -59,6 +57,23 @@ sealed class SceneProgram(string assemblyPath)
         int status = Execute(start, out string messages);
         if (status != 0)
             throw new CompareException($"{assemblyPath} ended with status {status}: {messages.Trim()}");
+    }
+
+    /// <summary>Runs what writes a table, and reads its rows.</summary>
+    /// <param name="lanes">Widest vectors that the runtime may use, in floats; null for its own choice.</param>
+    /// <param name="arguments">Arguments of the run, given the file that it is to write, whose cells are separated by commas.</param>
+    public string[][] ReadRows(int? lanes, Func<string, string[]> arguments)
+    {
+        string path = Path.GetTempFileName();
+        try
+        {
+            Do(lanes, arguments(path));
+            return [.. File.ReadLines(path).Select(line => line.Split(','))];
+        }
+        finally
+        {
+            File.Delete(path);
+        }
     }
 
     static void Widen(ProcessStartInfo start, int? lanes)

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using System.Globalization;
-using System.IO;
 using System.Linq;
 using Benchmarks.Compare;
 using Demos.JointTables;
@@ -19,46 +18,23 @@ static class JointCommand
     /// <summary>Reads the arguments after the word joints, measures, and returns the exit status.</summary>
     public static int Run(string[] arguments)
     {
-        var peer = new Option<string>("--peer")
-        {
-            Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or a built scene program (.dll).",
-            Required = true,
-        };
         var types = new Option<string?>("--types") { Description = "Types such as BallSocket, separated by commas [default: all that both have]." };
         var lanes = new Option<string>("--lanes")
         {
             Description = "Floats in a vector, separated by commas; a width that the machine does not have is left out.",
             DefaultValueFactory = _ => "4,8,16",
         };
-        var runs = new Option<int>("--runs") { Description = "Pairs of runs.", DefaultValueFactory = _ => 5 };
-        var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
-        var root = new RootCommand("Compares what constraints cost with a peer.");
-        Option[] options = [peer, types, lanes, runs, csv];
-        foreach (Option option in options)
-            root.Options.Add(option);
-        root.SetAction(parsed =>
+        var command = new PeerCommand(
+            "Compares what constraints cost with a peer.", "a built scene program", "Pairs of runs.", types, lanes);
+        return command.Run(arguments, (parsed, openPeer, runs, csv) =>
         {
-            try
-            {
-                int count = parsed.GetValue(runs);
-                if (count < 1)
-                    throw new CompareException("--runs has to be at least 1");
-                int[] widths = [.. CommaList.Split(parsed.GetRequiredValue(lanes)).Select(Width)];
-                var ours = new SceneProgram(typeof(DemosCommand).Assembly.Location);
-                SceneProgram theirs = SceneProgram.OpenPeer(parsed.GetRequiredValue(peer));
-                List<JointOutcome> outcomes = Measure(ours, theirs, CommaList.Split(parsed.GetValue(types)), widths, count);
-                JointReport.Write(Console.Out, outcomes);
-                if (parsed.GetValue(csv) is string path)
-                    JointReport.WriteCsv(path, outcomes);
-                return 0;
-            }
-            catch (Exception error) when (error is CompareException or IOException or UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine($"error: {error.Message}");
-                return 1;
-            }
+            int[] widths = [.. CommaList.Split(parsed.GetRequiredValue(lanes)).Select(Width)];
+            var ours = new SceneProgram(typeof(DemosCommand).Assembly.Location);
+            List<JointOutcome> outcomes = Measure(ours, openPeer(), CommaList.Split(parsed.GetValue(types)), widths, runs);
+            JointReport.Write(Console.Out, outcomes);
+            if (csv is not null)
+                JointReport.WriteCsv(csv, outcomes);
         });
-        return root.Parse(arguments).Invoke();
     }
 
     static List<JointOutcome> Measure(SceneProgram ours, SceneProgram theirs, string[] types, int[] widths, int runs)
@@ -83,20 +59,11 @@ static class JointCommand
         return [.. outcomes.Values];
     }
 
-    static List<JointFigures> MeasureOnce(SceneProgram program, string[] types, int width)
-    {
-        string path = Path.GetTempFileName();
-        try
-        {
-            program.Do(width, [JointTimesCommand.Word, path, .. types]);
-            return [.. File.ReadLines(path).Select(line => line.Split(',')).Select(parts =>
-                new JointFigures(parts[0], int.Parse(parts[1], CultureInfo.InvariantCulture), Number(parts[2]), Number(parts[3])))];
-        }
-        finally
-        {
-            File.Delete(path);
-        }
-    }
+    static List<JointFigures> MeasureOnce(SceneProgram program, string[] types, int width) =>
+    [
+        .. program.ReadRows(width, path => [JointTimesCommand.Word, path, .. types]).Select(cells => new JointFigures(
+            cells[0], int.Parse(cells[1], CultureInfo.InvariantCulture), Number(cells[2]), Number(cells[3]))),
+    ];
 
     static double Number(string text) => double.Parse(text, CultureInfo.InvariantCulture);
 

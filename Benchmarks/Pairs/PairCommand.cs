@@ -18,48 +18,29 @@ static class PairCommand
     /// <summary>Reads the arguments after the word pairs, measures, and returns the exit status.</summary>
     public static int Run(string[] arguments)
     {
-        var peer = new Option<string>("--peer")
-        {
-            Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or another build of this program (.dll).",
-            Required = true,
-        };
         var pairs = List("--pairs", "Pairs such as box-hull14 or hull-hull [default: all].");
         var regimes = List("--regimes", "Of shallow, resting, deep, apart, missed [default: all].");
-        var runs = new Option<int>("--runs") { Description = "Runs of each program.", DefaultValueFactory = _ => 5 };
-        var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
-        var root = new RootCommand("Compares what a pair of shapes costs with a peer.");
-        Option[] options = [peer, pairs, regimes, runs, csv];
-        foreach (Option option in options)
-            root.Options.Add(option);
-        root.SetAction(parsed =>
+        var command = new PeerCommand(
+            "Compares what a pair of shapes costs with a peer.", "another build of this program", "Runs of each program.", pairs, regimes);
+        return command.Run(arguments, (parsed, openPeer, runs, csv) =>
         {
+            PairFile file = PairPlan.Create(CommaList.Split(parsed.GetValue(pairs)), CommaList.Split(parsed.GetValue(regimes)), Console.Error);
+            if (file.Cases.Count == 0)
+                throw new CompareException("there is nothing to measure");
             string path = Path.GetTempFileName();
             try
             {
-                int count = parsed.GetValue(runs);
-                if (count < 1)
-                    throw new CompareException("--runs has to be at least 1");
-                PairFile file = PairPlan.Create(CommaList.Split(parsed.GetValue(pairs)), CommaList.Split(parsed.GetValue(regimes)), Console.Error);
-                if (file.Cases.Count == 0)
-                    throw new CompareException("there is nothing to measure");
                 file.Write(path);
-                List<PairOutcome> outcomes = Measure(path, SceneProgram.OpenPeer(parsed.GetRequiredValue(peer)), count);
+                List<PairOutcome> outcomes = Measure(path, openPeer(), runs);
                 PairReport.Write(Console.Out, outcomes);
-                if (parsed.GetValue(csv) is string csvPath)
-                    PairReport.WriteCsv(csvPath, outcomes);
-                return 0;
-            }
-            catch (Exception error) when (error is CompareException or IOException or UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine($"error: {error.Message}");
-                return 1;
+                if (csv is not null)
+                    PairReport.WriteCsv(csv, outcomes);
             }
             finally
             {
                 File.Delete(path);
             }
         });
-        return root.Parse(arguments).Invoke();
     }
 
     static List<PairOutcome> Measure(string casePath, SceneProgram peer, int runs)
@@ -88,26 +69,10 @@ static class PairCommand
         return [.. outcomes.Values];
     }
 
-    static Dictionary<PairRow, PairFigures> MeasureOnce(SceneProgram program, string casePath)
-    {
-        string path = Path.GetTempFileName();
-        try
-        {
-            program.Do(PairTimesCommand.Word, casePath, path);
-            var figures = new Dictionary<PairRow, PairFigures>();
-            foreach (string line in File.ReadLines(path))
-            {
-                string[] parts = line.Split(',');
-                figures.Add(new PairRow(parts[0], parts[1], int.Parse(parts[2], CultureInfo.InvariantCulture)),
-                    new PairFigures(double.Parse(parts[3], CultureInfo.InvariantCulture), double.Parse(parts[4], CultureInfo.InvariantCulture)));
-            }
-            return figures;
-        }
-        finally
-        {
-            File.Delete(path);
-        }
-    }
+    static Dictionary<PairRow, PairFigures> MeasureOnce(SceneProgram program, string casePath) =>
+        program.ReadRows(lanes: null, path => [PairTimesCommand.Word, casePath, path]).ToDictionary(
+            cells => new PairRow(cells[0], cells[1], int.Parse(cells[2], CultureInfo.InvariantCulture)),
+            cells => new PairFigures(double.Parse(cells[3], CultureInfo.InvariantCulture), double.Parse(cells[4], CultureInfo.InvariantCulture)));
 
     static Option<string?> List(string name, string description) => new(name) { Description = $"{description} Separated by commas." };
 }

@@ -1,8 +1,7 @@
 using System;
 using System.Collections.Generic;
-using System.CommandLine;
 using System.Globalization;
-using System.IO;
+using System.Linq;
 using Benchmarks.Compare;
 using Benchmarks.Sweeps.Shared;
 
@@ -17,37 +16,14 @@ static class SweepCommand
     /// <summary>Reads the arguments after the word sweeps, measures, and returns the exit status.</summary>
     public static int Run(string[] arguments)
     {
-        var peer = new Option<string>("--peer")
+        var command = new PeerCommand("Compares what a sweep costs with a peer.", "another build of this program", "Runs of each program.");
+        return command.Run(arguments, (_, openPeer, runs, csv) =>
         {
-            Description = "Folder with the peer's BepuPhysics.dll and BepuUtilities.dll, or another build of this program (.dll).",
-            Required = true,
-        };
-        var runs = new Option<int>("--runs") { Description = "Runs of each program.", DefaultValueFactory = _ => 5 };
-        var csv = new Option<string?>("--csv") { Description = "File to write the results to, usually in Benchmarks/Results." };
-        var root = new RootCommand("Compares what a sweep costs with a peer.");
-        root.Options.Add(peer);
-        root.Options.Add(runs);
-        root.Options.Add(csv);
-        root.SetAction(parsed =>
-        {
-            try
-            {
-                int count = parsed.GetValue(runs);
-                if (count < 1)
-                    throw new CompareException("--runs has to be at least 1");
-                List<SweepOutcome> outcomes = Measure(SceneProgram.OpenPeer(parsed.GetRequiredValue(peer)), count);
-                SweepReport.Write(Console.Out, outcomes);
-                if (parsed.GetValue(csv) is string path)
-                    SweepReport.WriteCsv(path, outcomes);
-                return 0;
-            }
-            catch (Exception error) when (error is CompareException or IOException or UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine($"error: {error.Message}");
-                return 1;
-            }
+            List<SweepOutcome> outcomes = Measure(openPeer(), runs);
+            SweepReport.Write(Console.Out, outcomes);
+            if (csv is not null)
+                SweepReport.WriteCsv(csv, outcomes);
         });
-        return root.Parse(arguments).Invoke();
     }
 
     static List<SweepOutcome> Measure(SceneProgram peer, int runs)
@@ -68,24 +44,11 @@ static class SweepCommand
         return outcomes;
     }
 
-    static List<SweepFigures> MeasureOnce(SceneProgram program)
-    {
-        string path = Path.GetTempFileName();
-        try
-        {
-            program.Do(SweepTimesCommand.Word, path);
-            var figures = new List<SweepFigures>();
-            foreach (string line in File.ReadLines(path))
-            {
-                string[] parts = line.Split(',');
-                figures.Add(new SweepFigures($"{parts[0]}, {parts[1]}, {parts[2]}", double.Parse(parts[3], CultureInfo.InvariantCulture),
-                    double.Parse(parts[4], CultureInfo.InvariantCulture)));
-            }
-            return figures;
-        }
-        finally
-        {
-            File.Delete(path);
-        }
-    }
+    static List<SweepFigures> MeasureOnce(SceneProgram program) =>
+    [
+        .. program.ReadRows(lanes: null, path => [SweepTimesCommand.Word, path]).Select(cells => new SweepFigures(
+            $"{cells[0]}, {cells[1]}, {cells[2]}", Number(cells[3]), Number(cells[4]))),
+    ];
+
+    static double Number(string text) => double.Parse(text, CultureInfo.InvariantCulture);
 }

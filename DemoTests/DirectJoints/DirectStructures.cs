@@ -89,4 +89,18 @@ static class DirectStructures
             greatest = System.MathF.Max(greatest, (Point(world, chain[i - 1], .5f) - Point(world, chain[i], -.5f)).Length());
         return greatest;
     }
+
+    /// <summary>Lets a bar turn about a point beside its centre for ten seconds. There is to be no gravity.</summary>
+    /// <returns>What is left of its speed.</returns>
+    public static float TurnRotor(TestWorld world)
+    {
+        const float offset = .25f, speed = 20;
+        var bar = new Box(1, .2f, .2f);
+        var anchor = world.AddKinematic(bar, new RigidPose(Vector3.Zero));
+        var rotor = world.AddDynamic(bar, 10, new RigidPose(new Vector3(offset, 0, 0)));
+        world.Bodies[rotor].Velocity = new(new Vector3(0, speed * offset, 0), new Vector3(0, 0, speed));
+        world.Solver.Add(anchor, rotor, new Hinge { LocalOffsetB = new(-offset, 0, 0), LocalHingeAxisA = Vector3.UnitZ, LocalHingeAxisB = Vector3.UnitZ });
+        world.Step(600);
+        return world.Bodies[rotor].Velocity.Angular.Z / speed;
+    }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuPhysics.Trees;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -9,33 +10,23 @@ static class SweepChecks
 {
     public static void Offset(Vector3 offset) => BodyChecks.Position(offset * .5f, nameof(offset));
 
-    public static void Orientation(Quaternion orientation, string name) => BodyChecks.Orientation(orientation, name);
-
-    public static void Velocity(in BodyVelocity velocity) => BodyChecks.Velocity(velocity);
-
     /// <summary>Checks how long a sweep is, and where its memory comes from.</summary>
     public static void Length(float maximumT, BufferPool pool)
     {
-        Time(maximumT, nameof(maximumT));
+        BoxMath.RequireLength(maximumT);
         ArgumentNullException.ThrowIfNull(pool);
     }
 
     /// <summary>Checks how exact a sweep is to be. Infinite times are what some divide by a speed of zero.</summary>
     public static ImpactAccuracy Accuracy(float minimumProgression, float convergenceThreshold, int maximumIterationCount)
     {
-        Time(minimumProgression, nameof(minimumProgression));
-        Time(convergenceThreshold, nameof(convergenceThreshold));
+        BoxMath.RequireLength(minimumProgression);
+        BoxMath.RequireLength(convergenceThreshold);
         if (maximumIterationCount < 1)
         {
             throw new ArgumentOutOfRangeException(
                 nameof(maximumIterationCount), maximumIterationCount, "There must be one round at least.");
         }
         return new(minimumProgression, convergenceThreshold, maximumIterationCount);
-    }
-
-    static void Time(float time, string name)
-    {
-        if (!(time >= 0))
-            throw new ArgumentOutOfRangeException(name, time, "A time of a sweep must be zero or more.");
     }
 }

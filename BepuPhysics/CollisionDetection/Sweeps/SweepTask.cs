@@ -68,10 +68,10 @@ public sealed unsafe class SweepTask
         ArgumentNullException.ThrowIfNull(shapeDataB);
         ArgumentNullException.ThrowIfNull(shapes);
         SweepChecks.Offset(offsetB);
-        SweepChecks.Orientation(orientationA, nameof(orientationA));
-        SweepChecks.Orientation(orientationB, nameof(orientationB));
-        SweepChecks.Velocity(velocityA);
-        SweepChecks.Velocity(velocityB);
+        BodyChecks.Orientation(orientationA, nameof(orientationA));
+        BodyChecks.Orientation(orientationB, nameof(orientationB));
+        BodyChecks.Velocity(velocityA);
+        BodyChecks.Velocity(velocityB);
         SweepChecks.Length(maximumT, pool);
         var motion = new SweepMotion
         {
