@@ -9,9 +9,6 @@ namespace BepuPhysics;
 // Convex shapes that are swept through the world.
 public sealed unsafe partial class Simulation
 {
-    // Of the size of the swept shape, and of its coordinates: more than counts as touching, and than floats lose.
-    const double SweepTouchingPart = 4e-5, SweepRounding = 2e-6;
-
     /// <summary>Finds what a convex shape hits on its way, as it moves and turns.</summary>
     /// <remarks>
     /// <para>Everything else stands still. The shape turns about its centre at its angular velocity, as bodies do. A hit is told when the
@@ -122,8 +119,7 @@ public sealed unsafe partial class Simulation
     {
         var axes = new DoubleMatrix3x3 { X = new(1, 0, 0), Y = new(0, 1, 0), Z = new(0, 0, 1) };
         body.GetBounds(axes, motion.MaximumT, out var lower, out var upper);
-        var pad = body.Core.Size * SweepTouchingPart + position.Length * SweepRounding +
-            SweepBounds.Touching(motion.Accuracy, motion.MaximumT, motion.LinearA.Length + body.SurfaceSpeed);
+        var pad = SweepBounds.Pad(body, motion, position.Length, motion.LinearA.Length);
         min = SweepBounds.Lower(position + lower, pad);
         max = SweepBounds.Upper(position + upper, pad);
     }

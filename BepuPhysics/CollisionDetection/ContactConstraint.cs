@@ -92,7 +92,7 @@ unsafe readonly struct ContactConstraint
             {
                 var drift = kept.Drift(arms, manifold);
                 for (int i = 0; i < contactCount; ++i)
-                    WriteArm(i, kept.Places[i] < 0 ? Contact(manifold, i).Offset - drift : arms[kept.Places[i]]);
+                    WriteArm(i, kept.Places[i] < 0 ? manifold.Read(i).Offset - drift : arms[kept.Places[i]]);
                 if (old.KnowsB && frictionCenter == default)
                     Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
                 float load = 0;
@@ -125,7 +125,7 @@ unsafe readonly struct ContactConstraint
         float load = 0;
         for (int i = 0; i < contactCount; ++i)
         {
-            ref var contact = ref Contact(manifold, i);
+            ref readonly var contact = ref manifold.Read(i);
             WriteDepth(kept.Places[i], contact.Depth);
             features[kept.Places[i]] = contact.FeatureId;
             load += impulses[i * Vector<float>.Count];
@@ -143,7 +143,7 @@ unsafe readonly struct ContactConstraint
         {
             if (kept.Places[i] >= 0)
                 continue;
-            var arm = Contact(manifold, i).Offset - drift;
+            var arm = manifold.Read(i).Offset - drift;
             var place = arms.FindNearest(kept.Taken, arm);
             kept.Places[i] = place;
             kept.Taken |= 1 << place;
@@ -154,8 +154,6 @@ unsafe readonly struct ContactConstraint
     // The force of a kept patch points where it did, while its normal turns with the bodies: what that leaves of the normal force is friction. A load that
     // turned with its box would push a column to the side to which it leans, for as long as friction takes to notice.
     static Vector3 TurnedForce(Vector3 oldNormal, Vector3 normal, float load) => (oldNormal - normal) * load;
-
-    static ref ConvexContact Contact(in ConvexContactManifold manifold, int index) => ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), index);
 
     void WriteGeometry(in ConvexContactManifold manifold, in Vector3 frictionCenter)
     {

@@ -113,7 +113,7 @@ struct KeptArms
         var left = (1u << old.Count) - 1;
         for (int i = 0; i < manifold.Count; ++i)
         {
-            ref var contact = ref Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i);
+            ref readonly var contact = ref manifold.Read(i);
             var x = Vector128.Create(contact.Offset.X) - old.X;
             var y = Vector128.Create(contact.Offset.Y) - old.Y;
             var z = Vector128.Create(contact.Offset.Z) - old.Z;
@@ -169,7 +169,7 @@ struct KeptArms
         for (int i = 0; i < manifold.Count; ++i)
         {
             if (Places[i] >= 0)
-                drift += Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), i).Offset - old[Places[i]];
+                drift += manifold.Read(i).Offset - old[Places[i]];
         }
         return drift * (1f / Count);
     }

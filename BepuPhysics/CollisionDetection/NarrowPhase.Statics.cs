@@ -322,7 +322,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var distance = SamePlace * child.Placed.InnerRadius();
         for (int i = 0; i < child.Result.Manifold.Count; ++i)
         {
-            var place = Unsafe.Add(ref Unsafe.AsRef(in child.Result.Manifold.Contact0), i).Offset;
+            var place = child.Result.Manifold.Read(i).Offset;
             foreach (ref var old in patches)
             {
                 for (int j = 0; j < old.ContactCount; ++j)

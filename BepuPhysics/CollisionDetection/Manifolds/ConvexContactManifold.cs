@@ -125,5 +125,5 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     [System.Diagnostics.CodeAnalysis.UnscopedRef]
-    readonly ref readonly ConvexContact Read(int index) => ref GetConvexContactReference(ref Unsafe.AsRef(in this), index);
+    internal readonly ref readonly ConvexContact Read(int index) => ref GetConvexContactReference(ref Unsafe.AsRef(in this), index);
 }

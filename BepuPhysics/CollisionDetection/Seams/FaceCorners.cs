@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -46,7 +45,7 @@ static unsafe class FaceCorners
         var box = new Box(size, size, size);
         plane.TypeB = Box.Id;
         plane.ShapeB.Write(Box.Id, &box);
-        plane.OrientationB = FromY(normal);
+        plane.OrientationB = QuaternionEx.GetQuaternionBetweenNormalizedVectors(Vector3.UnitY, normal);
         var deepest = Deepest(view);
         plane.OffsetB = deepest.Offset - view.Result(first).OffsetA + normal * (.5f * deepest.Depth - .5f * size);
         tests.Add(plane, normal, float.MaxValue, plane.SpeculativeMargin, number, pool);
@@ -66,7 +65,7 @@ static unsafe class FaceCorners
         {
             for (int j = 0; j < plane.Manifold.Count && view.Result(view.Ranked[i]).Manifold.Count > 0; ++j)
             {
-                var contact = Contact(plane.Manifold, j);
+                var contact = plane.Manifold.Read(j);
                 var place = contact.Offset + plane.Normal * (ball.Radius - .5f * contact.Depth);
                 var placed = view.Placed(view.Ranked[i]);
                 placed.TypeA = Sphere.Id;
@@ -103,7 +102,7 @@ static unsafe class FaceCorners
         {
             if (owners[j] < 0)
                 return;
-            var height = depths[j] - Contact(plane.Manifold, j).Depth;
+            var height = depths[j] - plane.Manifold.Read(j).Depth;
             (least, greatest) = (MathF.Min(least, height), MathF.Max(greatest, height));
         }
         if (greatest - least > level)
@@ -120,7 +119,7 @@ static unsafe class FaceCorners
             {
                 if (owners[j] != i)
                     continue;
-                var contact = Contact(plane.Manifold, j);
+                var contact = plane.Manifold.Read(j);
                 contact.Offset += result.OffsetA + plane.Normal * (.5f * (depths[j] - contact.Depth));
                 contact.Depth = depths[j];
                 ConvexContactManifold.GetConvexContactReference(ref result.Manifold, result.Manifold.Count++) = contact;
@@ -183,15 +182,8 @@ static unsafe class FaceCorners
         {
             ref var manifold = ref view.Result(child).Manifold;
             for (int i = 0; i < manifold.Count; ++i)
-                deepest = Contact(manifold, i).Depth > deepest.Depth ? Contact(manifold, i) : deepest;
+                deepest = manifold.Read(i).Depth > deepest.Depth ? manifold.Read(i) : deepest;
         }
         return deepest;
     }
-
-    static ConvexContact Contact(in ConvexContactManifold manifold, int index) => Unsafe.Add(ref Unsafe.AsRef(in manifold.Contact0), index);
-
-    // The shortest rotation that takes the y axis to a direction.
-    static Quaternion FromY(in Vector3 direction) => direction.Y < -.999f
-        ? new Quaternion(1, 0, 0, 0)
-        : Exact.Normalize(new Quaternion(direction.Z, 0, -direction.X, 1 + direction.Y));
 }

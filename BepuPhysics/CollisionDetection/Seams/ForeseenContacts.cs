@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -114,7 +113,7 @@ static class ForeseenContacts
         var greatest = 0f;
         for (int i = 0; i < result.Manifold.Count; ++i)
         {
-            var arm = Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), i).Offset - result.OffsetA;
+            var arm = result.Manifold.Read(i).Offset - result.OffsetA;
             greatest = MathHelper.Max(greatest, Math.Abs(Exact.Dot(Exact.Cross(placed.Motion.Turn, arm), normal)));
         }
         return greatest;

@@ -127,7 +127,7 @@ static unsafe class PatchReduction
     // Whether a contact is that deep, or is at the end of the step.
     static bool Touches(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal, float limit)
     {
-        ref var contact = ref Unsafe.Add(ref Unsafe.AsRef(in result.Manifold.Contact0), index);
+        ref readonly var contact = ref result.Manifold.Read(index);
         if (contact.Depth >= limit)
             return true;
         var way = motion.Way + Exact.Cross(motion.Turn, contact.Offset - result.OffsetA);

@@ -24,10 +24,6 @@ static unsafe class ContainerSweep<TContainer> where TContainer : unmanaged, ICo
     }
 
     const int InitialCapacity = 64;
-    // Of coordinates: what boxes and directions lose by being floats.
-    const double Rounding = 2e-6;
-    // Of the size of the part: beyond what counts as touching.
-    const double TouchingPart = 4e-5;
     // Beyond anything that has a place.
     const double Farthest = 1e15;
 
@@ -70,8 +66,7 @@ static unsafe class ContainerSweep<TContainer> where TContainer : unmanaged, ICo
     {
         var count = ContainerPlaces.Open(container, 0, shapes, ref below, pool);
         var slabs = CreateSlabs(motion, part, below, count);
-        var scratch = stackalloc byte[IContainer.ScratchByteCount + 16];
-        scratch = (byte*)(((nuint)scratch + 15) & ~(nuint)15);
+        var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
         Push(slabs, below, count, motion, hit, ref stack, pool);
         while (stack.Count > 0 && !hit.Overlaps)
         {
@@ -87,7 +82,7 @@ static unsafe class ContainerSweep<TContainer> where TContainer : unmanaged, ICo
             var index = ~pending.Index;
             if (!(isFlipped ? filter.AllowTest(index, partIndex) : filter.AllowTest(partIndex, index)))
                 continue;
-            container.GetChild(index, shapes, scratch, out var child);
+            container.GetChild(index, shapes, (byte*)scratch, out var child);
             if (!ImpactCore.Exists(child.TypeId))
                 continue;
             var core = ImpactCore.Of(child.TypeId, child.Shape);
@@ -129,8 +124,7 @@ static unsafe class ContainerSweep<TContainer> where TContainer : unmanaged, ICo
         var relative = motion.LinearA - motion.LinearB;
         part.GetBounds(motion.OrientationB, motion.MaximumT, out var min, out var max);
         var place = motion.OrientationB.TurnBack(-motion.OffsetB);
-        var pad = part.Core.Size * TouchingPart + (place.Length + Exact.Length(farthest)) * Rounding +
-            SweepBounds.Touching(motion.Accuracy, motion.MaximumT, relative.Length + part.SurfaceSpeed);
+        var pad = SweepBounds.Pad(part, motion, place.Length + Exact.Length(farthest), relative.Length);
         return new SlabTest(
             SweepBounds.Lower(place + min, pad), SweepBounds.Upper(place + max, pad), motion.OrientationB.TurnBack(relative).ToSingle());
     }

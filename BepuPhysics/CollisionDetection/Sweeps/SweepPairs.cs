@@ -129,11 +129,10 @@ static unsafe class SweepPairs
             if (TContainer.IsList)
                 ContainerPlaces.Open(a, 0, shapes, ref list, pool);
             a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), shapes, list.Memory, ref children, pool);
-            var scratch = stackalloc byte[IContainer.ScratchByteCount + 16];
-            scratch = (byte*)(((nuint)scratch + 15) & ~(nuint)15);
+            var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
             for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
             {
-                a.GetChild(children[i], shapes, scratch, out var child);
+                a.GetChild(children[i], shapes, (byte*)scratch, out var child);
                 if (!ImpactCore.Exists(child.TypeId))
                     continue;
                 var part = new ImpactBody(ImpactCore.Of(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
