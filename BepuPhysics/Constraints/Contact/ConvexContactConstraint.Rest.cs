@@ -46,8 +46,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         {
             rests &= IsTwistWithinLimit(friction, ref prestep, ref impulses);
             var moves = ~rests;
-            body.Linear = Mask(moves, body.Linear);
-            body.Angular = Mask(moves, body.Angular);
+            body.Linear = Vector3Wide.Mask(moves, body.Linear);
+            body.Angular = Vector3Wide.Mask(moves, body.Angular);
             var least = load * new Vector<float>(ImpulseShare);
             impulses.Friction.X = WithoutDust(rests, impulses.Friction.X, least);
             impulses.Friction.Y = WithoutDust(rests, impulses.Friction.Y, least);
@@ -88,17 +88,14 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     static void LeaveAtRest(
         Vector<int> rests, in ConvexContactImpulsesWide<TNormals> before, ref SolverBodyWide body, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
-        body.Linear = Mask(~rests, body.Linear);
-        body.Angular = Mask(~rests, body.Angular);
+        body.Linear = Vector3Wide.Mask(~rests, body.Linear);
+        body.Angular = Vector3Wide.Mask(~rests, body.Angular);
         var source = before;
         for (int i = 0; i < TNormals.Count; ++i)
             impulses.Normals[i] = Wide.Select(rests, source.Normals[i], impulses.Normals[i]);
         impulses.Friction = Vector3Wide.Select(rests, source.Friction, impulses.Friction);
         impulses.Twist = Wide.Select(rests, source.Twist, impulses.Twist);
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide Mask(Vector<int> mask, in Vector3Wide v) => new(Wide.Mask(mask, v.X), Wide.Mask(mask, v.Y), Wide.Mask(mask, v.Z));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> IsZero(in Vector3Wide v) =>
