@@ -1,5 +1,4 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
@@ -109,18 +108,8 @@ public sealed unsafe partial class Simulation
             Swept = &body,
             Position = new(pose.Position),
         };
-        GetSweptBounds(body, motion, tester.Position, out var min, out var max);
+        SweepBounds.InWorld(motion, body, tester.Position, out var min, out var max);
         BroadPhase.SweepBox(min, max, velocity.Linear, maximumT, pool, ref tester);
         hitHandler = tester.Handler;
-    }
-
-    // A box around all orientations that the shape takes.
-    static void GetSweptBounds(in ImpactBody body, in SweepMotion motion, in DoubleVector3 position, out Vector3 min, out Vector3 max)
-    {
-        var axes = new DoubleMatrix3x3 { X = new(1, 0, 0), Y = new(0, 1, 0), Z = new(0, 0, 1) };
-        body.GetBounds(axes, motion.MaximumT, out var lower, out var upper);
-        var pad = SweepBounds.Pad(body, motion, position.Length, motion.LinearA.Length);
-        min = SweepBounds.Lower(position + lower, pad);
-        max = SweepBounds.Upper(position + upper, pad);
     }
 }

@@ -67,6 +67,20 @@ public sealed unsafe partial class BroadPhase
         sweepTester = leafTester.SweepTester;
     }
 
+    /// <summary>Tells which collidables have bounds that are near to a box, active ones first, near ones of each kind first.</summary>
+    /// <param name="min">Lower corner of the box.</param>
+    /// <param name="max">Upper corner of the box.</param>
+    /// <param name="maximumDistance">How near, m.</param>
+    /// <param name="tester">Receives the collidables on the calling thread; copied in and copied back.</param>
+    internal void FindNear<TTester>(Vector3 min, Vector3 max, float maximumDistance, ref TTester tester) where TTester : IBroadPhaseSweepTester
+    {
+        var leafTester = new SweepLeafTester<TTester> { SweepTester = tester, Leaves = ActiveLeaves };
+        ActiveTree.FindNear(min, max, ref maximumDistance, ref leafTester);
+        leafTester.Leaves = StaticLeaves;
+        StaticTree.FindNear(min, max, ref maximumDistance, ref leafTester);
+        tester = leafTester.SweepTester;
+    }
+
     /// <inheritdoc cref="Sweep{TSweepTester}(Vector3, Vector3, Vector3, float, BufferPool, ref TSweepTester)"/>
     public void Sweep<TSweepTester>(
         in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TSweepTester sweepTester)

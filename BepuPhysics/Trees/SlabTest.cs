@@ -15,7 +15,7 @@ namespace BepuPhysics.Trees;
 /// below to zero or above, one on which they are apart a time that is beyond any use. Nothing can become NaN, since nothing is infinite
 /// times zero.
 /// </remarks>
-readonly struct SlabTest
+readonly struct SlabTest : IBoxTest
 {
     // Two roundings on each side of the comparison, each half an ulp: a box that is met exactly at an edge must not be lost.
     const float Slack = 1 + 4 * 1.1920929e-7f;

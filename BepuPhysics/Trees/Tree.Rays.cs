@@ -6,7 +6,7 @@ namespace BepuPhysics.Trees;
 
 public unsafe partial struct Tree
 {
-    /// <summary>A subtree or leaf that a ray or sweep still has to visit, and when it gets there.</summary>
+    /// <summary>A subtree or leaf that a query still has to visit, and when it gets there, or how far away it is.</summary>
     struct PendingVisit
     {
         public int Index;
@@ -38,7 +38,7 @@ public unsafe partial struct Tree
     {
         var length = maximumT;
         var visitor = new RayVisitor<TLeafTester> { Ray = ray, Pool = pool, Tester = ref leafTester };
-        Traverse<RayVisitor<TLeafTester>>(test, ref length, ref visitor);
+        Traverse(test, ref length, ref visitor);
         maximumT = length;
     }
 
@@ -63,7 +63,7 @@ public unsafe partial struct Tree
         BoxMath.RequireFinite(direction);
         BoxMath.RequireLength(maximumT);
         var visitor = new SweepVisitor<TLeafTester> { Tester = ref sweepTester };
-        Traverse<SweepVisitor<TLeafTester>>(new SlabTest(min, max, direction), ref maximumT, ref visitor);
+        Traverse(new SlabTest(min, max, direction), ref maximumT, ref visitor);
     }
 
     /// <inheritdoc cref="Sweep{TLeafTester}(Vector3, Vector3, Vector3, ref float, BufferPool, ref TLeafTester)"/>
@@ -77,6 +77,18 @@ public unsafe partial struct Tree
         in BoundingBox boundingBox, Vector3 direction, float maximumT, BufferPool pool, ref TLeafTester sweepTester)
         where TLeafTester : ISweepLeafTester =>
         Sweep(boundingBox.Min, boundingBox.Max, direction, maximumT, pool, ref sweepTester);
+
+    /// <summary>Tells which leaves have boxes that are near to a box, near subtrees first.</summary>
+    /// <param name="min">Lower corner of the box.</param>
+    /// <param name="max">Upper corner of the box.</param>
+    /// <param name="maximumDistance">How near, m; as the callback left it in the end.</param>
+    /// <param name="leafTester">Receives the leaves on the calling thread.</param>
+    internal readonly void FindNear<TLeafTester>(Vector3 min, Vector3 max, ref float maximumDistance, ref TLeafTester leafTester)
+        where TLeafTester : ISweepLeafTester
+    {
+        var visitor = new SweepVisitor<TLeafTester> { Tester = ref leafTester };
+        Traverse(new GapTest(min, max), ref maximumDistance, ref visitor);
+    }
 
     interface ILeafVisitor
     {
@@ -103,8 +115,8 @@ public unsafe partial struct Tree
         public readonly void Visit(int leafIndex, ref float maximumT) => Tester.TestLeaf(leafIndex, ref maximumT);
     }
 
-    readonly void Traverse<TVisitor>(in SlabTest test, ref float maximumT, ref TVisitor visitor)
-        where TVisitor : ILeafVisitor, allows ref struct
+    readonly void Traverse<TTest, TVisitor>(in TTest test, ref float maximumT, ref TVisitor visitor)
+        where TTest : struct, IBoxTest where TVisitor : ILeafVisitor, allows ref struct
     {
         if (LeafCount == 0)
             return;

@@ -46,6 +46,7 @@ public class RecordedHashTests
         ["bounces"] = () => Bounce(60),
         ["wave"] = () => Run(SmallScenes.Wave(), 350),
         ["sweeps"] = Sweeps,
+        ["near"] = Near,
     };
 
     public static TheoryData<string> Names() => new(scenes.Keys);
@@ -112,6 +113,23 @@ public class RecordedHashTests
                 hash.Add(hit.Place);
                 hash.Add(hit.Normal);
             }
+        }
+        return hash.Value;
+    }
+
+    // What is near shapes of all kinds, of all that there is.
+    static ulong Near()
+    {
+        using var maze = new SweepMaze(9);
+        var random = new Random(10);
+        var hash = new StateHash();
+        for (int i = 0; i < 300; ++i)
+        {
+            var handler = new NearestProximity();
+            maze.FindNear(SweepMaze.NextCase(random) with { MaximumT = float.PositiveInfinity }, maze.World.Pool, ref handler);
+            hash.Add(handler.Nearest.Distance);
+            hash.Add(handler.Nearest.Place);
+            hash.Add(handler.Nearest.Normal);
         }
         return hash.Value;
     }

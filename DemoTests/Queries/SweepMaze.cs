@@ -4,6 +4,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
 using Demos.Accuracy;
 using DemoTests.Scenes;
 
@@ -82,7 +84,7 @@ sealed class SweepMaze : IDisposable
         return points;
     }
 
-    BepuUtilities.Memory.Buffer<CompoundChild> Children(int count, float extent)
+    Buffer<CompoundChild> Children(int count, float extent)
     {
         World.Pool.Take<CompoundChild>(count, out var children);
         for (int i = 0; i < count; ++i)
@@ -133,6 +135,38 @@ sealed class SweepMaze : IDisposable
         return Own(new HeightField(7, 6, .7f, .6f, heights, World.Pool));
     }
 
+    /// <summary>Numbers of all convex pieces of a collidable; null for one without children.</summary>
+    public int[]? Children(CollidableReference collidable)
+    {
+        Simulation.GetPoseAndShape(collidable, out _, out var shape);
+        if (Shapes.GetBatch(shape.Type) is not IContainerBatch container)
+            return null;
+        var found = new QuickList<int>(16, World.Pool);
+        container.FindOverlaps(shape.Index, new(-1e6f), new(1e6f), ref found, World.Pool);
+        var children = new int[found.Count];
+        for (int i = 0; i < children.Length; ++i)
+            children[i] = found[i];
+        found.Dispose(World.Pool);
+        return children;
+    }
+
+    /// <summary>The core of a piece of a collidable, and its pose in the collidable.</summary>
+    public unsafe ImpactCore PieceOf(CollidableReference collidable, int child, out RigidPose local)
+    {
+        var scratch = stackalloc byte[IContainer.ScratchByteCount + 16];
+        scratch = (byte*)(((nuint)scratch + 15) & ~(nuint)15);
+        Simulation.GetPoseAndShape(collidable, out _, out var shape);
+        var batch = Shapes.GetBatch(shape.Type);
+        if (batch is not IContainerBatch container)
+        {
+            local = RigidPose.Identity;
+            return ImpactCore.Of(shape.Type, batch.GetPointer(shape.Index));
+        }
+        container.GetChild(shape.Index, child, scratch, out var found);
+        local = found.Pose;
+        return ImpactCore.Of(found.TypeId, found.Shape);
+    }
+
     /// <summary>A sweep of some shape.</summary>
     public readonly record struct Case(int Shape, RigidPose Pose, BodyVelocity Velocity, float MaximumT);
 
@@ -154,48 +188,85 @@ sealed class SweepMaze : IDisposable
 
     ConvexHull Hull => Shapes.GetShape<ConvexHull>(convex[4].Index);
 
-    public void Sweep<THandler>(in Case sweep, ref THandler handler) where THandler : ISweepHitHandler
+    /// <summary>What is to be done with a shape, whatever its type.</summary>
+    interface IShapeUser
     {
-        switch (sweep.Shape)
+        void Use<TShape>(TShape shape) where TShape : unmanaged, IConvexShape;
+    }
+
+    void WithShape<TUser>(int shape, ref TUser user) where TUser : struct, IShapeUser, allows ref struct
+    {
+        switch (shape)
         {
             case 0:
-                Sweep(sphere, sweep, ref handler);
+                user.Use(sphere);
                 break;
             case 1:
-                Sweep(capsule, sweep, ref handler);
+                user.Use(capsule);
                 break;
             case 2:
-                Sweep(box, sweep, ref handler);
+                user.Use(box);
                 break;
             case 3:
-                Sweep(cylinder, sweep, ref handler);
+                user.Use(cylinder);
                 break;
             case 4:
-                Sweep(Hull, sweep, ref handler);
+                user.Use(Hull);
                 break;
             default:
-                Sweep(triangle, sweep, ref handler);
+                user.Use(triangle);
                 break;
         }
     }
 
-    /// <summary>What is swept, as it starts.</summary>
-    public ImpactBody SweptBody(in Case sweep, in SweepMotion motion) => sweep.Shape switch
+    public void Sweep<THandler>(in Case sweep, ref THandler handler) where THandler : ISweepHitHandler
     {
-        0 => Body(sphere, motion),
-        1 => Body(capsule, motion),
-        2 => Body(box, motion),
-        3 => Body(cylinder, motion),
-        4 => Body(Hull, motion),
-        _ => Body(triangle, motion),
-    };
+        var user = new Sweeper<THandler>(this, sweep, ref handler);
+        WithShape(sweep.Shape, ref user);
+    }
 
-    static unsafe ImpactBody Body<TShape>(TShape shape, in SweepMotion motion) where TShape : unmanaged, IConvexShape =>
-        new(ImpactCore.Of(TShape.TypeId, &shape), motion.OrientationA, motion.AngularA);
+    readonly ref struct Sweeper<THandler>(SweepMaze maze, in Case sweep, ref THandler handler) : IShapeUser where THandler : ISweepHitHandler
+    {
+        readonly ref readonly Case sweep = ref sweep;
+        readonly ref THandler handler = ref handler;
 
-    void Sweep<TShape, THandler>(in TShape shape, in Case sweep, ref THandler handler)
-        where TShape : unmanaged, IConvexShape where THandler : ISweepHitHandler =>
-        Simulation.Sweep(shape, sweep.Pose, sweep.Velocity, sweep.MaximumT, World.Pool, ref handler);
+        public void Use<TShape>(TShape shape) where TShape : unmanaged, IConvexShape =>
+            maze.Simulation.Sweep(shape, sweep.Pose, sweep.Velocity, sweep.MaximumT, maze.World.Pool, ref handler);
+    }
+
+    /// <summary>Asks what is near to the shape of a case where it starts; its longest time is the greatest distance.</summary>
+    public void FindNear<THandler>(in Case near, BufferPool pool, ref THandler handler) where THandler : IProximityHandler
+    {
+        var user = new Seeker<THandler>(this, near, pool, ref handler);
+        WithShape(near.Shape, ref user);
+    }
+
+    readonly ref struct Seeker<THandler>(SweepMaze maze, in Case near, BufferPool pool, ref THandler handler) : IShapeUser
+        where THandler : IProximityHandler
+    {
+        readonly ref readonly Case near = ref near;
+        readonly ref THandler handler = ref handler;
+
+        public void Use<TShape>(TShape shape) where TShape : unmanaged, IConvexShape =>
+            maze.Simulation.FindNear(shape, near.Pose, near.MaximumT, pool, ref handler);
+    }
+
+    /// <summary>The shape of a case, as it starts.</summary>
+    public ImpactBody SweptBody(in Case sweep, in SweepMotion motion)
+    {
+        var maker = new BodyMaker { Motion = motion };
+        WithShape(sweep.Shape, ref maker);
+        return maker.Body;
+    }
+
+    struct BodyMaker : IShapeUser
+    {
+        public SweepMotion Motion;
+        public ImpactBody Body;
+
+        public unsafe void Use<TShape>(TShape shape) where TShape : unmanaged, IConvexShape =>
+            Body = new(ImpactCore.Of(TShape.TypeId, &shape), Motion.OrientationA, Motion.AngularA);
+    }
 
     public void Dispose()
     {

@@ -6,7 +6,6 @@ using System.Threading.Tasks;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 using DemoTests.Support;
 using Xunit;
@@ -108,7 +107,7 @@ public sealed class WorldSweepTests : IDisposable
         {
             foreach (var whole in Sweep(sweep))
             {
-                if (Children(whole.Collidable) is not { } children)
+                if (maze.Children(whole.Collidable) is not { } children)
                     continue;
                 foreach (var child in children)
                 {
@@ -180,13 +179,11 @@ public sealed class WorldSweepTests : IDisposable
     }
 
     // Every child by itself, or the shape, without any tree.
-    unsafe SweptHit? BruteForce(in SweepMaze.Case sweep, CollidableReference collidable, out bool isContainer, int? only = null)
+    SweptHit? BruteForce(in SweepMaze.Case sweep, CollidableReference collidable, out bool isContainer, int? only = null)
     {
-        var scratch = stackalloc byte[IContainer.ScratchByteCount + 16];
-        scratch = (byte*)(((nuint)scratch + 15) & ~(nuint)15);
-        maze.Simulation.GetPoseAndShape(collidable, out var pose, out var shape);
-        var batch = maze.Simulation.Shapes.GetBatch(shape.Type);
-        isContainer = batch is IContainerBatch;
+        maze.Simulation.GetPoseAndShape(collidable, out var pose, out _);
+        var children = maze.Children(collidable);
+        isContainer = children is not null;
         var motion = new SweepMotion
         {
             OrientationA = DoubleMatrix3x3.FromQuaternion(sweep.Pose.Orientation),
@@ -199,20 +196,12 @@ public sealed class WorldSweepTests : IDisposable
         };
         var part = maze.SweptBody(sweep, motion);
         var hit = default(SweepHit);
-        foreach (var child in Children(collidable) ?? [0])
+        foreach (var child in children ?? [0])
         {
             if (only is { } one && child != one)
                 continue;
-            var body = default(ImpactBody);
-            if (batch is IContainerBatch container)
-            {
-                container.GetChild(shape.Index, child, scratch, out var found);
-                body = new(ImpactCore.Of(found.TypeId, found.Shape), found.Pose, motion.OrientationB, default);
-            }
-            else
-            {
-                body = new(ImpactCore.Of(shape.Type, batch.GetPointer(shape.Index)), motion.OrientationB, default);
-            }
+            var core = maze.PieceOf(collidable, child, out var local);
+            var body = new ImpactBody(core, local, motion.OrientationB, default);
             part.Restart();
             hit.Test(motion, ref part, ref body, 0, child);
         }
@@ -220,19 +209,5 @@ public sealed class WorldSweepTests : IDisposable
             return null;
         return hit.Overlaps ? new(collidable, 0, default, default)
             : new(collidable, hit.EarliestT, (new DoubleVector3(sweep.Pose.Position) + hit.Place).ToSingle(), hit.Normal.ToSingle());
-    }
-
-    int[]? Children(CollidableReference collidable)
-    {
-        maze.Simulation.GetPoseAndShape(collidable, out _, out var shape);
-        if (maze.Simulation.Shapes.GetBatch(shape.Type) is not IContainerBatch container)
-            return null;
-        var found = new QuickList<int>(16, maze.World.Pool);
-        container.FindOverlaps(shape.Index, new(-1e6f), new(1e6f), ref found, maze.World.Pool);
-        var children = new int[found.Count];
-        for (int i = 0; i < children.Length; ++i)
-            children[i] = found[i];
-        found.Dispose(maze.World.Pool);
-        return children;
     }
 }

@@ -56,6 +56,9 @@ unsafe struct ImpactCore
     /// <summary>Normal of a half-space, or a corner of a triangle.</summary>
     public readonly DoubleVector3 First => a;
 
+    /// <summary>The core of a point, which has no size.</summary>
+    public static ImpactCore Point => default;
+
     /// <summary>Whether a shape type has a core.</summary>
     public static bool Exists(int typeId) =>
         typeId is Sphere.Id or Capsule.Id or Box.Id or Triangle.Id or Cylinder.Id or ConvexHull.Id or HalfSpace.Id;

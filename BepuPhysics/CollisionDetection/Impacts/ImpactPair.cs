@@ -134,19 +134,17 @@ ref partial struct ImpactPair
         Separate(0, touching * NormalPart);
         impact.T = t;
         impact.Normal = -normal;
-        if (!MeetsFronts())
-            return false;
-        var onB = b.Core.IsPlane ? offsetB + b.Arm : offsetB + b.Point(simplex.NearestOnB);
-        if (b.Core.IsPlane)
-        {
-            var deepest = centerA + a.Point(simplex.NearestOnA) + normal * a.Core.Margin;
-            impact.Place = deepest + normal * DoubleVector3.Dot(onB - deepest, normal);
-        }
-        else
-        {
-            impact.Place = onB - normal * b.Core.Margin;
-        }
-        return true;
+        impact.Place = PlaceOnB();
+        return MeetsFronts();
+    }
+
+    // The point of B's surface that is nearest to A.
+    readonly DoubleVector3 PlaceOnB()
+    {
+        if (!b.Core.IsPlane)
+            return offsetB + b.Point(simplex.NearestOnB) - normal * b.Core.Margin;
+        var deepest = centerA + a.Point(simplex.NearestOnA) + normal * a.Core.Margin;
+        return deepest + normal * DoubleVector3.Dot(offsetB + b.Arm - deepest, normal);
     }
 
     void Begin(double t)

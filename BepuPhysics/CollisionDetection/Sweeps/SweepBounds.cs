@@ -1,5 +1,8 @@
 using System;
 using System.Numerics;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -14,24 +17,54 @@ static class SweepBounds
     // Of coordinates: what boxes and directions lose by being floats.
     const double Rounding = 2e-6;
 
-    /// <summary>By how much a box around a part that is swept has to be wider, m.</summary>
-    /// <param name="part">The part.</param>
-    /// <param name="motion">How it moves, and how exact the sweep is to be.</param>
-    /// <param name="coordinate">Greatest distance of a place from the origin, m.</param>
-    /// <param name="speed">Of its body, m/s.</param>
-    public static double Pad(in ImpactBody part, in SweepMotion motion, double coordinate, double speed) =>
+    // By how much a box around a part has to be wider, m: for a coordinate of the greatest size there is, m, and a speed of its body, m/s.
+    static double Pad(in ImpactBody part, in SweepMotion motion, double coordinate, double speed) =>
         part.Core.Size * TouchingPart + coordinate * Rounding + Touching(motion, speed + part.SurfaceSpeed);
+
+    /// <summary>A box around a part of A on its way, where it starts, in the frame of a container B.</summary>
+    /// <param name="motion">How the bodies move.</param>
+    /// <param name="part">The part.</param>
+    /// <param name="root">Boxes around all children of B, in its frame.</param>
+    /// <param name="count">Number of these boxes.</param>
+    /// <param name="speed">Of A against B, m/s.</param>
+    /// <param name="min">Lower corner, m.</param>
+    /// <param name="max">Upper corner, m.</param>
+    public static void InContainer(
+        in SweepMotion motion, in ImpactBody part, Buffer<NodeChild> root, int count, double speed, out Vector3 min, out Vector3 max)
+    {
+        var farthest = Vector3.Zero;
+        for (int i = 0; i < count; ++i)
+            farthest = Exact.Max(farthest, Exact.Max(Vector3.Abs(root[i].Min), Vector3.Abs(root[i].Max)));
+        part.GetBounds(motion.OrientationB, motion.MaximumT, out var lower, out var upper);
+        var place = motion.OrientationB.TurnBack(-motion.OffsetB);
+        var pad = Pad(part, motion, place.Length + Exact.Length(farthest), speed);
+        min = Lower(place + lower, pad);
+        max = Upper(place + upper, pad);
+    }
+
+    /// <summary>A box around a body A that is alone and moves, where it starts, in the world.</summary>
+    /// <param name="motion">How it moves.</param>
+    /// <param name="body">The body.</param>
+    /// <param name="position">Its position, m.</param>
+    /// <param name="min">Lower corner, m.</param>
+    /// <param name="max">Upper corner, m.</param>
+    public static void InWorld(in SweepMotion motion, in ImpactBody body, in DoubleVector3 position, out Vector3 min, out Vector3 max)
+    {
+        var axes = new DoubleMatrix3x3 { X = new(1, 0, 0), Y = new(0, 1, 0), Z = new(0, 0, 1) };
+        body.GetBounds(axes, motion.MaximumT, out var lower, out var upper);
+        var pad = Pad(body, motion, position.Length, motion.LinearA.Length);
+        min = Lower(position + lower, pad);
+        max = Upper(position + upper, pad);
+    }
 
     // Distance that counts as touching by a threshold that is a time.
     static double Touching(in SweepMotion motion, double speed) =>
         speed > 0 ? Math.Min(Math.Min(motion.Accuracy.ConvergenceThreshold, motion.MaximumT) * speed, Farthest) : 0;
 
-    /// <summary>A lower corner.</summary>
-    public static Vector3 Lower(in DoubleVector3 corner, double pad) =>
+    static Vector3 Lower(in DoubleVector3 corner, double pad) =>
         new(Limit(corner.X - pad), Limit(corner.Y - pad), Limit(corner.Z - pad));
 
-    /// <summary>An upper corner.</summary>
-    public static Vector3 Upper(in DoubleVector3 corner, double pad) =>
+    static Vector3 Upper(in DoubleVector3 corner, double pad) =>
         new(Limit(corner.X + pad), Limit(corner.Y + pad), Limit(corner.Z + pad));
 
     static float Limit(double coordinate) => (float)Math.Clamp(coordinate, -Farthest, Farthest);

@@ -34,7 +34,8 @@ static unsafe class SweepPairs
         }
         if (!ImpactCore.Exists(typeB))
         {
-            TestContainers(motion, typeA, a, typeB, b, ref filter, shapes, pool, ref hit);
+            var children = new Children<TFilter>(motion, typeB, b, ref filter, shapes, pool, ref hit);
+            ContainerTypes.TryUse(typeA, a, ref children);
             return;
         }
         var flipped = motion with
@@ -67,83 +68,53 @@ static unsafe class SweepPairs
     public static void TestPart<TFilter>(in SweepMotion motion, ref ImpactBody part, int partIndex, int typeB, void* b,
         ref TFilter filter, bool isFlipped, Shapes shapes, BufferPool pool, ref SweepHit hit) where TFilter : ISweepFilter
     {
-        switch (typeB)
-        {
-            case Compound.Id:
-                TestContainer(motion, ref part, partIndex, (Compound*)b, ref filter, isFlipped, shapes, pool, ref hit);
-                break;
-            case BigCompound.Id:
-                TestContainer(motion, ref part, partIndex, (BigCompound*)b, ref filter, isFlipped, shapes, pool, ref hit);
-                break;
-            case Mesh.Id:
-                TestContainer(motion, ref part, partIndex, (Mesh*)b, ref filter, isFlipped, shapes, pool, ref hit);
-                break;
-            case HeightField.Id:
-                TestContainer(motion, ref part, partIndex, (HeightField*)b, ref filter, isFlipped, shapes, pool, ref hit);
-                break;
-            default:
-                var core = ImpactCore.Of(typeB, b);
-                part.Restart();
-                if (!motion.BallsMeet(part, core, default, hit.LatestT(motion)))
-                    break;
-                var body = new ImpactBody(core, motion.OrientationB, motion.AngularB);
-                hit.Test(motion, ref part, ref body, partIndex, 0);
-                break;
-        }
-    }
-
-    static void TestContainer<TContainer, TFilter>(in SweepMotion motion, ref ImpactBody part, int partIndex, TContainer* container,
-        ref TFilter filter, bool isFlipped, Shapes shapes, BufferPool pool, ref SweepHit hit)
-        where TContainer : unmanaged, IContainer where TFilter : ISweepFilter =>
-        ContainerSweep<TContainer>.Test(motion, ref part, partIndex, *container, ref filter, isFlipped, shapes, pool, ref hit);
-
-    static void TestContainers<TFilter>(in SweepMotion motion, int typeA, void* a, int typeB, void* b, ref TFilter filter,
-        Shapes shapes, BufferPool pool, ref SweepHit hit) where TFilter : ISweepFilter
-    {
-        switch (typeA)
-        {
-            case Compound.Id:
-                TestChildren(motion, *(Compound*)a, typeB, b, ref filter, shapes, pool, ref hit);
-                break;
-            case BigCompound.Id:
-                TestChildren(motion, *(BigCompound*)a, typeB, b, ref filter, shapes, pool, ref hit);
-                break;
-            case Mesh.Id:
-                TestChildren(motion, *(Mesh*)a, typeB, b, ref filter, shapes, pool, ref hit);
-                break;
-            default:
-                TestChildren(motion, *(HeightField*)a, typeB, b, ref filter, shapes, pool, ref hit);
-                break;
-        }
+        var sweep = new ContainerSweep<TFilter>(motion, ref part, partIndex, ref filter, isFlipped, shapes, pool, ref hit);
+        if (ContainerTypes.TryUse(typeB, b, ref sweep))
+            return;
+        var core = ImpactCore.Of(typeB, b);
+        part.Restart();
+        if (!motion.BallsMeet(part, core, default, hit.LatestT(motion)))
+            return;
+        var body = new ImpactBody(core, motion.OrientationB, motion.AngularB);
+        hit.Test(motion, ref part, ref body, partIndex, 0);
     }
 
     // All children of A, each against those of B that it may meet.
-    static void TestChildren<TContainer, TFilter>(in SweepMotion motion, in TContainer a, int typeB, void* b, ref TFilter filter,
-        Shapes shapes, BufferPool pool, ref SweepHit hit) where TContainer : unmanaged, IContainer where TFilter : ISweepFilter
+    ref struct Children<TFilter>(in SweepMotion motion, int typeB, void* b, ref TFilter filter, Shapes shapes, BufferPool pool, ref SweepHit hit)
+        : IContainerUser where TFilter : ISweepFilter
     {
-        const float Farthest = 1e15f;
-        var children = new QuickList<int>(64, pool);
-        var list = default(Buffer<NodeChild>);
-        try
+        readonly ref readonly SweepMotion motion = ref motion;
+        readonly int typeB = typeB;
+        readonly void* b = b;
+        readonly ref TFilter filter = ref filter;
+        readonly ref SweepHit hit = ref hit;
+
+        public readonly void Use<TContainer>(in TContainer a) where TContainer : unmanaged, IContainer
         {
-            if (TContainer.IsList)
-                ContainerPlaces.Open(a, 0, shapes, ref list, pool);
-            a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), shapes, list.Memory, ref children, pool);
-            var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
-            for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
+            const float Farthest = 1e15f;
+            var children = new QuickList<int>(64, pool);
+            var list = default(Buffer<NodeChild>);
+            try
             {
-                a.GetChild(children[i], shapes, (byte*)scratch, out var child);
-                if (!ImpactCore.Exists(child.TypeId))
-                    continue;
-                var part = new ImpactBody(ImpactCore.Of(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
-                TestPart(motion, ref part, children[i], typeB, b, ref filter, false, shapes, pool, ref hit);
+                if (TContainer.IsList)
+                    ContainerPlaces.Open(a, 0, shapes, ref list, pool);
+                a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), shapes, list.Memory, ref children, pool);
+                var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
+                for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
+                {
+                    a.GetChild(children[i], shapes, (byte*)scratch, out var child);
+                    if (!ImpactCore.Exists(child.TypeId))
+                        continue;
+                    var part = new ImpactBody(ImpactCore.Of(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
+                    TestPart(motion, ref part, children[i], typeB, b, ref filter, false, shapes, pool, ref hit);
+                }
             }
-        }
-        finally
-        {
-            children.Dispose(pool);
-            if (list.Allocated)
-                pool.Return(ref list);
+            finally
+            {
+                children.Dispose(pool);
+                if (list.Allocated)
+                    pool.Return(ref list);
+            }
         }
     }
 }

@@ -1,0 +1,69 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
+using BepuPhysics.Trees;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics;
+
+// The contacts that a shape would have.
+public sealed unsafe partial class Simulation
+{
+    /// <summary>Finds the contacts that a convex shape has with the world: where it overlaps, how deeply, and which way leads out.</summary>
+    /// <remarks>
+    /// <para>Contacts are those of a step, up to eight for a collidable: along a contact's normal the shape has to move by its depth to get out
+    /// there. No contact is foreseen from velocities; everything stands still.</para>
+    /// <para>Only reads: any number of threads may ask at once, each with a pool of its own, while none changes or steps the simulation.
+    /// A body is found by its bounds of the last step; call <see cref="Bodies.UpdateBounds"/> after writing a pose.</para>
+    /// </remarks>
+    /// <param name="shape">The shape; it need not be in <see cref="Shapes"/>, and is no half-space.</param>
+    /// <param name="pose">Where it is.</param>
+    /// <param name="margin">Greatest distance at which there are contacts, m; these have negative depths. Zero for what overlaps.</param>
+    /// <param name="pool">Source of temporary memory; a pool of the calling thread.</param>
+    /// <param name="handler">Chooses what to test and receives the contacts; copied in and copied back.</param>
+    /// <param name="layers">Layers that the query is in, and that it meets; everything, if not given. The handler hears of no others.</param>
+    /// <exception cref="ArgumentException">
+    /// The shape is not valid, or none that is tested against others, or a value is not finite or outside its range.
+    /// </exception>
+    public void FindContacts<TShape, THandler>(
+        in TShape shape, in RigidPose pose, float margin, BufferPool pool, ref THandler handler, CollisionLayers? layers = null)
+        where TShape : unmanaged, IConvexShape where THandler : struct, IShapeContactHandler
+    {
+        using var reading = world.Read("Simulation.FindContacts");
+        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
+            throw new ArgumentException($"Contacts of shapes of type {typeof(TShape).Name} cannot be found.", nameof(shape));
+        shape.Validate();
+        BodyChecks.Pose(pose);
+        BoxMath.RequireLength(margin);
+        ArgumentOutOfRangeException.ThrowIfEqual(margin, float.PositiveInfinity);
+        ArgumentNullException.ThrowIfNull(pool);
+        var tested = shape;
+        var receiver = new WorldContacts<THandler>.Receiver { Handler = handler };
+        var batcher = new CollisionBatcher<WorldContacts<THandler>.Receiver>(pool, Shapes, NarrowPhase.CollisionTaskRegistry, 0, receiver);
+        var tester = new WorldContacts<THandler>
+        {
+            Simulation = this,
+            BatcherOfCaller = Unsafe.AsPointer(ref batcher),
+            Layers = layers,
+            Shape = &tested,
+            ShapeType = TShape.TypeId,
+            Pose = pose,
+            Margin = margin,
+        };
+        try
+        {
+            var orientation = DoubleMatrix3x3.FromQuaternion(pose.Orientation);
+            var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &tested), orientation, default);
+            SweepBounds.InWorld(default, body, new(pose.Position), out var min, out var max);
+            BroadPhase.FindOverlapping(new(min - new Vector3(margin), max + new Vector3(margin)), pool, ref tester);
+            batcher.Flush();
+        }
+        finally
+        {
+            batcher.Dispose();
+            handler = batcher.Callbacks.Handler;
+        }
+    }
+}

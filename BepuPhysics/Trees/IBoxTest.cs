@@ -1,0 +1,11 @@
+namespace BepuPhysics.Trees;
+
+/// <summary>A question to boxes, whose answer is how far away they are: in time, or in length.</summary>
+unsafe interface IBoxTest
+{
+    /// <summary>Whether a box is within a maximum.</summary>
+    /// <param name="child">The box.</param>
+    /// <param name="maximum">The maximum.</param>
+    /// <param name="t">How far away the box is; what is in it is no nearer.</param>
+    bool Meets(NodeChild* child, float maximum, out float t);
+}
