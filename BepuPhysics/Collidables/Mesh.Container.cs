@@ -47,8 +47,13 @@ public unsafe partial struct Mesh : IContainer
 
     static bool IContainer.IsSurface => true;
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
+    // What is found is asked for by its number soon; its corners were just looked at.
+    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    {
         FindLocalOverlaps(min, max, ref found, pool);
+        for (int i = 0; i < found.Count; ++i)
+            Header->Prefetch(found[i]);
+    }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
     {

@@ -215,35 +215,31 @@ public unsafe partial struct Mesh : IDisposableShape
     /// </remarks>
     internal readonly void GetCone(int triangle, out TriangleCone cone)
     {
-        var cosines = stackalloc float[] { 1, 1, 1 };
-        var sines = stackalloc float[] { 0, 0, 0 };
-        var freeMask = 0;
-        var edges = Header->Edges + 3 * triangle;
-        var isUniform = MathF.Abs(scale.X) == MathF.Abs(scale.Y) && MathF.Abs(scale.X) == MathF.Abs(scale.Z);
-        var isMirrored = IsMirrored;
-        for (int edge = 0; edge < 3; ++edge)
+        var edges = Header->Edges + 3 * (nint)triangle;
+        var (first, second, third) = (edges[0], edges[1], edges[2]);
+        var (ab, bc, ca) = (MeshEdges.Turn(first), MeshEdges.Turn(second), MeshEdges.Turn(third));
+        if (MathF.Abs(scale.X) != MathF.Abs(scale.Y) || MathF.Abs(scale.X) != MathF.Abs(scale.Z))
         {
-            var value = edges[edge];
-            // With B and C changing places AB is what was CA.
-            var target = isMirrored ? 2 - edge : edge;
-            if (value == MeshEdges.Free)
-            {
-                freeMask |= 1 << target;
-                continue;
-            }
-            if (value == 0)
-                continue;
-            var turn = isUniform ? MeshEdges.Turn(value) : ScaleTurn(triangle, edge, MeshEdges.Turn(value));
-            cosines[target] = turn.X;
-            sines[target] = turn.Y;
+            ab = ScaleTurn(triangle, 0, first, ab);
+            bc = ScaleTurn(triangle, 1, second, bc);
+            ca = ScaleTurn(triangle, 2, third, ca);
         }
-        cone.Cosines = *(Vector3*)cosines;
-        cone.Sines = *(Vector3*)sines;
-        cone.FreeMask = freeMask;
+        // With B and C changing places AB is what was CA.
+        if (IsMirrored)
+        {
+            (ab, ca) = (ca, ab);
+            (first, third) = (third, first);
+        }
+        cone.Cosines = new(ab.X, bc.X, ca.X);
+        cone.Sines = new(ab.Y, bc.Y, ca.Y);
+        cone.FreeMask = (first == MeshEdges.Free ? 1 : 0) | (second == MeshEdges.Free ? 2 : 0) | (third == MeshEdges.Free ? 4 : 0);
     }
 
-    readonly Vector2 ScaleTurn(int triangle, int edge, Vector2 turn)
+    readonly Vector2 ScaleTurn(int triangle, int edge, byte value, Vector2 turn)
     {
+        // Flat stays flat.
+        if (value is 0 or MeshEdges.Free)
+            return turn;
         Header->GetCorners(triangle, out var a, out var b, out var c);
         var normal = Exact.Normalize(Exact.Cross(c - a, b - a));
         var along = Exact.Normalize(edge == 0 ? b - a : edge == 1 ? c - b : a - c);

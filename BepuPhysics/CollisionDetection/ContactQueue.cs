@@ -32,9 +32,10 @@ unsafe struct ContactQueue
     }
 
     Ring updates;
-    int added;
-    int located;
-    int written;
+    // Unsigned, so that a place in the ring is a mask.
+    uint added;
+    uint located;
+    uint written;
 
     /// <summary>Forgets all contacts.</summary>
     public void Clear() => added = located = written = 0;
@@ -49,7 +50,7 @@ unsafe struct ContactQueue
     public void Add(Solver solver, FeatureIds* features, ConstraintHandle constraint, in ConvexContactManifold manifold, in PairMaterialProperties material,
         in Vector3 frictionCenter = default)
     {
-        ref var update = ref updates[added++ % Length];
+        ref var update = ref updates[(int)(added++ % Length)];
         update.Features = features;
         update.Handle = constraint;
         update.Manifold = manifold;
@@ -74,14 +75,14 @@ unsafe struct ContactQueue
 
     void Locate(Solver solver)
     {
-        ref var update = ref updates[located++ % Length];
+        ref var update = ref updates[(int)(located++ % Length)];
         update.Constraint = new ContactConstraint(solver, update.Handle, update.Manifold.Count);
         update.Constraint.Prefetch();
     }
 
     void Write()
     {
-        ref var update = ref updates[written++ % Length];
+        ref var update = ref updates[(int)(written++ % Length)];
         update.Constraint.Update(update.Manifold, update.Material, update.FrictionCenter, ref *update.Features);
     }
 }

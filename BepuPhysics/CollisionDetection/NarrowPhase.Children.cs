@@ -66,6 +66,29 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         worker.NextManifold = FirstManifold(worker.TestedPairs[pairId]);
     }
 
+    // All lists at once: each leads from place to place, and one alone would wait at each.
+    void PrefetchChildren(int workerIndex, ReadOnlySpan<int> pairIds)
+    {
+        Span<int> places = stackalloc int[pairIds.Length];
+        for (int i = 0; i < pairIds.Length; ++i)
+            places[i] = FirstManifold(workers[workerIndex].TestedPairs[pairIds[i]]);
+        for (var goesOn = true; goesOn;)
+        {
+            goesOn = false;
+            foreach (ref var place in places)
+            {
+                if (place == PairRecords<ChildManifold>.None)
+                    continue;
+                ref var manifold = ref Pairs.Manifolds.Memory[place];
+                if (manifold.Manifold.History >= 0)
+                    Pairs.Histories.Prefetch(manifold.Manifold.History);
+                place = manifold.Next;
+                Pairs.Manifolds.Prefetch(place);
+                goesOn |= place != PairRecords<ChildManifold>.None;
+            }
+        }
+    }
+
     /// <summary>Finds the contacts of two children that have hardly moved, or the history of a test.</summary>
     bool Recall(int workerIndex, ChildIds ids, in ChildShapes children, float margin, out int history, ref ConvexContactManifold manifold)
     {
@@ -195,16 +218,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
             var frictionCenter = worker.Statics.FindFrictionCenter(tested.Pair, result.Children);
-            var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory)
-            {
-                KeepsParentHistory = tested.MayCarry && result.Children.IsPatch,
-                Manifold = result.Manifold,
-                Material = material,
-                Inherited = inherited,
-                FrictionCenter = frictionCenter,
-            };
+            var old = PairRecords<ChildManifold>.None;
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
+                old = known;
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
                 if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
@@ -213,12 +230,28 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                         record->Patch.Write(result.Manifold);
                     continue;
                 }
-                if (readsEarly && record->Manifold.HasConstraint && result.Manifold.Count > 0)
-                    Read(ref worker, ref pending, record->Manifold);
             }
-            Note(ref worker.Pending, pending, worker.Pool, worker.Room);
+            NotePending(ref worker, tested, result, material, inherited, frictionCenter, old);
         }
         SkipGone(ref worker, tested.Pair, ref known, tested.IsCarried ? ChildIds.EndOfPatches : ulong.MaxValue);
+    }
+
+    // Apart from the loop, as most manifolds are kept as they are.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void NotePending(ref Worker worker, in TestedPair tested, in ChildResult result, in PairMaterialProperties material, int inherited,
+        in Vector3 frictionCenter, int old)
+    {
+        var pending = new PendingManifold(tested.Pair, result.Children, result.KeepsHistory)
+        {
+            KeepsParentHistory = tested.MayCarry && result.Children.IsPatch,
+            Manifold = result.Manifold,
+            Material = material,
+            Inherited = inherited,
+            FrictionCenter = frictionCenter,
+        };
+        if (readsEarly && old != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[old].Manifold.HasConstraint && result.Manifold.Count > 0)
+            Read(ref worker, ref pending, Pairs.Manifolds.Memory[old].Manifold);
+        Note(ref worker.Pending, pending, worker.Pool, worker.Room);
     }
 
     // Children without contacts are remembered for their history.
@@ -253,21 +286,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <returns>Whether its contacts push.</returns>
     bool Configure(int workerIndex, in TestedPair tested, Vector3 offsetB, Span<ChildResult> results, out PairMaterialProperties material)
     {
-        var view = new ContactView(results, offsetB);
-        if (view.IsConvex)
-        {
-            if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Convex, out material) || view.Convex.Count == 0)
-                return false;
-            NoteSurface(workerIndex, tested.Pair, ref view.Convex, tested.HitsThin);
-        }
+        var only = ContactView.FindOnly(results);
+        if (only == ContactView.Several)
+            return ConfigureSeveral(workerIndex, tested, offsetB, results, out material);
+        Unsafe.SkipInit(out ConvexContactManifold none);
+        ref var manifold = ref none;
+        if (only == ContactView.Nothing)
+            none = new() { OffsetB = offsetB };
         else
-        {
-            if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
-                return false;
-            CallbackChecks.Count(tested.Pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
-            NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.HitsThin);
-            view.TakeOver();
-        }
+            manifold = ref results[only].Manifold;
+        if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out material) || manifold.Count == 0)
+            return false;
+        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.HitsThin);
+        CallbackChecks.Contacts(tested.Pair, manifold, material);
+        return true;
+    }
+
+    // With memory for the contacts of all, which those of one do not need.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    bool ConfigureSeveral(int workerIndex, in TestedPair tested, Vector3 offsetB, Span<ChildResult> results, out PairMaterialProperties material)
+    {
+        var view = new ContactView(results, offsetB);
+        if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
+            return false;
+        CallbackChecks.Count(tested.Pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
+        NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.HitsThin);
+        view.TakeOver();
         foreach (ref var result in results)
         {
             if (result.Manifold.Count != 0)

@@ -58,6 +58,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) =>
             narrowPhase.AllowsChildren(workerIndex, pairId, childA, childB);
 
+        static void ICollisionCallbacks.PrefetchChildren<T>(ref T callbacks, ReadOnlySpan<int> pairIds)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            self.NarrowPhase.PrefetchChildren(self.WorkerIndex, pairIds);
+        }
+
         static void ICollisionCallbacks.BeginChildren<T>(ref T callbacks, int pairId)
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
@@ -75,6 +81,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
             self.NarrowPhase.RecallPatches(self.WorkerIndex, pairId, out known);
+        }
+
+        static bool ICollisionCallbacks.KeepsChildren<T>(ref T callbacks, int pairId)
+        {
+            ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
+            return Waits(self.NarrowPhase.workers[self.WorkerIndex].TestedPairs[pairId]);
         }
 
         static void ICollisionCallbacks.RecallMotion<T>(ref T callbacks, int pairId, out LastMotion motion)

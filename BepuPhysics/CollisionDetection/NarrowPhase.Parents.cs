@@ -15,14 +15,16 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (!HasParentHistory(tested))
             return false;
-        ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
-        history.Identify(Simulation.Shapes.Identify(shapeA), Simulation.Shapes.Identify(shapeB));
+        ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
         // What agrees with others of its body may come out otherwise though it has not moved.
         if (Waits(tested))
-        {
-            history.Forget();
+            cached.CarriedPatchCount = 0;
+        // What moves has no use for its history, which is in none of the caches.
+        if (cached.CarriedPatchCount == 0)
             return false;
-        }
+        Pairs.Manifolds.Prefetch(Pairs.Manifolds.Memory[cached.FirstManifold].Next);
+        ref var history = ref Pairs.Parents.Memory[cached.Single.History];
+        history.Identify(Simulation.Shapes.Identify(shapeA), Simulation.Shapes.Identify(shapeB));
         var offsetB = poseB.Position - poseA.Position;
         Unsafe.SkipInit(out ParentHistory.Results results);
         var count = history.TryCarry(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
@@ -39,26 +41,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     [MethodImpl(MethodImplOptions.NoInlining)]
     void Record(in TestedPair tested, float dt, Vector3 offsetB, ReadOnlySpan<ChildResult> results)
     {
-        ref var history = ref Pairs.Parents.Memory[Pairs.Pairs.Values[tested.CacheIndex].Single.History];
-        history.Forget();
+        ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
+        cached.CarriedPatchCount = 0;
         if (!tested.MayCarry)
+            return;
+        var velocityA = VelocityOf(tested.Pair.A);
+        var velocityB = VelocityOf(tested.Pair.B);
+        var angular = velocityB.Angular - velocityA.Angular;
+        var turn = Exact.Length(angular);
+        // Turns too fast, however large it is: then nothing else has to be looked for.
+        if (turn * dt > RetestBound.Tolerance * (1 + RetestBound.Rounding))
             return;
         Simulation.GetPoseAndShape(tested.Pair.A, out var poseA, out var shapeA);
         Simulation.GetPoseAndShape(tested.Pair.B, out var poseB, out var shapeB);
+        ref var history = ref Pairs.Parents.Memory[cached.Single.History];
+        history.Identify(Simulation.Shapes.Identify(shapeA), Simulation.Shapes.Identify(shapeB));
         if (history.Reach == 0)
             history.Measure(ReachOf(shapeA), ReachOf(shapeB));
         if (!history.MayCarry)
             return;
-        var velocityA = VelocityOf(tested.Pair.A);
-        var velocityB = VelocityOf(tested.Pair.B);
         // The smaller shape's velocity as the larger one sees it.
         var turning = history.AIsLarger ? velocityA.Angular : velocityB.Angular;
         var linear = velocityB.Linear - velocityA.Linear - Exact.Cross(turning, offsetB);
-        var angular = velocityB.Angular - velocityA.Angular;
         // By how much its points may move in a step.
-        var step = (Exact.Length(linear) + Exact.Length(angular) * history.Reach) * dt;
+        var step = (Exact.Length(linear) + turn * history.Reach) * dt;
         if (step < RetestBound.Tolerance * history.Reach)
-            history.Record(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
+            cached.CarriedPatchCount = history.Record(offsetB, poseA.Orientation, poseB.Orientation, tested.SpeculativeMargin, results);
     }
 
     float ReachOf(TypedIndex shape) => Simulation.Shapes.GetBatch(shape.Type).MaximumRadius(shape.Index);

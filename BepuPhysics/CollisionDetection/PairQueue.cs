@@ -30,8 +30,12 @@ unsafe struct PairQueue
     Ring pairs;
     // Index in the cache that a pair most likely has.
     Elements elements;
-    int added;
-    int taken;
+    // Unsigned, so that a place in the ring is a mask.
+    uint added;
+    uint taken;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static int Place(uint index) => (int)(index % Length);
 
     /// <summary>Forgets all pairs.</summary>
     public void Clear() => added = taken = 0;
@@ -39,24 +43,27 @@ unsafe struct PairQueue
     /// <summary>Adds a pair. There must be room: <see cref="TryTake"/> after each.</summary>
     public void Add(in PairCache cache, Bodies bodies, Statics statics, CollidablePair pair)
     {
-        pairs[added % Length] = pair;
+        pairs[Place(added)] = pair;
         cache.Pairs.PrefetchSlot(pair);
-        var second = added - StageLength;
-        if (second >= taken)
+        if (added - taken >= StageLength)
         {
-            ref var pairInTable = ref pairs[second % Length];
-            elements[second % Length] = cache.Pairs.PrefetchElement(pairInTable);
+            var second = added - StageLength;
+            ref var pairInTable = ref pairs[Place(second)];
+            elements[Place(second)] = cache.Pairs.PrefetchElement(pairInTable);
             PrefetchPose(bodies, statics, pairInTable.A);
             PrefetchPose(bodies, statics, pairInTable.B);
         }
-        var third = second - StageLength;
-        if (third >= taken && elements[third % Length] >= 0)
+        if (added - taken >= 2 * StageLength && elements[Place(added - 2 * StageLength)] >= 0)
         {
-            ref var cached = ref cache.Pairs.Values[elements[third % Length]];
-            if (cached.Single.History >= 0 && cached.IsOfChildren)
+            ref var cached = ref cache.Pairs.Values[elements[Place(added - 2 * StageLength)]];
+            if (cached.IsOfChildren)
             {
-                cache.Parents.Prefetch(cached.Single.History);
-                cache.Parents.PrefetchRest(cached.Single.History);
+                cache.Manifolds.Prefetch(cached.FirstManifold);
+                if (cached.CarriedPatchCount > 0)
+                {
+                    cache.Parents.Prefetch(cached.Single.History);
+                    cache.Parents.PrefetchRest(cached.Single.History, ParentHistory.ByteCountOf(cached.CarriedPatchCount));
+                }
             }
             else if (cached.Single.History >= 0)
             {
@@ -87,8 +94,8 @@ unsafe struct PairQueue
     /// <param name="guess">Its index in the cache, or that of another; negative where it is in none.</param>
     public bool TryTake(out CollidablePair pair, out int guess)
     {
-        pair = pairs[taken % Length];
-        guess = elements[taken % Length];
+        pair = pairs[Place(taken)];
+        guess = elements[Place(taken)];
         if (added - taken < 3 * StageLength)
             return false;
         ++taken;
@@ -98,7 +105,7 @@ unsafe struct PairQueue
     /// <summary>Takes the oldest pair whether its turn has come or not; false when there is none.</summary>
     public bool TryTakeLast(out CollidablePair pair)
     {
-        pair = pairs[taken % Length];
+        pair = pairs[Place(taken)];
         if (added == taken)
             return false;
         ++taken;

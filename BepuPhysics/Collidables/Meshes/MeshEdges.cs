@@ -29,7 +29,9 @@ static unsafe class MeshEdges
 
     static Vector2[] MakeTurns()
     {
-        var turns = new Vector2[Steps + 1];
+        var turns = new Vector2[byte.MaxValue + 1];
+        // As flat ones; nobody is there.
+        turns[Free] = new(1, 0);
         for (int q = 0; q <= Steps; ++q)
         {
             var angle = Math.PI * q * q / (Steps * Steps);
@@ -52,7 +54,7 @@ static unsafe class MeshEdges
         return sum;
     }
 
-    /// <summary>Cosine and sine of the angle of a byte that is not free.</summary>
+    /// <summary>Cosine and sine of the angle of a byte; of a free one those of no angle.</summary>
     public static Vector2 Turn(byte edge) => Turns[edge];
 
     /// <summary>Byte of the greatest angle that is not above that between two unit normals.</summary>

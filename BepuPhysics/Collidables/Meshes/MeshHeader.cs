@@ -92,6 +92,14 @@ unsafe struct MeshHeader
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly int GetPlace(int triangle) => Triangles.GetPlace(Places, triangle);
 
+    /// <summary>Asks the processor to load what is kept by the number of a triangle: its place and its edges. Changes no result.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly void Prefetch(int triangle)
+    {
+        BepuUtilities.Memory.Prefetch.Read(Places + (nint)triangle * MeshTriangles.ByteCountOf(NamedCount));
+        BepuUtilities.Memory.Prefetch.Read(Edges + 3 * (nint)triangle);
+    }
+
     /// <summary>Writes a triangle, and that it is at this place.</summary>
     public readonly void SetTriangle(int place, in MeshTriangle triangle)
     {

@@ -80,6 +80,9 @@ unsafe struct ChildPairs(BufferPool pool)
         public float SpeculativeMargin;
         public bool MoverIsB;
         public bool HasRound;
+        // Of a parent with one child that agrees with nobody: whether it is such, and from how many contacts on that may be carried along.
+        public bool IsAlone;
+        public int LeastCarriedContactCount;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -156,6 +159,41 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>Whether children of a parent become patches.</summary>
     public readonly bool Joins(int parent) => parents[parent].Placed.Allocated;
 
+    /// <summary>Notes that a parent has one child, which is not joined.</summary>
+    /// <param name="parent">The parent.</param>
+    /// <param name="leastCarriedContactCount">Number of contacts from which on they may be carried along.</param>
+    public readonly void SetAlone(int parent, int leastCarriedContactCount)
+    {
+        parents[parent].IsAlone = true;
+        parents[parent].LeastCarriedContactCount = leastCarriedContactCount;
+    }
+
+    /// <summary>Whether a parent has one child, which is not joined.</summary>
+    public readonly bool IsAlone(int parent) => parents[parent].IsAlone;
+
+    /// <summary>Forgets what became of the parent that was completed last: the next has nothing of it.</summary>
+    public void ForgetOutcome()
+    {
+        Kept.Count = 0;
+        MayCarry = HitsThin = false;
+    }
+
+    /// <summary>Makes a patch of what was found for the child of a parent that has one.</summary>
+    /// <param name="parent">The parent.</param>
+    /// <param name="known">Patches of the last step.</param>
+    /// <returns>Number of patches.</returns>
+    public int BuildPatch(int parent, in KnownPatches known)
+    {
+        ForgetOutcome();
+        ref var open = ref parents[parent];
+        ref var child = ref open.Slots[PatchSet.Capacity];
+        if (child.Manifold.Count == 0)
+            return 0;
+        MayCarry = open.HasRound || child.Manifold.Count >= open.LeastCarriedContactCount;
+        PatchSet.BuildOfOne(ref child, known, ref open.Slots[PatchSet.Capacity - 1]);
+        return 1;
+    }
+
     /// <summary>Lets a parent wait for others to be joined with, as nothing more is waited for.</summary>
     /// <returns>Whether there is room for no more.</returns>
     public bool WaitToJoin(int parent, BufferPool pool)
@@ -181,8 +219,7 @@ unsafe struct ChildPairs(BufferPool pool)
     public int BuildPatches(in SeamSet set, in KnownPatches known, BufferPool pool)
     {
         ref var open = ref parents[set.Owner];
-        Kept.Count = 0;
-        MayCarry = HitsThin = false;
+        ForgetOutcome();
         if (set.Count == 0)
             return 0;
         var results = Results(set.Owner, 0);

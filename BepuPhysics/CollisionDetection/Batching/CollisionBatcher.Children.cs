@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -39,6 +40,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         }
         ref var found = ref Children->Found;
         found.Count = 0;
+        PrefetchChildren(task, batch);
         task.FindChildren(batch, Shapes, Dt, ref found, Pool);
         int start = 0;
         for (int i = 0; i < batch.Count; ++i)
@@ -52,11 +54,29 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         }
     }
 
+    void PrefetchChildren(ExpandingTask task, in PairBatch batch)
+    {
+        Span<int> pairIds = stackalloc int[PairBatch.Capacity];
+        for (int i = 0; i < batch.Count; ++i)
+            pairIds[i] = task.Parent(batch, i).PairId;
+        TCallbacks.PrefetchChildren(ref Callbacks, pairIds[..batch.Count]);
+    }
+
     void Expand(ExpandingTask task, in PairBatch batch, int index, int start, int end)
     {
         ref var pair = ref task.Parent(batch, index);
-        var parent = Children->Open(pair, end - start, task.JoinsChildren, Dt, Pool);
+        if (start == end)
+        {
+            CompleteWithoutChildren(pair);
+            return;
+        }
         TCallbacks.BeginChildren(ref Callbacks, pair.PairId);
+        if (end - start == 1 && task.JoinsChildren)
+        {
+            ExpandAlone(task, batch, pair, Children->Found[start]);
+            return;
+        }
+        var parent = Children->Open(pair, end - start, task.JoinsChildren, Dt, Pool);
         for (int i = start; i < end; ++i)
         {
             ref var found = ref Children->Found[i];
@@ -66,6 +86,29 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             AddChild(parent, found.Children, children, pair);
         }
         Release(parent);
+    }
+
+    // A child that is alone has nobody to agree with, and becomes a patch as soon as it is tested. But a triangle has neighbours.
+    void ExpandAlone(ExpandingTask task, in PairBatch batch, in ParentPair pair, in FoundChild found)
+    {
+        if (!Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
+        {
+            CompleteWithoutChildren(pair);
+            return;
+        }
+        task.GetChildren(batch, Shapes, found, out var children);
+        var joins = children.TypeA == Triangle.Id || children.TypeB == Triangle.Id || TCallbacks.KeepsChildren(ref Callbacks, pair.PairId);
+        var parent = Children->Open(pair, 1, joins, Dt, Pool);
+        if (!joins)
+            Children->SetAlone(parent, PlacedChildren.FindLeastCarriedContactCount(children.TypeA, children.TypeB));
+        AddChild(parent, found.Children, children, pair);
+        Release(parent);
+    }
+
+    void CompleteWithoutChildren(in ParentPair pair)
+    {
+        Children->ForgetOutcome();
+        TCallbacks.OnChildrenCompleted(ref Callbacks, pair.PairId, pair.OffsetB, default);
     }
 
     void AddChild(int parent, ChildIds ids, in ChildShapes children, in ParentPair pair)
@@ -141,10 +184,14 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         if (!Children->Release(parent))
             return;
-        if (!Children->Joins(parent))
+        if (Children->IsAlone(parent))
         {
-            Children->Kept.Count = 0;
-            Children->MayCarry = Children->HitsThin = false;
+            TCallbacks.RecallPatches(ref Callbacks, Children->PairId(parent), out var known);
+            Complete(parent, Children->BuildPatch(parent, known));
+        }
+        else if (!Children->Joins(parent))
+        {
+            Children->ForgetOutcome();
             Complete(parent, 0);
         }
         else if (Children->WaitToJoin(parent, Pool))

@@ -8,11 +8,14 @@ namespace BepuPhysics.CollisionDetection;
 unsafe ref struct ContactView
 {
     readonly Span<ChildResult> results;
-    // The result that a convex view shows.
+    // The result that a convex view shows; none, or several that are shown together.
     readonly int only;
     Origins origins;
     readonly int originCount;
     ConvexContactManifold none;
+
+    /// <summary>None of the results has contacts; several have.</summary>
+    public const int Nothing = -1, Several = -2;
 
     /// <summary>The contacts of several children, deepest first.</summary>
     public NonconvexContactManifold Nonconvex;
@@ -34,24 +37,29 @@ unsafe ref struct ContactView
     public ContactView(Span<ChildResult> results, Vector3 offsetB)
     {
         this.results = results;
-        only = -1;
+        only = FindOnly(results);
         none.OffsetB = Nonconvex.OffsetB = offsetB;
-        IsConvex = true;
-        for (int i = 0; i < results.Length; ++i)
-        {
-            if (results[i].Manifold.Count == 0)
-                continue;
-            IsConvex = only < 0;
-            only = i;
-            if (!IsConvex)
-                break;
-        }
         if (!IsConvex)
             originCount = ShowDeepest();
     }
 
     /// <summary>Whether no more than one child has contacts.</summary>
-    public readonly bool IsConvex { get; }
+    public readonly bool IsConvex => only != Several;
+
+    /// <summary>Index of the only result that has contacts, <see cref="Nothing"/> or <see cref="Several"/>.</summary>
+    public static int FindOnly(ReadOnlySpan<ChildResult> results)
+    {
+        var only = Nothing;
+        for (int i = 0; i < results.Length; ++i)
+        {
+            if (results[i].Manifold.Count == 0)
+                continue;
+            if (only != Nothing)
+                return Several;
+            only = i;
+        }
+        return only;
+    }
 
     /// <summary>The contacts of the only child that has some, or none; changes are those of the child.</summary>
     [System.Diagnostics.CodeAnalysis.UnscopedRef]

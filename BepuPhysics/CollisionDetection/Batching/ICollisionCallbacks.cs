@@ -32,6 +32,10 @@ public interface ICollisionCallbacks
     /// <param name="manifold">Contacts of the pair.</param>
     void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>;
 
+    /// <summary>The children of some pairs come soon: what is remembered of them may be loaded.</summary>
+    internal static virtual void PrefetchChildren<TCallbacks>(ref TCallbacks callbacks, ReadOnlySpan<int> pairIds)
+        where TCallbacks : struct, ICollisionCallbacks { }
+
     /// <summary>The children of a pair come next.</summary>
     internal static virtual void BeginChildren<TCallbacks>(ref TCallbacks callbacks, int pairId) where TCallbacks : struct, ICollisionCallbacks { }
 
@@ -54,6 +58,9 @@ public interface ICollisionCallbacks
     /// <summary>Says what patches the pair had in the last step.</summary>
     internal static virtual void RecallPatches<TCallbacks>(ref TCallbacks callbacks, int pairId, out KnownPatches known)
         where TCallbacks : struct, ICollisionCallbacks => known = default;
+
+    /// <summary>Whether the children of a pair are wanted after they were joined (<see cref="KnownPatches.KeepsChildren"/>).</summary>
+    internal static virtual bool KeepsChildren<TCallbacks>(ref TCallbacks callbacks, int pairId) where TCallbacks : struct, ICollisionCallbacks => false;
 
     /// <summary>Says how deep the contacts of these patches came to be in the last step, and how the shapes moved in it.</summary>
     internal static virtual void RecallMotion<TCallbacks>(ref TCallbacks callbacks, int pairId, out LastMotion motion)

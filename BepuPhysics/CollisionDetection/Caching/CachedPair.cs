@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -56,6 +57,8 @@ struct CachedManifold
 }
 
 /// <summary>One manifold of a pair of shapes of which one at least is made of children: a patch, or two children with their history.</summary>
+// As large as a cache line: four bytes more than what it holds, so that none lies across two.
+[StructLayout(LayoutKind.Sequential, Size = 64)]
 struct ChildManifold
 {
     public CachedManifold Manifold;
@@ -91,6 +94,14 @@ struct CachedPair
 
     /// <summary>Whether the manifolds are those of children, in a list.</summary>
     public readonly bool IsOfChildren => Single.ConstraintTypeId <= Several;
+
+    /// <summary>Of a pair with manifolds of children: number of patches in its history that may be carried along.</summary>
+    // Of none there is nothing to be read. Where features of a single manifold would be.
+    public int CarriedPatchCount
+    {
+        readonly get => Single.Features[0];
+        set => Single.Features[0] = value;
+    }
 
     /// <summary>Number of manifolds of children that have contacts.</summary>
     public int ChildConstraintCount

@@ -25,11 +25,14 @@ unsafe struct PairRecords<T> where T : unmanaged
     public readonly void Prefetch(int index) => BepuUtilities.Memory.Prefetch.Read(records.Memory + index);
 
     /// <summary>Asks the processor to load the rest of a record. Changes no result.</summary>
-    public readonly void PrefetchRest(int index)
+    public readonly void PrefetchRest(int index) => PrefetchRest(index, sizeof(T));
+
+    /// <summary>Asks the processor to load what follows the first cache line of a record, up to some byte. Changes no result.</summary>
+    public readonly void PrefetchRest(int index, int end)
     {
         const int line = 64;
         var record = (byte*)(records.Memory + index);
-        for (int offset = line; offset < sizeof(T); offset += line)
+        for (int offset = line; offset < end; offset += line)
             BepuUtilities.Memory.Prefetch.Read(record + offset);
     }
 

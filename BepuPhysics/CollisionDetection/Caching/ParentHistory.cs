@@ -85,8 +85,8 @@ struct ParentHistory
     /// <summary>Whether contacts may be carried along in the frame of the larger shape: not where that is the one which rolls.</summary>
     public readonly bool MayCarry => !PlacedChildren.IsRound((bound.AIsLarger ? shapeA : shapeB).Shape.Type);
 
-    /// <summary>Forgets the contacts: they are not to be carried any more.</summary>
-    public void Forget() => bound.Remaining = 0;
+    /// <summary>Bytes of a history of some patches.</summary>
+    public static unsafe int ByteCountOf(int patchCount) => CacheLine + patchCount * sizeof(CarriedContacts);
 
     /// <summary>Finds the patches without a test, if the bodies have hardly moved since the last one.</summary>
     /// <param name="offsetB">Position of B less that of A.</param>
@@ -133,17 +133,21 @@ struct ParentHistory
     /// <param name="currentB">Orientation of B.</param>
     /// <param name="speculativeMargin">Distance up to which contacts were wanted.</param>
     /// <param name="results">The results of the test; patches come first, and there is at least one.</param>
-    public void Record(in Vector3 offsetB, in Quaternion currentA, in Quaternion currentB, float speculativeMargin, ReadOnlySpan<ChildResult> results)
+    /// <returns>Number of patches.</returns>
+    public int Record(in Vector3 offsetB, in Quaternion currentA, in Quaternion currentB, float speculativeMargin, ReadOnlySpan<ChildResult> results)
     {
         bound.Place(offsetB, currentA, currentB, out var toLarger);
         bound.Clearance = speculativeMargin;
         // Not zero, which is for shapes that are apart.
         bound.ContactMask = 1;
         codes = default;
-        for (int i = 0; i < results.Length && results[i].Children.IsPatch; ++i)
+        var count = 0;
+        for (; count < results.Length && results[count].Children.IsPatch; ++count)
         {
-            codes[i] = (byte)(results[i].Manifold.Count << NumberBits | results[i].Children.B);
-            patches[i].Record(results[i].Manifold, bound.AIsLarger ? offsetB : default, toLarger);
+            ref readonly var result = ref results[count];
+            codes[count] = (byte)(result.Manifold.Count << NumberBits | result.Children.B);
+            patches[count].Record(result.Manifold, bound.AIsLarger ? offsetB : default, toLarger);
         }
+        return count;
     }
 }

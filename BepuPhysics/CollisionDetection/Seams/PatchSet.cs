@@ -85,6 +85,18 @@ struct PatchSet
         return count;
     }
 
+    /// <summary>Makes a patch of the contacts of a child that is alone, as <see cref="Build"/> would; the child has none of its own any more.</summary>
+    /// <param name="child">What was found for the child: some contacts.</param>
+    /// <param name="known">Patches of the last step.</param>
+    /// <param name="target">Receives the patch.</param>
+    public static void BuildOfOne(ref ChildResult child, in KnownPatches known, ref ChildResult target)
+    {
+        var nearest = FindNearest(known, child.Manifold.Normal, 0);
+        Begin(ref target, nearest < 0 ? 0 : known.Number(nearest), child.Manifold.Normal, child.Manifold.OffsetB);
+        Copy(child, ref target.Manifold);
+        child.Manifold.Count = 0;
+    }
+
     void Add(Span<ChildResult> results, int name, int patch, Span<ChildResult> target)
     {
         ref var result = ref results[name / ConvexContactManifold.MaximumContactCount];
@@ -187,14 +199,7 @@ struct PatchSet
         var numbers = 0;
         for (int i = 0; i < count; ++i)
         {
-            var best = -1;
-            var cosine = LeastTurnCosine;
-            for (int j = 0; j < known.Count; ++j)
-            {
-                var other = Exact.Dot(known[j].Normal, this[i].Normal);
-                if ((taken & 1 << j) == 0 && other > cosine)
-                    (cosine, best) = (other, j);
-            }
+            var best = FindNearest(known, this[i].Normal, taken);
             if (best < 0)
                 continue;
             taken |= 1 << best;
@@ -210,6 +215,20 @@ struct PatchSet
             this[i].Number = BitOperations.TrailingZeroCount(~numbers);
             numbers |= 1 << this[i].Number;
         }
+    }
+
+    // The patch of the last step that is nearest to a normal, of those that are not taken; negative where none is near.
+    static int FindNearest(in KnownPatches known, in Vector3 normal, int taken)
+    {
+        var best = -1;
+        var cosine = LeastTurnCosine;
+        for (int i = 0; i < known.Count; ++i)
+        {
+            var other = Exact.Dot(known[i].Normal, normal);
+            if ((taken & 1 << i) == 0 && other > cosine)
+                (cosine, best) = (other, i);
+        }
+        return best;
     }
 
     // Eight contacts in all: four for each of two patches; of three, three for those that are known longest, which do not change from step to step
@@ -237,12 +256,17 @@ struct PatchSet
         var place = count;
         for (; place > 0 && target[place - 1].Children.B > patch.Number; --place)
             target[place] = target[place - 1];
-        target[place].Children = ChildIds.Patch(patch.Number);
-        target[place].KeepsHistory = false;
-        target[place].OffsetA = default;
-        target[place].Manifold.OffsetB = offsetB;
-        target[place].Manifold.Normal = patch.Normal;
-        target[place].Manifold.Count = 0;
+        Begin(ref target[place], patch.Number, patch.Normal, offsetB);
+    }
+
+    static void Begin(ref ChildResult target, int number, in Vector3 normal, in Vector3 offsetB)
+    {
+        target.Children = ChildIds.Patch(number);
+        target.KeepsHistory = false;
+        target.OffsetA = default;
+        target.Manifold.OffsetB = offsetB;
+        target.Manifold.Normal = normal;
+        target.Manifold.Count = 0;
     }
 
     /// <summary>The result of a patch.</summary>

@@ -66,8 +66,11 @@ unsafe struct PlacedChildren
 
     /// <summary>Number of contacts from which on they may be carried along while the shapes hardly move; more than there can be of shapes that are not known.
     /// </summary>
-    public readonly int LeastCarriedContactCount =>
-        AreKnown ? RollingContacts.LeastCarriedCount(IsRound(TypeA) || IsRound(TypeB)) : ConvexContactManifold.MaximumContactCount + 1;
+    public readonly int LeastCarriedContactCount => FindLeastCarriedContactCount(TypeA, TypeB);
+
+    /// <summary>That of shapes of two types.</summary>
+    public static int FindLeastCarriedContactCount(int typeA, int typeB) => ShapeCopy.Fits(typeA) && ShapeCopy.Fits(typeB)
+        ? RollingContacts.LeastCarriedCount(IsRound(typeA) || IsRound(typeB)) : ConvexContactManifold.MaximumContactCount + 1;
 
     /// <summary>Whether shapes of a type have an axis that they may roll about: that of their y, or any.</summary>
     public static bool IsRound(int typeId) => typeId == Sphere.Id || typeId == Capsule.Id || typeId == Cylinder.Id;
