@@ -170,7 +170,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         }
         tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry;
-        tested.HitsThin = worker.Batcher.HitsThin;
+        tested.IsExact = worker.Batcher.HitsThin || HitsCorner(tested.Pair, results);
         if (HasParentHistory(tested))
             Record(tested, worker.Batcher.Dt, offsetB, results);
         CompleteChildren(workerIndex, tested, offsetB, results);
@@ -297,7 +297,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             manifold = ref results[only].Manifold;
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out material) || manifold.Count == 0)
             return false;
-        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.HitsThin);
+        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
         CallbackChecks.Contacts(tested.Pair, manifold, material);
         return true;
     }
@@ -310,7 +310,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
             return false;
         CallbackChecks.Count(tested.Pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
-        NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.HitsThin);
+        NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.IsExact);
         view.TakeOver();
         foreach (ref var result in results)
         {

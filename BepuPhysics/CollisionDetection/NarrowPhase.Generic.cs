@@ -159,7 +159,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             AgreedPairs.Prefetch(a);
         if (task.Expands)
         {
-            tested.MayCarry = tested.IsCarried = tested.HitsThin = false;
+            tested.MayCarry = tested.IsCarried = tested.IsExact = false;
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
             if (!TCallbacks.DecidesOnChildren && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
                 return;
@@ -297,11 +297,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold, bool hitsThin = false)
+    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold, bool isExact = false)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
-        if (surface.Restitution == 0 && !hitsThin)
+        if (surface.Restitution == 0 && !isExact)
             return;
         CallbackChecks.Restitution(pair, surface.Restitution);
         ref var worker = ref workers[workerIndex];

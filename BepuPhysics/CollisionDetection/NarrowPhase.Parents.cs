@@ -71,11 +71,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     float ReachOf(TypedIndex shape) => Simulation.Shapes.GetBatch(shape.Type).MaximumRadius(shape.Index);
 
-    BodyVelocity VelocityOf(CollidableReference collidable)
+    BodyVelocity VelocityOf(CollidableReference collidable) =>
+        collidable.Mobility == CollidableMobility.Static ? default : MotionOf(collidable).Velocity;
+
+    // Of a body.
+    ref MotionState MotionOf(CollidableReference body)
     {
-        if (collidable.Mobility == CollidableMobility.Static)
-            return default;
-        ref var location = ref Simulation.Bodies.Locations[collidable.Slot];
-        return Simulation.Bodies.SetOf(location).MotionStates[location.Index].Velocity;
+        ref var location = ref Simulation.Bodies.Locations[body.Slot];
+        return ref Simulation.Bodies.SetOf(location).MotionStates[location.Index];
     }
 }

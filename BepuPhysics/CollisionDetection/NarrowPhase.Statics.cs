@@ -251,8 +251,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             pair.Slot = StaticPairs.Nothing;
             if (!pair.IsTouching)
                 continue;
-            pair.Group = GroupOf(ref statics, pair.Tested.Pair.B, pool);
-            pair.IsTurning = pair.Group > 0 && statics.Groups[pair.Group - 1].Angular != default;
+            pair.Group = GroupOf(ref statics, pair.Tested.Pair.A, pair.Tested.Pair.B, pool);
+            pair.IsTurning = pair.Group > 0 && statics.Groups[pair.Group - 1].IsTurning;
             var number = i - first + 1;
             if (pair.IsOfGame)
             {
@@ -289,7 +289,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             var depth = rows.Depth(0);
             for (int j = 1; j < old.ContactCount; ++j)
                 depth = MathHelper.Max(depth, rows.Depth(j));
-            var group = GroupOf(ref statics, Pairs.Pairs.Keys[old.CacheIndex].B, pool);
+            var group = GroupOf(ref statics, Pairs.Pairs.Keys[old.CacheIndex].A, Pairs.Pairs.Keys[old.CacheIndex].B, pool);
             agreement.AddFixed(rows.Normal, depth, end - first + 1 + i, group, pool);
         }
     }
@@ -335,23 +335,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return remembered;
     }
 
-    // Statics and what rests are the first; what turns is alone.
-    int GroupOf(ref StaticPairs statics, CollidableReference b, BufferPool pool)
+    // Statics and what rests are the first.
+    int GroupOf(ref StaticPairs statics, CollidableReference a, CollidableReference b, BufferPool pool)
     {
-        var velocity = default(BodyVelocity);
-        if (b.Mobility != CollidableMobility.Static)
-        {
-            ref var location = ref Simulation.Bodies.Locations[b.Slot];
-            velocity = Simulation.Bodies.SetOf(location).MotionStates[location.Index].Velocity;
-        }
+        var velocity = VelocityOf(b);
         if (velocity.Linear == default && velocity.Angular == default)
             return 0;
-        for (int i = 0; i < statics.Groups.Count && velocity.Angular == default; ++i)
+        var motion = new SurfaceMotion(MotionOf(b), MotionOf(a).Pose.Position);
+        for (int i = 0; i < statics.Groups.Count; ++i)
         {
-            if (statics.Groups[i].Linear == velocity.Linear && statics.Groups[i].Angular == default)
+            if (motion.IsThatOf(statics.Groups[i], workers[0].Batcher.Dt))
                 return i + 1;
         }
-        statics.Groups.Add(velocity, pool);
+        statics.Groups.Add(motion, pool);
         return statics.Groups.Count;
     }
 

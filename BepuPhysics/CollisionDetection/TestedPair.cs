@@ -22,8 +22,8 @@ struct TestedPair
     /// <summary>Of a pair with children: whether its patches may be carried along, and whether they are.</summary>
     public bool MayCarry, IsCarried;
 
-    /// <summary>Of a pair with children: whether what is hit is so thin that it must not give way.</summary>
-    public bool HitsThin;
+    /// <summary>Whether impacts of the pair are made exactly (<see cref="ThinImpacts"/>, <see cref="CornerHits"/>).</summary>
+    public bool IsExact;
 
     /// <summary>Greatest distance at which a contact exists, m.</summary>
     public float SpeculativeMargin;

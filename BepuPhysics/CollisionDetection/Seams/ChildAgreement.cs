@@ -12,6 +12,8 @@ struct RankedChild
 {
     /// <summary>0 for contacts that are as the test found them; 1 where a triangle's neighbours have changed their normal.</summary>
     public int Class;
+    /// <summary>Whether its contacts are those of a triangle's neighbours, if these have any: it has none then.</summary>
+    public bool IsOfNeighbours;
     /// <summary>Greatest depth of the contacts, m.</summary>
     public float Depth;
     /// <summary>

@@ -83,6 +83,7 @@ static class SeamRounds
                 ++set.Stage;
                 break;
             case SeamStage.Order:
+                TriangleNeighbours.Settle(view);
                 ChildAgreement.Begin(view);
                 break;
             default:

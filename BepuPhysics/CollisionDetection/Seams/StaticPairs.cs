@@ -119,8 +119,8 @@ struct StaticPairs
     public QuickList<AgreeingBody> Bodies;
     /// <summary>Constraints of these bodies.</summary>
     public QuickList<OldPatch> Old;
-    /// <summary>Velocities of what the body touches.</summary>
-    public QuickList<BodyVelocity> Groups;
+    /// <summary>How what the body touches moves.</summary>
+    public QuickList<SurfaceMotion> Groups;
     /// <summary>Hands on what contacts carry.</summary>
     public LoadHandover Transfer;
     /// <summary>Makes pairs agree.</summary>

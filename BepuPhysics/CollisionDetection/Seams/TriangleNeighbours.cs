@@ -78,7 +78,7 @@ static class TriangleNeighbours
         {
             ref var placed = ref view.Placed(view.Ranked[i]);
             ref var manifold = ref view.Result(view.Ranked[i]).Manifold;
-            if (manifold.Count > 0 && IsSurface(placed, isA))
+            if (manifold.Count > 0 && !view.Ranked[i].IsOfNeighbours && IsSurface(placed, isA))
                 AddDirections(ref tests, placed, manifold.Normal, isA, i, pool);
         }
     }
@@ -112,11 +112,45 @@ static class TriangleNeighbours
             ref var test = ref tests[i];
             ref var child = ref view.Ranked[test.Owner];
             child.Class = 1;
-            ref var result = ref view.Result(child);
-            result.Replace(test);
-            if (Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine)
-                result.Manifold.Count = 0;
+            child.IsOfNeighbours = test.Manifold.Count == 0 ||
+                Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine;
+            if (!child.IsOfNeighbours)
+                view.Result(child).Replace(test);
         }
+    }
+
+    /// <summary>Leaves out what is the neighbours', if a neighbour has it.</summary>
+    /// <remarks>
+    /// At a corner of a saddle no direction is within the bounds of any triangle, as the surface bends away along one line and to the front along another.
+    /// Each of several may take what is in it for one of the others' then: where none is left, all are as they were found.
+    /// </remarks>
+    /// <param name="view">The children that touch.</param>
+    public static void Settle(SeamView view)
+    {
+        var count = 0;
+        foreach (ref var child in view.Ranked)
+            count += child.IsOfNeighbours ? 1 : 0;
+        if (count == 0 || IsOfNobody(view, count))
+            return;
+        foreach (ref var child in view.Ranked)
+        {
+            if (child.IsOfNeighbours)
+                view.Result(child).Manifold.Count = 0;
+        }
+    }
+
+    // What has no depth yet may be the neighbours' that are not near enough.
+    static bool IsOfNobody(SeamView view, int count)
+    {
+        var deepest = 0f;
+        foreach (ref var child in view.Ranked)
+        {
+            if (!child.IsOfNeighbours && view.Result(child).Manifold.Count > 0)
+                return false;
+            if (child.IsOfNeighbours)
+                deepest = MathHelper.Max(deepest, view.Result(child).Manifold.GreatestDepth);
+        }
+        return count > 1 && deepest > 0;
     }
 
     /// <summary>Whether what touches along a normal touches a neighbour of one of two children.</summary>

@@ -206,4 +206,51 @@ public class PatchTests
                 world.Step(validate: false);
         }));
     }
+
+    /// <summary>
+    /// What is pinched between a floor and a sheet, and is thinner than it is deep in the floor, is still pushed down by the sheet: the way up leads through.
+    /// </summary>
+    [Fact]
+    public void Nobody_yields_to_what_points_the_other_way()
+    {
+        using var world = Create(1, [(new(4, 1, 4), new(0, -.5f, 0)), (new(4, 5e-4f, 4), new(0, -1.35e-3f, 0))]);
+        // From 2.5 to 1.5 mm below the floor, of which .1 mm is in the sheet.
+        world.AddBody(new Box(.5f, 1e-3f, .5f), new RigidPose(new Vector3(0, -2e-3f, 0)));
+        var normals = NormalsOfStep(world);
+        Assert.Contains(normals, normal => normal.Y > .999f);
+        Assert.Contains(normals, normal => normal.Y < -.999f);
+    }
+
+    /// <summary>
+    /// A leg that is 5 mm deep in the floor says nothing of a wall of 4 mm that the other leg is at: that is hit, as it would be in a moment when the body
+    /// has tilted back.
+    /// </summary>
+    [Fact]
+    public void A_leg_does_not_yield_to_what_another_stands_on()
+    {
+        using var world = Create(1, [(new(1, 1, 1), new(-1, -.5f, 0)), (new(.4f, 1, 1), new(1.299f, -.501f, 0))]);
+        var leg = world.Simulation.Shapes.Add(new Box(.2f, .2f, .2f));
+        var legs = world.AddCluster([new(leg, new RigidPose(new Vector3(-1, .095f, 0))), new(leg, new RigidPose(new Vector3(1, .095f, 0)))]);
+        world.Simulation.Bodies.Add(BodyDescription.CreateDynamic(new Vector3(0), new Box(2, .2f, .2f).ComputeInertia(1), legs, -1f));
+        var normals = NormalsOfStep(world);
+        Assert.Contains(normals, normal => normal.Y > .999f);
+        Assert.Contains(normals, normal => normal.X < -.999f);
+    }
+
+    // Of the patches of a pair that has several.
+    static List<Vector3> NormalsOfStep(ClusterWorld world)
+    {
+        List<Vector3> normals = [];
+        world.Behaviour.Configure = manifold =>
+        {
+            if (manifold is NonconvexContactManifold several)
+            {
+                for (int i = 0; i < several.Count; ++i)
+                    normals.Add(several.GetNormal(i));
+            }
+            return null;
+        };
+        world.Step();
+        return normals;
+    }
 }

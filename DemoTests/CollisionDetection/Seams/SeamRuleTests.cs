@@ -45,27 +45,52 @@ public class SeamRuleTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// A lip that stands is none if it is low. One that comes along the floor is not the floor's: as its wall meets the edge of a cube, that moves on with
-    /// it: at 5/8 of its speed at first, as a cube that stumbles keeps 3/8. Much faster ones turn it over.
+    /// A lip that stands is none if it is low. One that comes along the floor is not the floor's: a cube stumbles over it as over a wall. As the bar sees it,
+    /// the cube comes at its speed, keeps 3/8 of that, turning about the edge that it was hit at, and falls back with as much: it is pushed to 5/8 of
+    /// the speed of the bar, and leaves it at 11/8. What a step of gravity takes is missing.
     /// </summary>
-    [Theory, InlineData(.5f), InlineData(1f)]
-    public void A_low_bar_that_is_moved_along_a_floor_pushes(float speed)
+    [Theory]
+    [InlineData(1f, 2e-4f), InlineData(1f, 1e-3f), InlineData(1f, 5e-3f), InlineData(1f, .02f)]
+    [InlineData(2f, 2e-4f), InlineData(2f, 1e-3f), InlineData(2f, 5e-3f), InlineData(2f, .02f)]
+    public void A_bar_that_is_moved_along_a_floor_pushes_as_a_wall_is_hit(float speed, float lip)
+    {
+        const float Half = .25f;
+        // Of the lip, .2 mm is less than the tolerance of the cube.
+        var (pushed, fastest, _) = Push(speed, lip);
+        var height = Half - lip;
+        var kept = height * height / (4 * Half * Half / 6 + Half * Half + height * height);
+        Assert.InRange(pushed / speed, .98f * (1 - kept), 1.02f * (1 - kept));
+        Assert.InRange(fastest / speed, .97f * (1 + kept), 1 + kept);
+    }
+
+    /// <summary>Slower than that it does not stumble, but is pushed all the same.</summary>
+    [Fact]
+    public void A_low_bar_that_is_moved_slowly_pushes()
+    {
+        var (_, fastest, ahead) = Push(.5f, 2e-4f);
+        Assert.InRange(fastest, .6f * .5f, 1.2f * .5f);
+        Assert.InRange(ahead, 0, 2);
+    }
+
+    // Speeds of the cube a step after it was hit, and at most; how far it is before the bar.
+    (float Pushed, float Fastest, float Ahead) Push(float speed, float lip)
     {
         using var world = Create();
         var shapes = world.Simulation.Shapes;
         world.Simulation.Statics.Add(new StaticDescription(new Vector3(0, -.5f, 0), shapes.Add(new Box(60, 1, 20))));
-        // .2 mm above the floor: the tolerance of the cube is .25.
-        var bar = AddKinematic(world, shapes.Add(new Box(1, 1, 2)), new Vector3(-.9f, -.4998f, 0), new Vector3(speed, 0, 0));
+        var bar = AddKinematic(world, shapes.Add(new Box(1, 1, 2)), new Vector3(-.9f, lip - .5f, 0), new Vector3(speed, 0, 0));
         var box = world.AddBody(new Box(.5f, .5f, .5f), new RigidPose(new Vector3(0, .2499f, 0)));
-        var fastest = 0f;
-        for (int i = 0; i < 40; ++i)
+        var (pushed, fastest, wasHit) = (0f, 0f, false);
+        for (int i = 0; i < 60; ++i)
         {
             world.Step();
-            fastest = Math.Max(fastest, world.Simulation.Bodies[box].Velocity.Linear.X);
+            var along = world.Simulation.Bodies[box].Velocity.Linear.X;
+            pushed = wasHit && pushed == 0 ? along : pushed;
+            wasHit |= along > .05f * speed;
+            fastest = Math.Max(fastest, along);
         }
         var ahead = world.Simulation.Bodies[box].Pose.Position.X - world.Simulation.Bodies[bar].Pose.Position.X - .5f;
-        output.WriteLine($"{speed}: fastest {fastest}, ahead {ahead}");
-        Assert.InRange(fastest, .6f * speed, 1.2f * speed);
-        Assert.InRange(ahead, 0, 2);
+        output.WriteLine($"{speed} m/s, lip {lip}: pushed {pushed}, fastest {fastest}, ahead {ahead}");
+        return (pushed, fastest, ahead);
     }
 }
