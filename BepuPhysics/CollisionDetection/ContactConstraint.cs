@@ -59,6 +59,8 @@ unsafe readonly struct ContactConstraint
             Unsafe.SkipInit(out KeptArms kept);
             if (kept.TryFind(arms, manifold))
             {
+                if (kept.HasMoved)
+                    Turn(ref arms, kept, manifold);
                 Keep(arms, ref kept, manifold, ref features);
                 if (!knewB || frictionCenter != default)
                     WriteOffsetB(manifold, frictionCenter);
@@ -90,11 +92,13 @@ unsafe readonly struct ContactConstraint
             Unsafe.SkipInit(out KeptArms kept);
             if (kept.TryFind(arms, manifold))
             {
+                if (kept.HasMoved)
+                    kept.Turn(ref arms, manifold);
                 var drift = kept.Drift(arms, manifold);
                 for (int i = 0; i < contactCount; ++i)
                     WriteArm(i, kept.Places[i] < 0 ? manifold.Read(i).Offset - drift : arms[kept.Places[i]]);
                 if (old.KnowsB && frictionCenter == default)
-                    Write(ContactPrestepLayout.OffsetB(contactCount), old.OffsetB);
+                    Write(ContactPrestepLayout.OffsetB(contactCount), arms.OffsetB);
                 float load = 0;
                 for (int i = 0; i < old.Count; ++i)
                     load += old.Normals[i];
@@ -116,6 +120,16 @@ unsafe readonly struct ContactConstraint
 
     // Whether the place of B is written, and not that of friction; see ContactMaterialWide.SharesFriction.
     bool KnowsB => hasTwoBodies && !float.IsNegative(prestep[ContactPrestepLayout.Friction(contactCount) * Vector<float>.Count]);
+
+    void Turn(ref OldArms arms, in KeptArms kept, in ConvexContactManifold manifold)
+    {
+        if (!kept.Turn(ref arms, manifold))
+            return;
+        for (int i = 0; i < contactCount; ++i)
+            WriteArm(i, arms[i]);
+        if (arms.KnowsB)
+            Write(ContactPrestepLayout.OffsetB(contactCount), arms.OffsetB);
+    }
 
     // Contacts stay in the order in which they are: the order in which they are solved makes a difference that can be seen.
     void Keep(in OldArms arms, ref KeptArms kept, in ConvexContactManifold manifold, ref FeatureIds features)

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
@@ -34,6 +35,9 @@ struct KeptArms
     // not come that late: there contacts open first.
     const float Tolerance = 0.05f;
 
+    // How far a contact may be from there, as a part of that, before it is asked whether the bodies have turned together.
+    const float StillPart = 1 / 25f;
+
     // Cosine of 10 degrees: how far the normal may turn in a step.
     const float LeastCosine = 0.98480775f;
 
@@ -43,6 +47,8 @@ struct KeptArms
     public int Count;
     /// <summary>A bit for each old contact that is the place of a new one.</summary>
     public int Taken;
+    /// <summary>Whether a contact is not quite where it was.</summary>
+    public bool HasMoved;
 
     /// <summary>Whether a patch may keep arms: if it has contacts enough, and all of them touch.</summary>
     /// <param name="oldCount">Contacts of the last step.</param>
@@ -100,6 +106,7 @@ struct KeptArms
     {
         Count = 0;
         Taken = 0;
+        var moved = 0u;
         if (!(Exact.Dot(old.Normal, manifold.Normal) > LeastCosine))
             return false;
         var shorter = LengthSquared(old.X, old.Y, old.Z);
@@ -110,6 +117,7 @@ struct KeptArms
             shorter = Vector128.ConditionalSelect(Vector128.LessThan(aboutB, shorter), aboutB, shorter);
         }
         var allowed = shorter * (Tolerance * Tolerance);
+        var still = allowed * (StillPart * StillPart);
         var left = (1u << old.Count) - 1;
         for (int i = 0; i < manifold.Count; ++i)
         {
@@ -135,9 +143,49 @@ struct KeptArms
             Places[i] = place;
             left &= ~(1u << place);
             ++Count;
+            moved |= Vector128.GreaterThan(distance, still).ExtractMostSignificantBits() & (1u << place);
         }
         Taken = (1 << old.Count) - 1 & ~(int)left;
+        HasMoved = moved != 0;
         return Count >= LeastKept;
+    }
+
+    /// <summary>Turns arms by as much as the contacts that keep them have turned about the normal, if that is more than it takes to move a contact.</summary>
+    /// <param name="old">The patch of the last step.</param>
+    /// <param name="manifold">The contacts of this step.</param>
+    /// <returns>Whether they were turned.</returns>
+    // What lies on a turntable turns with it, and neither leans for that. With arms that stay as they are until the next ones are found, the friction of its
+    // contacts is for a velocity that points where the two were going a while ago: it spirals outwards.
+    public readonly bool Turn(ref OldArms old, in ConvexContactManifold manifold)
+    {
+        Vector3 oldMean = default, mean = default;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            if (Places[i] < 0)
+                continue;
+            oldMean += old[Places[i]];
+            mean += manifold.Read(i).Offset;
+        }
+        oldMean *= 1f / Count;
+        mean *= 1f / Count;
+        float along = 0, across = 0;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            if (Places[i] < 0)
+                continue;
+            var (before, now) = (old[Places[i]] - oldMean, manifold.Read(i).Offset - mean);
+            along += Exact.Dot(before, now);
+            across += Exact.Dot(Exact.Cross(before, now), manifold.Normal);
+        }
+        if (!(MathF.Abs(across) > Tolerance * StillPart * along))
+            return false;
+        var turn = new ArmTurn(manifold.Normal, across / along);
+        (old.X, old.Y, old.Z) = turn.Apply(old.X, old.Y, old.Z);
+        var turned = turn.Apply(old.OffsetB);
+        // Unless the one turns on the other, which stays where it is.
+        if (old.KnowsB && Exact.LengthSquared(turned - manifold.OffsetB) < Exact.LengthSquared(old.OffsetB - manifold.OffsetB))
+            old.OffsetB = turned;
+        return true;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

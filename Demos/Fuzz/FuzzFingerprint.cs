@@ -15,14 +15,24 @@ static class FuzzFingerprint
     public static ulong Of(Simulation simulation)
     {
         StateHash hash = default;
+        hash.Add(OfSnapshot(simulation));
+        hash.Add(MemoryMarshal.AsBytes(simulation.Quarantine.Bodies));
+        hash.Add(simulation.Deterministic ? 1 : 0);
+        hash.Add(simulation.Bodies.MinimumConstraintCapacityPerBody);
+        hash.Add(simulation.Solver.MinimumCapacityPerTypeBatch);
+        return hash.Value;
+    }
+
+    /// <summary>What a snapshot brings back: all but how memory is grown, and what the last step has told.</summary>
+    public static ulong OfSnapshot(Simulation simulation)
+    {
+        StateHash hash = default;
         AddBodies(ref hash, simulation.Bodies);
         AddStatics(ref hash, simulation.Statics);
         AddConstraints(ref hash, simulation.Solver);
         AddTree(ref hash, simulation.BroadPhase.ActiveTree);
         AddTree(ref hash, simulation.BroadPhase.StaticTree);
         hash.Add(simulation.NarrowPhase.PairCount);
-        hash.Add(MemoryMarshal.AsBytes(simulation.Quarantine.Bodies));
-        hash.Add(simulation.Deterministic ? 1 : 0);
         return hash.Value;
     }
 
@@ -44,7 +54,6 @@ static class FuzzFingerprint
             }
         }
         AddIds(ref hash, bodies.HandlePool);
-        hash.Add(bodies.MinimumConstraintCapacityPerBody);
     }
 
     static void AddStatics(ref StateHash hash, Statics statics)
@@ -87,7 +96,6 @@ static class FuzzFingerprint
         hash.Add(solver.Governor.GetValueOrDefault().TargetError);
         hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);
         hash.Add(solver.Governor.GetValueOrDefault().GreatestSubstepCount);
-        hash.Add(solver.MinimumCapacityPerTypeBatch);
     }
 
     static void AddOptions(ref StateHash hash, Solver solver, ConstraintHandle handle)

@@ -17,6 +17,7 @@ static class FuzzOperations
         .. QueryOperations.All,
         .. StepOperations.All,
         .. WorldOperations.All,
+        .. SnapshotOperations.All,
     ];
 
     static readonly int totalWeight = Sum();

@@ -35,6 +35,7 @@ sealed partial class FuzzWorld : IDisposable
         Simulation = Simulation.Create(
             Pool, new FuzzNarrowPhaseCallbacks(Plan), new FuzzPoseIntegratorCallbacks(Plan, mode), solve, null, sizes, Shapes);
         Shapes = Simulation.Shapes;
+        Saved = new(Pool);
     }
 
     public ulong Seed { get; }
@@ -53,6 +54,9 @@ sealed partial class FuzzWorld : IDisposable
     public bool OwnsShapes { get; }
 
     public FuzzPlan Plan { get; } = new();
+
+    /// <summary>What a call has saved, for one to come.</summary>
+    public FuzzSnapshot Saved { get; }
 
     public FuzzHandles<BodyHandle> Bodies { get; } = new(RememberedCount);
 
@@ -191,6 +195,7 @@ sealed partial class FuzzWorld : IDisposable
     /// <summary>Returns everything; a pool that is not empty then is a failure.</summary>
     public void End()
     {
+        Saved.Dispose();
         Simulation.Dispose();
         if (!OwnsShapes)
             Shapes.Dispose();

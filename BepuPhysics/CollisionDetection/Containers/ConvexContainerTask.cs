@@ -36,7 +36,9 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
-                if (TContainer.MayBeSolid && entry.B.IsSolid && WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
+                // A triangle has no middle: that of one which is a floor would be inside of whatever lies on it there.
+                if (TContainer.MayBeSolid && typeof(TConvex) != typeof(Triangle) && entry.B.IsSolid &&
+                    WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
                 {
                     found.Add(new(start + i, Ids(entry.Pair, way.Child)) { LeadsOut = true }, pool);
                     continue;
