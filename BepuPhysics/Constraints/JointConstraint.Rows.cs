@@ -32,27 +32,6 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular) =>
         ReadSeparation(bodies, prestep, out linear, out angular);
 
-    static void IConstraint<TBodies, TPrestep, TRows>.RigidError(in TBodies bodies, in TPrestep prestep, out JointErrorWide error)
-    {
-        ReadSeparation(bodies, prestep, out error.Linear, out error.Angular);
-        // Areas and volumes are no lengths.
-        error.RigidMask = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
-        error.Linear = MakesHubs ? Wide.Mask(error.RigidMask, error.Linear) : Vector<float>.Zero;
-        error.Angular = Wide.Mask(error.RigidMask, error.Angular);
-        if (TJoint.HoldsPoints)
-        {
-            TJoint.Prepare(bodies, prestep, out var geometry);
-            TJoint.PointLoad(geometry, default, out _, out var offsetA, out var offsetB);
-            error.ArmASquared = offsetA.LengthSquared();
-            error.ArmBSquared = offsetB.LengthSquared();
-        }
-        else
-        {
-            ref var slots = ref Unsafe.AsRef(in bodies);
-            error.ArmASquared = error.ArmBSquared = (BodySlots.At(ref slots, 0).Position - BodySlots.At(ref slots, TBodies.Count - 1).Position).LengthSquared();
-        }
-    }
-
     // Lengths of what the rows of a kind are off by together; of limits only what is violated. A motor holds no place.
     static void ReadSeparation(in TBodies bodies, in TPrestep prestep, out Vector<float> linear, out Vector<float> angular)
     {

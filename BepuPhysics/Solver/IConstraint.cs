@@ -62,7 +62,7 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
         linear = angular = Vector<float>.Zero;
 
     // What tells whether sweeps hold the constraint (JointNeed.cs); zero where it is not meant to be rigid.
-    internal static virtual void RigidError(in TBodies bodies, in TPrestep prestep, out JointErrorWide error) => error = default;
+    internal static virtual void RigidError(in TBodies bodies, in Substep substep, in TPrestep prestep, out JointErrorWide error) => error = default;
 
     // What other solvers read. A constraint of a game's own that is no joint has no rows and is swept over.
     internal static virtual int RowCount => 0;

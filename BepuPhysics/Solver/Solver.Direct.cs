@@ -31,10 +31,10 @@ public sealed unsafe partial class Solver
             if (directJoints == value)
                 return;
             directJoints = value;
-            if (ChoosesDirectJoints)
-                BeginNeeds();
-            else
+            if (value == DirectJointsMode.Off)
                 EndNeeds();
+            else
+                BeginNeeds();
         }
     }
 
@@ -54,9 +54,10 @@ public sealed unsafe partial class Solver
         var plan = DirectPlan.Create(pool);
         var joints = FindJoints();
         if (directJoints != DirectJointsMode.Off)
-            new DirectChooser(joints, bodies.Awake.Count, ChoosesDirectJoints, pool).Choose(ref plan);
-        if (ChoosesDirectJoints)
+        {
+            new DirectChooser(joints, bodies.Awake.Count, pool).Choose(ref plan);
             ChangeOver(ref joints);
+        }
         for (int i = 0; i < joints.Count; ++i)
             SetSwept(joints[i].Joint.Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
@@ -84,19 +85,13 @@ public sealed unsafe partial class Solver
         chosenVersion = jointVersion - 1;
     }
 
-    // All that may be solved at once, in the order of the batches, and first what is already: numbers of handles and batches say who was there before, and may
-    // not decide anything.
+    // All that may be solved at once. Where they lie and which handles they have says who was there before, and may not decide anything: their numbers do.
     QuickList<DirectCandidate> FindJoints()
     {
         var joints = new QuickList<DirectCandidate>(16, pool);
         foreach (ref var batch in ActiveSet.Batches.AsSpan())
         {
-            if (batch.Kind == BatchKind.Direct)
-                AddJoints(batch, ref joints);
-        }
-        foreach (ref var batch in ActiveSet.Batches.AsSpan())
-        {
-            if (batch.Kind is BatchKind.Coloured or BatchKind.Fallback)
+            if (batch.Kind is BatchKind.Direct or BatchKind.Coloured or BatchKind.Fallback)
                 AddJoints(batch, ref joints);
         }
         return joints;
@@ -112,11 +107,11 @@ public sealed unsafe partial class Solver
             for (int i = 0; i < typeBatch.ConstraintCount; ++i)
             {
                 ref var joint = ref joints.Allocate(pool);
-                joint = new() { Asks = true };
-                if (ChoosesDirectJoints)
+                joint = default;
+                if (directJoints != DirectJointsMode.Off)
                 {
                     ref var need = ref needs[typeBatch.IndexToHandle[i].Slot];
-                    (joint.Number, joint.Asks) = (need.Number, need.Asks > 0);
+                    (joint.Number, joint.Asks) = (need.Number, ChoosesDirectJoints ? need.Asks > 0 : MayAsk(typeBatch.TypeId));
                 }
                 ref var node = ref joint.Joint;
                 node = new()
@@ -125,6 +120,7 @@ public sealed unsafe partial class Solver
                     TypeId = typeBatch.TypeId,
                     RowCount = processor.RowCount,
                     BodyCount = processor.BodiesPerConstraint,
+                    Limit = processor.LimitOf(0),
                 };
                 for (int slot = 0; slot < node.BodyCount; ++slot)
                     node.Bodies[slot] = processor.BodyReference(ref typeBatch, i, slot) & (EncodedBody.IndexMask | EncodedBody.KinematicFlag);
@@ -133,16 +129,9 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>Whether joints of a type may be solved at once.</summary>
-    internal bool MayBeDirect(int typeId) => typeId >= ConstraintTypeIds.ContactTypeCount && IsHeldBothWays(Processor(typeId));
+    internal bool MayBeDirect(int typeId) => typeId >= ConstraintTypeIds.ContactTypeCount && Processor(typeId).RowCount > 0;
 
-    // Limits, servos and motors have bounds, which sweeps are good at.
-    static bool IsHeldBothWays(TypeProcessor processor)
-    {
-        for (int row = 0; row < processor.RowCount; ++row)
-        {
-            if (processor.LimitOf(row) != RowLimit.None)
-                return false;
-        }
-        return processor.RowCount > 0;
-    }
+    /// <summary>Whether joints of a type hold both ways, and may ask for their structure to be solved at once.</summary>
+    // Limits, servos and motors go with the joints beside them: those of which some structure consists alone are what sweeps are good at.
+    internal bool MayAsk(int typeId) => MayBeDirect(typeId) && Processor(typeId).LimitOf(0) == RowLimit.None;
 }

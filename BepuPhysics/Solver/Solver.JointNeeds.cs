@@ -5,8 +5,9 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
-// What is remembered of joints where the solver itself chooses how they are solved (JointNeed.cs): by slot, with whatever becomes of the joint: it may sleep,
-// move in memory, be of another structure. In other modes there is none of it.
+// What is remembered of joints where they may be solved at once: the order in which they were added, and where the solver itself chooses, what says how they
+// are solved (JointNeed.cs). By slot, with whatever becomes of the joint: it may sleep, move in memory, be of another structure. If no joint is ever solved at
+// once there is none of it.
 public sealed unsafe partial class Solver
 {
     // Each joint is looked at once in so many steps.
@@ -16,6 +17,9 @@ public sealed unsafe partial class Solver
     // How many joints were numbered, and how many of them had been when the last step began.
     long numbered;
     long numberedBefore;
+    // How many had been when the turns last began, and the time before.
+    long numberedAtTurn;
+    long numberedAtLastTurn;
     // Steps modulo the turns, whether anything is awake or not: what else there is does not decide when a joint is looked at.
     int needTurn;
     // Whether a joint that is swept over has begun to ask, or none of a structure does any more.
@@ -28,6 +32,12 @@ public sealed unsafe partial class Solver
     // Many workers write it, and all the same.
     internal bool RemembersNeeds { get; set; }
 
+    /// <summary>Whether there are joints so new that they are looked at in each step: what falls by itself is found before it has fallen far.</summary>
+    internal bool HasNewJoints => numbered > numberedAtLastTurn;
+
+    /// <summary>Whether a joint is one of these.</summary>
+    internal bool IsNew(in JointNeed joint) => joint.Number > numberedAtLastTurn;
+
     /// <summary>Which joints are looked at in the present step.</summary>
     internal int NeedTurn => needTurn;
 
@@ -37,11 +47,11 @@ public sealed unsafe partial class Solver
     // Of a joint that was just added or enabled.
     void NumberJoint(ConstraintHandle joint)
     {
-        if (ChoosesDirectJoints && Locations[joint.Slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
-            NumberJoint(joint.Slot);
+        if (directJoints != DirectJointsMode.Off && Locations[joint.Slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
+            RefOfNeed(joint.Slot) = new() { Number = ++numbered };
     }
 
-    void NumberJoint(int slot)
+    ref JointNeed RefOfNeed(int slot)
     {
         if (slot >= needs.Length)
         {
@@ -49,30 +59,32 @@ public sealed unsafe partial class Solver
             pool.ResizeToAtLeast(ref needs, Locations.Length, before);
             needs.Clear(before, needs.Length - before);
         }
-        needs[slot] = new() { Number = ++numbered };
+        return ref needs[slot];
     }
 
-    // The mode has become another one. What is solved at once already goes on so until its load says that it need not.
+    // The mode has become another one. Where the solver chooses, what is solved at once already goes on so until its load says that it need not.
     void BeginNeeds()
     {
-        ForgetNeeds();
+        needsChanged = RemembersNeeds = false;
         for (int slot = 0; slot < UsedSlotCount; ++slot)
         {
             if (Locations[slot].SetIndex < 0 || Locations[slot].TypeId < ConstraintTypeIds.ContactTypeCount)
                 continue;
-            NumberJoint(slot);
-            if (KindOf(Locations[slot]) != BatchKind.Direct)
+            ref var need = ref RefOfNeed(slot);
+            need = new() { Number = need.Number > 0 ? need.Number : ++numbered };
+            if (!ChoosesDirectJoints || KindOf(Locations[slot]) != BatchKind.Direct || !MayAsk(Locations[slot].TypeId))
                 continue;
-            needs[slot].Ask();
+            need.Ask();
             RemembersNeeds = true;
         }
-        numberedBefore = numbered;
+        // What is there has been swept over for long.
+        numberedBefore = numberedAtTurn = numberedAtLastTurn = numbered;
     }
 
     void ForgetNeeds()
     {
         needs.Clear(0, needs.Length);
-        numbered = numberedBefore = 0;
+        numbered = numberedBefore = numberedAtTurn = numberedAtLastTurn = 0;
         needsChanged = RemembersNeeds = false;
     }
 
@@ -96,12 +108,12 @@ public sealed unsafe partial class Solver
         foreach (ref var joint in joints.AsSpan())
         {
             ref var need = ref needs[joint.Joint.Handle.Slot];
-            if (joint.IsRefused)
+            if (joint.IsRefused && ChoosesDirectJoints)
                 need.Refuse();
             if (joint.IsDirect != IsSwept(joint.Joint.Handle))
                 continue;
             // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected as in any mode.
-            if (joint.IsDirect && need.Number <= numberedBefore)
+            if (joint.IsDirect && ChoosesDirectJoints && need.Number <= numberedBefore)
                 need.Ease();
             joints[count++] = joint;
         }
@@ -112,6 +124,8 @@ public sealed unsafe partial class Solver
     void ReadNeeds()
     {
         needTurn = (needTurn + 1) % NeedTurns;
+        if (needTurn == 0)
+            (numberedAtLastTurn, numberedAtTurn) = (numberedAtTurn, numbered);
         if (!ChoosesDirectJoints)
             return;
         numberedBefore = numbered;
@@ -123,6 +137,8 @@ public sealed unsafe partial class Solver
         copy.Rows(ref needs, Math.Min(needs.Length, UsedSlotCount), absent: default);
         copy.Value(ref numbered);
         copy.Value(ref numberedBefore);
+        copy.Value(ref numberedAtTurn);
+        copy.Value(ref numberedAtLastTurn);
         copy.Value(ref needTurn);
         copy.Value(ref needsChanged);
         RemembersNeeds = copy.Value(RemembersNeeds);
@@ -130,7 +146,7 @@ public sealed unsafe partial class Solver
 
     void ValidateNeeds()
     {
-        if (!ChoosesDirectJoints)
+        if (directJoints == DirectJointsMode.Off)
             return;
         for (int slot = 0; slot < UsedSlotCount; ++slot)
         {

@@ -67,14 +67,19 @@ public readonly struct Substep
         IsRelaxation = isRelaxation;
     }
 
-    Substep(in Substep swept, in SubstepStiffness joints)
+    Substep(in Substep swept, in SubstepStiffness joints, in SubstepStiffness servos)
     {
         this = swept;
-        Joints = Hubs = joints;
+        Joints = joints;
+        Servos = servos;
+        Hubs = SubstepStiffness.Direct;
     }
 
     /// <summary>The same for joints that are solved all at once: what no sweep could hold.</summary>
-    internal Substep Directly() => new(this, new SubstepStiffness(SubstepStiffness.DirectCycles, SubstepStiffness.DirectCycles));
+    internal Substep Directly() => new(this, SubstepStiffness.Direct, SubstepStiffness.Direct);
+
+    /// <summary>The same for limits and servos among them. What a game gave no frequency goes back as fast as by sweeps, however hard it is.</summary>
+    internal Substep DirectlyWithBounds() => new(this, SubstepStiffness.DirectWithRate(Joints), SubstepStiffness.DirectWithRate(Servos));
 }
 
 /// <summary>How stiff one kind of constraint may be in a substep.</summary>
@@ -86,6 +91,9 @@ public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
     // Where there are loops, rows that do not give at all would turn the rounding of poses into great impulses between rows that nearly say the same.
     internal const float DirectCycles = 30;
 
+    /// <summary>What such joints give way by, as a part of their own K: 1 / (w h (w h + 2)).</summary>
+    internal const double DirectSoftness = 1 / (Math.Tau * DirectCycles * (Math.Tau * DirectCycles + 2));
+
     // Beyond half a period per substep an implicit spring has no stiffness left to gain.
     const float MaximumCycles = 0.5f;
 
@@ -93,6 +101,12 @@ public readonly struct SubstepStiffness(float rigidCycles, float greatestCycles)
     public readonly float RigidFrequencyDt = MathF.Tau * rigidCycles;
     /// <summary>Greatest angular frequency that a game may give, times the length of the substep: at it the sweeps are stable without relaxations.</summary>
     public readonly float GreatestFrequencyDt = MathF.Tau * greatestCycles;
+
+    /// <summary>Stiffness of joints that are solved all at once.</summary>
+    internal static SubstepStiffness Direct => new(DirectCycles, DirectCycles);
+
+    /// <summary>The same, with the rate at which others correct what has no frequency.</summary>
+    internal static SubstepStiffness DirectWithRate(in SubstepStiffness others) => new(others.RigidFrequencyDt / MathF.Tau, DirectCycles);
 
     /// <summary>Frequency of joints that a number of sweeps can hold, in periods per substep.</summary>
     // The worst case is an exactly straight chain: with one sweep it is stable at 0.125 and diverges at 0.25. Each further sweep, of either

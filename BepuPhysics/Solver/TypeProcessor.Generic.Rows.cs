@@ -85,11 +85,11 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     }
 
     /// <inheritdoc/>
-    internal override void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, int bundle, out JointErrorWide errors)
+    internal override void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, out JointErrorWide errors)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
-        Gather(references, PlaceMask, bodies, BodyAccess.Pose, new Substep(0, 1), out _, out var slots);
-        TConstraint.RigidError(slots, ((TPrestep*)batch.Prestep.Memory)[bundle], out errors);
+        Gather(references, PlaceMask, bodies, BodyAccess.Pose | BodyAccess.Velocity, substep, out _, out var slots);
+        TConstraint.RigidError(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], out errors);
     }
 
     /// <inheritdoc/>

@@ -50,7 +50,12 @@ public abstract unsafe partial class TypeProcessor
     internal abstract ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, Vector<int>* references, int index);
 
     /// <summary>Reads how far the constraints of a bundle are off that are meant to be as stiff as can be; lanes without a constraint mean nothing.</summary>
-    internal abstract void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, int bundle, out JointErrorWide errors);
+    /// <param name="batch">Where the constraints are.</param>
+    /// <param name="bodies">The bodies of the active set.</param>
+    /// <param name="substep">The last substep, after which bodies have moved.</param>
+    /// <param name="bundle">Index of the bundle in the type batch.</param>
+    /// <param name="errors">How far they are off.</param>
+    internal abstract void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, out JointErrorWide errors);
 
     /// <summary>Replaces the accumulated impulses of some constraints of a bundle; the velocities of the bodies are the caller's to change.</summary>
     /// <param name="batch">Where the constraints are.</param>

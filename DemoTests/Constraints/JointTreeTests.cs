@@ -74,7 +74,7 @@ public class JointTreeTests(ITestOutputHelper output)
         get
         {
             using var world = new TestWorld();
-            return new(JointTypes.All.Select(type => type.Id).Where(id => world.Solver.MayBeDirect(id)));
+            return new(JointTypes.All.Select(type => type.Id).Where(id => world.Solver.MayAsk(id)));
         }
     }
 

@@ -80,7 +80,8 @@ sealed class DenseJoints
         j[row, first + 3 + last] = -sign * arm[next];
     }
 
-    static double[] Gauss(double[,] matrix, double[] right)
+    /// <summary>Solves a system of equations, which are used up, with pivots.</summary>
+    internal static double[] Gauss(double[,] matrix, double[] right)
     {
         var count = right.Length;
         for (int pivot = 0; pivot < count; ++pivot)

@@ -39,8 +39,8 @@ public class DirectNeedTests(ITestOutputHelper output)
             greatest = Math.Max(greatest, last);
         });
         output.WriteLine($"found after {found} steps; stretch {greatest:P3}, at the end {last:P5}");
-        // Each joint is looked at once in eight steps.
-        Assert.InRange(found, 1, 2 * Solver.NeedTurns);
+        // New joints are looked at in each step.
+        Assert.InRange(found, 1, Solver.NeedTurns / 2);
         Assert.InRange(greatest, 0, .01);
         Assert.InRange(last, 0, 1e-4);
     }
@@ -118,7 +118,9 @@ public class DirectNeedTests(ITestOutputHelper output)
         Assert.InRange(stretch, 0, 1e-3);
     }
 
-    /// <summary>Dolls that lie in a heap, with gaps, and are solved at once from some moment on: nothing is thrown.</summary>
+    /// <summary>
+    /// Dolls that lie in a heap, with gaps, and may be solved at once from some moment on: few of those that rest are, and nothing is thrown.
+    /// </summary>
     [Fact]
     public void Ragdolls_at_rest_stay_there()
     {
@@ -135,12 +137,13 @@ public class DirectNeedTests(ITestOutputHelper output)
                 fastest = MathF.Max(fastest, world.Simulation.Bodies.ActiveSet.MotionStates[body].Velocity.Linear.Length());
         }
         output.WriteLine($"{DirectCount(solver)} joints, at most {fastest} m/s");
-        Assert.True(DirectCount(solver) > 300);
+        // Of 1,920.
+        Assert.InRange(DirectCount(solver), 1, 300);
         // A gap of 9 mm goes at .86 of it over half a second; parts between several move by the sum.
         Assert.InRange(fastest, 0, .25f);
     }
 
-    /// <summary>By sweeps it loses a quarter of its speed in ten seconds, all at once 2 %; the rest of what it loses here, while it goes over.</summary>
+    /// <summary>By sweeps it loses a quarter of its speed in ten seconds, all at once 2 %.</summary>
     [Fact]
     public void A_rotor_out_of_balance_keeps_its_speed()
     {
@@ -148,13 +151,15 @@ public class DirectNeedTests(ITestOutputHelper output)
         var left = DirectStructures.TurnRotor(world);
         Assert.Equal(1, DirectCount(world.Solver));
         output.WriteLine($"{left - 1:P2} of its speed");
-        Assert.InRange(left, .85f, 1.001f);
+        Assert.InRange(left, .95f, 1.001f);
     }
 
-    /// <summary>By sweeps it loses 58 % of its energy in a minute.</summary>
+    /// <summary>By sweeps they lose 68, 10, 3.7 and 4.7 % of their energy in a minute; the last two are never off by much.</summary>
     [Theory]
     [InlineData("double-pendulum", .05)]
-    [InlineData("slider-crank", .05)]
+    [InlineData("slider-crank", .02)]
+    [InlineData("four-bar", .01)]
+    [InlineData("pendulum", .01)]
     public void Linkages_keep_their_energy(string name, double most)
     {
         var run = LinkageRun.Measure(LinkageLibrary.All.Single(linkage => linkage.Name == name), needed);

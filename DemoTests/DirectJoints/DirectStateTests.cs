@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -79,6 +80,56 @@ public class DirectStateTests
             return world.Bodies[chain[^1]].Pose.Position;
         }
         Assert.Equal(Last(false), Last(true));
+    }
+
+    /// <summary>
+    /// Joints of several types lie in memory as those of others before them have come and gone: that says nothing about how a structure moves.
+    /// </summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void What_has_come_and_gone_changes_no_bit(int seed)
+    {
+        List<Vector3> Run(int others)
+        {
+            var random = new Random(seed);
+            using var world = new TestWorld(direct with { Contacts = ContactScope.None });
+            var there = new List<List<BodyHandle>>();
+            void Shuffle(bool steps = false)
+            {
+                for (int i = 0; i < others; ++i)
+                {
+                    there.Add(random.Next(3) switch
+                    {
+                        0 => DirectStructures.AddTree(world, new Vector3(0, 100, 20 * i)),
+                        1 => AddChain(world, new Vector3(0, 200, 20 * i), 1 + i, closed: i % 2 == 1),
+                        _ => [.. DirectStructures.AddTree(world, new Vector3(0, 300, 20 * i)).Skip(1)],
+                    });
+                    var gone = there[random.Next(there.Count)];
+                    if (random.Next(2) == 0 && there.Remove(gone))
+                        gone.ForEach(world.Bodies.Remove);
+                    if (steps)
+                        world.Step();
+                }
+            }
+            Shuffle(steps: true);
+            var tree = DirectStructures.AddTree(world, Vector3.Zero);
+            Shuffle();
+            var chain = AddChain(world, new Vector3(0, 0, 50), 5, closed: true);
+            Shuffle();
+            var positions = new List<Vector3>();
+            for (int step = 0; step < 60; ++step)
+            {
+                world.Step();
+                if (step % 10 == 5)
+                    Shuffle();
+                positions.AddRange(tree.Concat(chain).Select(body => world.Bodies[body].Pose.Position));
+            }
+            return positions;
+        }
+        Assert.Equal(Run(0), Run(0));
+        Assert.Equal(Run(0), Run(6));
     }
 
     /// <summary>Structures come, break, become kinematic, fall asleep and are removed; what is left holds together.</summary>

@@ -10,7 +10,7 @@ namespace BepuPhysics.Constraints;
 // a foot apart, or moves one of them, has such errors; what a joint is off by after a substep of any motion that a substep can follow is far below.
 static unsafe class Correction
 {
-    // Of a body's size, its radius of gyration about the joint; and of a radian.
+    // Of a body's size, and of a radian.
     const double GreatestPart = 0.2;
 
     /// <summary>Lessens what the rows of a joint are after.</summary>
@@ -28,31 +28,39 @@ static unsafe class Correction
         }
         var part = 1d;
         if (linear > 0)
-            part = LeastSize(node, jacobian, bodies, inertias) * GreatestPart / (Math.Sqrt(linear) * dt);
+            part = Reach(node, processor, jacobian, bodies, inertias) * GreatestPart / (Math.Sqrt(linear) * dt);
         if (angular > 0)
             part = Math.Min(part, GreatestPart / (Math.Sqrt(angular) * dt));
         for (int row = 0; row < node.RowCount && part < 1; ++row)
             rows[row].Target *= part;
     }
 
-    static double LeastSize(in DirectNode node, DirectPair* jacobian, in QuickList<DirectBody> bodies, Buffer<BodyInertia> inertias)
+    /// <summary>What an error along directions is judged by: the least radius of gyration of a body about where the joint holds it.</summary>
+    // A body without an arm is not turned by what moves it, and counts only where there are no others: by the size of the largest, about the axis that it turns
+    // about with the most effort. What is not turned at all, and moved, has no size.
+    internal static double Reach(
+        in DirectNode node, TypeProcessor processor, DirectPair* jacobian, in QuickList<DirectBody> bodies, Buffer<BodyInertia> inertias)
     {
-        var least = double.PositiveInfinity;
+        double least = double.PositiveInfinity, greatest = 0;
         for (int slot = 0; slot < node.BodyCount; ++slot)
         {
             var reference = bodies[node.Bodies[slot]].Reference;
             ref var inertia = ref inertias[reference & EncodedBody.IndexMask];
-            ref var inverse = ref inertia.InverseInertiaTensor;
-            var trace = (double)inverse.XX + inverse.YY + inverse.ZZ;
-            // Neither moved nor turned.
-            if (!(trace > 0))
+            if (!(inertia.InverseMass > 0))
                 continue;
-            // The angular part of a row along a direction is as long as its arm.
+            ref var inverse = ref inertia.InverseInertiaTensor;
+            // The angular part of a row along a direction is as long as its arm. Those about axes have none.
             double arm = 0;
             for (int row = 0; row < node.RowCount; ++row)
-                arm = Math.Max(arm, DirectPair.AngularLengthSquared(jacobian[row * node.BodyCount + slot]));
-            least = Math.Min(least, 3 * inertia.InverseMass / trace + arm);
+            {
+                if (processor.IsLinear(row))
+                    arm = Math.Max(arm, DirectPair.AngularLengthSquared(jacobian[row * node.BodyCount + slot]));
+            }
+            var trace = (double)inverse.XX + inverse.YY + inverse.ZZ;
+            if (arm > 0 && trace > 0)
+                least = Math.Min(least, 3 * inertia.InverseMass / trace + arm);
+            greatest = Math.Max(greatest, inertia.InverseMass / Math.Min(Math.Min((double)inverse.XX, inverse.YY), inverse.ZZ));
         }
-        return Math.Sqrt(least);
+        return Math.Sqrt(double.IsFinite(least) || greatest == 0 ? least : greatest);
     }
 }

@@ -7,10 +7,12 @@ namespace BepuPhysics.Constraints;
 /// <summary>A joint that may be solved together with others.</summary>
 struct DirectCandidate
 {
-    /// <summary>Place in the order of joints, where that is not the one in which they are found.</summary>
+    /// <summary>Place in the order in which joints were added.</summary>
     public long Number;
     /// <summary>Whether it asks to be: one is enough for a structure.</summary>
     public bool Asks;
+    /// <summary>Whether it is decided how it is solved.</summary>
+    public bool IsDecided;
     /// <summary>Whether it is to be.</summary>
     public bool IsDirect;
     /// <summary>Whether its structure asks in vain.</summary>
@@ -20,20 +22,29 @@ struct DirectCandidate
 }
 
 /// <summary>Finds what hangs together by joints, and makes a plan for each such structure.</summary>
-readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int bodyCount, bool sortsByNumber, BufferPool pool)
+readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int bodyCount, BufferPool pool)
 {
     readonly Span<DirectCandidate> joints = joints.AsSpan();
     readonly ByNumber order = new(joints.Span);
 
     /// <summary>Marks the joints that are in the plan.</summary>
+    // What is too much with its limits, servos and motors may do without.
     internal void Choose(ref DirectPlan plan)
     {
-        if (joints.Length == 0)
-            return;
+        if (joints.Length > 0 && !TryChoose(ref plan))
+            TryChoose(ref plan);
+    }
+
+    // Whether all is decided.
+    bool TryChoose(ref DirectPlan plan)
+    {
         pool.Take<int>(bodyCount, out var structures);
         DisjointSets.Begin(structures, bodyCount);
         foreach (ref var joint in joints)
-            Join(structures, joint.Joint);
+        {
+            if (!joint.IsDecided)
+                Join(structures, joint.Joint);
+        }
         // Joints of each structure in their order: chained, with the first of each by the root of its bodies.
         pool.Take<int>(bodyCount, out var last);
         pool.Take<int>(joints.Length, out var next);
@@ -43,6 +54,8 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         for (int i = 0; i < joints.Length; ++i)
         {
             next[i] = -1;
+            if (joints[i].IsDecided)
+                continue;
             ref var lastOfStructure = ref last[DisjointSets.Root(structures, FirstDynamic(joints[i].Joint))];
             if (lastOfStructure >= 0)
                 next[lastOfStructure] = i;
@@ -52,15 +65,17 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         }
         // From here on: the place of a body in its structure.
         new Span<int>(last.Memory, bodyCount).Fill(-1);
+        var isDone = true;
         for (int i = 0; i < count; ++i)
         {
             if (AnyAsks(firsts[i], next))
-                Add(ref plan, firsts[i], next, last);
+                isDone &= TryAdd(ref plan, firsts[i], next, last);
         }
         pool.Return(ref firsts);
         pool.Return(ref next);
         pool.Return(ref last);
         pool.Return(ref structures);
+        return isDone;
     }
 
     bool AnyAsks(int first, Buffer<int> next)
@@ -95,16 +110,14 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         }
     }
 
-    void Add(ref DirectPlan plan, int first, Buffer<int> next, Buffer<int> placeOf)
+    // Whether it is decided how the structure is solved.
+    bool TryAdd(ref DirectPlan plan, int first, Buffer<int> next, Buffer<int> placeOf)
     {
         var members = new QuickList<int>(16, pool);
         for (int i = first; i >= 0; i = next[i])
             members.Add(i, pool);
-        if (sortsByNumber)
-        {
-            var comparer = order;
-            QuickSort.Sort(members.Span, members.Count, ref comparer);
-        }
+        var comparer = order;
+        QuickSort.Sort(members.Span, members.Count, ref comparer);
         var nodes = new QuickList<DirectNode>(16, pool);
         var references = new QuickList<int>(16, pool);
         foreach (var i in members.AsSpan())
@@ -121,14 +134,20 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
                 node.Bodies[slot] = placeOf[node.Bodies[slot] & EncodedBody.IndexMask];
         }
         var isAdded = plan.TryAdd(nodes, references, dynamicCount, pool);
+        var isDecided = isAdded || !DirectPlan.HasBounds(nodes);
         for (int i = first; i >= 0; i = next[i])
-            (joints[i].IsDirect, joints[i].IsRefused) = (isAdded, !isAdded);
+        {
+            ref var joint = ref joints[i];
+            (joint.IsDirect, joint.IsRefused) = (isAdded, isDecided && !isAdded);
+            joint.IsDecided = isDecided || joint.Joint.HasBounds;
+        }
         // Kinematic bodies may be of other structures as well.
         foreach (var reference in references.AsSpan())
             placeOf[reference & EncodedBody.IndexMask] = -1;
         references.Dispose(pool);
         nodes.Dispose(pool);
         members.Dispose(pool);
+        return isDecided;
     }
 
     void Number(in DirectNode node, bool ofDynamic, Buffer<int> placeOf, ref QuickList<int> references)

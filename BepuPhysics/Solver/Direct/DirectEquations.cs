@@ -9,7 +9,7 @@ namespace BepuPhysics.Constraints;
 //
 // Single precision is not enough: in a chain whose end is a million times as heavy as a link all digits are gone before the last pivot. In double precision a
 // true pivot of such a chain is a millionth of its diagonal, and what rounding of J leaves of a row that says what others have said is 1e-14 of it.
-unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, DirectPair* jacobians, DirectPair* weighted, DirectRow* rows)
+readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbers, DirectPair* jacobians, DirectPair* weighted, DirectRow* rows)
 {
     // Part of what a row has on the diagonal below which its pivot is rounding.
     const double LeastPivot = 1e-9;
@@ -22,34 +22,43 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
     readonly DirectCoupling* couplings = plan.Couplings.Span.Memory;
     readonly DirectBody* bodies = plan.Bodies.Span.Memory;
 
-    /// <summary>Applies the impulses that are there, times a factor.</summary>
+    /// <summary>Works out A, and applies the impulses that are there, times a factor. Before all else.</summary>
     internal void WarmStart(in DirectIsland island, double scale)
     {
         for (int k = island.FirstNode; k < island.EndNode; ++k)
         {
-            ref var node = ref nodes[k];
-            for (int i = 0; i < node.RowCount; ++i)
-            {
-                rows[node.FirstRow + i].Impulse *= scale;
-                Apply(node, i, rows[node.FirstRow + i].Impulse);
-            }
+            for (int i = 0; i < nodes[k].RowCount; ++i)
+                rows[nodes[k].FirstRow + i].Impulse *= scale;
+            if (nodes[k].HasBounds)
+                Foresee(ref nodes[k]);
+            Weigh(nodes[k]);
+        }
+        Factor(island);
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        {
+            for (int i = 0; i < nodes[k].RowCount; ++i)
+                Apply(nodes[k], i, rows[nodes[k].FirstRow + i].Impulse);
         }
     }
 
-    /// <summary>Works out A and factors it. Before all else.</summary>
-    internal void Factor(in DirectIsland island)
+    // Of a joint that is held there is its own block alone.
+    void Factor(in DirectIsland island)
     {
         for (int i = island.FirstNumber; i < island.EndNumber; ++i)
             numbers[i] = 0;
         for (int k = island.FirstNode; k < island.EndNode; ++k)
-        {
-            Weigh(nodes[k]);
             AddDiagonal(nodes[k]);
-        }
         for (int i = island.FirstCoupling; i < island.EndCoupling; ++i)
-            AddCoupling(couplings[i]);
+        {
+            if (!nodes[couplings[i].Later].IsHeld && !nodes[couplings[i].Earlier].IsHeld)
+                AddCoupling(couplings[i]);
+        }
         for (int k = island.FirstNode; k < island.EndNode; ++k)
-            Eliminate(nodes[k]);
+        {
+            FactorDiagonal(nodes[k]);
+            if (!nodes[k].IsHeld)
+                Eliminate(nodes[k]);
+        }
     }
 
     // M^-1 J^T.
@@ -101,11 +110,12 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
 
     void Eliminate(in DirectNode node)
     {
-        FactorDiagonal(node);
         var count = node.RowCount;
         var diagonal = numbers + node.Diagonal;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
+            if (nodes[blocks[a].Joint].IsHeld)
+                continue;
             // Times the inverse of L^T: what is left is L D.
             var block = numbers + blocks[a].Place;
             for (int row = nodes[blocks[a].Joint].RowCount; row > 0; --row, block += count)
@@ -122,8 +132,16 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         var target = targets + node.FirstTarget;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
-            for (int b = node.FirstBlock; b <= a; ++b)
-                Subtract(node, blocks[a], blocks[b], numbers + *target++);
+            if (nodes[blocks[a].Joint].IsHeld)
+            {
+                target += a + 1 - node.FirstBlock;
+                continue;
+            }
+            for (int b = node.FirstBlock; b <= a; ++b, ++target)
+            {
+                if (!nodes[blocks[b].Joint].IsHeld)
+                    Subtract(node, blocks[a], blocks[b], numbers + *target);
+            }
         }
     }
 
@@ -171,23 +189,32 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         }
     }
 
-    /// <summary>Solves for the changes of the impulses, and applies them.</summary>
-    internal void Solve(in DirectIsland island)
+    // Solves for the changes of the impulses of all that is not held, and applies them.
+    void SolveOnce(in DirectIsland island)
     {
         for (int k = island.FirstNode; k < island.EndNode; ++k)
-            Ask(nodes[k]);
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
-            GoForward(nodes[k]);
-        for (int k = island.EndNode - 1; k >= island.FirstNode; --k)
-            GoBack(nodes[k]);
+        {
+            if (!nodes[k].IsHeld)
+                Ask(nodes[k]);
+        }
         for (int k = island.FirstNode; k < island.EndNode; ++k)
         {
-            for (int i = 0; i < nodes[k].RowCount; ++i)
-            {
-                ref var row = ref rows[nodes[k].FirstRow + i];
-                row.Impulse += row.X;
-                Apply(nodes[k], i, row.X);
-            }
+            if (nodes[k].IsHeld)
+                continue;
+            SolveForward(nodes[k]);
+            GoForward(nodes[k]);
+        }
+        for (int k = island.EndNode - 1; k >= island.FirstNode; --k)
+        {
+            if (nodes[k].IsHeld)
+                continue;
+            GoBack(nodes[k]);
+            SolveBack(nodes[k]);
+        }
+        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        {
+            if (!nodes[k].IsHeld)
+                Apply(nodes[k]);
         }
     }
 
@@ -212,7 +239,7 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         }
     }
 
-    void GoForward(in DirectNode node)
+    void SolveForward(in DirectNode node)
     {
         var count = node.RowCount;
         var x = rows + node.FirstRow;
@@ -224,10 +251,18 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
         }
         for (int row = 0; row < count; ++row)
             x[row].X *= x[row].InversePivot;
+    }
+
+    void GoForward(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
             var block = numbers + blocks[a].Place;
             ref var later = ref nodes[blocks[a].Joint];
+            if (later.IsHeld)
+                continue;
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 double sum = 0;
@@ -242,11 +277,12 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
     {
         var count = node.RowCount;
         var x = rows + node.FirstRow;
-        var diagonal = numbers + node.Diagonal;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
             var block = numbers + blocks[a].Place;
             ref var later = ref nodes[blocks[a].Joint];
+            if (later.IsHeld)
+                continue;
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 var known = rows[later.FirstRow + row].X;
@@ -254,10 +290,27 @@ unsafe readonly struct DirectEquations(in DirectPlan plan, double* numbers, Dire
                     x[i].X -= x[i].InversePivot * block[i] * known;
             }
         }
+    }
+
+    void SolveBack(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        var diagonal = numbers + node.Diagonal;
         for (int row = count - 2; row >= 0; --row)
         {
             for (int i = row + 1; i < count; ++i)
                 x[row].X -= diagonal[i * count + row] * x[i].X;
+        }
+    }
+
+    void Apply(in DirectNode node)
+    {
+        for (int i = 0; i < node.RowCount; ++i)
+        {
+            ref var row = ref rows[node.FirstRow + i];
+            row.Impulse += row.X;
+            Apply(node, i, row.X);
         }
     }
 

@@ -28,8 +28,17 @@ struct DirectNode
     public int FirstBlock, BlockCount;
     /// <summary>First of the places that its elimination changes.</summary>
     public int FirstTarget;
+    /// <summary>What bounds its impulse.</summary>
+    public RowLimit Limit;
+    /// <summary>Whether it is left out of the equations, with the impulse that it has: a limit that nothing leans on, a servo at its greatest force.</summary>
+    public bool IsHeld;
+    /// <summary>Greatest length of its impulse; of servos and motors only.</summary>
+    public double MostImpulse;
     /// <summary>Places of its bodies among those of the plan.</summary>
     public DirectBodies Bodies;
+
+    /// <summary>Whether it is a limit, a servo or a motor.</summary>
+    internal readonly bool HasBounds => Limit != RowLimit.None;
 }
 
 /// <summary>A number for each body of a joint.</summary>
@@ -52,8 +61,10 @@ struct DirectIsland
     public int FirstNumber, EndNumber;
     /// <summary>Its rows.</summary>
     public int FirstRow, EndRow;
-    /// <summary>Whether it has loops, or several ways to the ground.</summary>
+    /// <summary>Whether its joints that hold both ways have loops, or several ways to the ground.</summary>
     public bool HasLoops;
+    /// <summary>Whether there are limits, servos or motors among its joints.</summary>
+    public bool HasBounds;
     /// <summary>Whether any of its joints asks to be solved at once; known where the solver chooses, when they have been looked at.</summary>
     public bool IsAskedFor;
 }

@@ -60,19 +60,21 @@ unsafe struct DirectPlan
         pool.Take<int>(joints.Length + 1, out var starts);
         pool.Take<int>(joints.Length * Solver.MaximumBodiesPerConstraint, out var bodies);
         var graph = GraphOf(joints, dynamicCount, starts, bodies, pool);
-        var hasLoops = graph.HasLoops();
-        var isAdded = !hasLoops || joints.Length <= MostJointsWithLoops;
+        var isTree = !graph.HasLoops(joints, withBounds: true, pool);
+        var isAdded = isTree || joints.Length <= MostJointsWithLoops;
         if (isAdded)
         {
             pool.Take<int>(joints.Length, out var order);
             Span<int> ordered = new(order.Memory, joints.Length);
-            if (hasLoops)
-                EliminationOrder.ByDegree(graph, ordered, pool);
-            else
+            if (isTree)
                 EliminationOrder.OfTree(graph, ordered, pool);
+            else
+                EliminationOrder.ByDegree(graph, ordered, pool);
             isAdded = TryArrange(joints, graph, ordered, pool);
             pool.Return(ref order);
         }
+        // Those that have bounds may be beside a joint that holds both ways, and do not make it give.
+        var hasLoops = isAdded && !isTree && graph.HasLoops(joints, withBounds: false, pool);
         graph.Dispose(pool);
         pool.Return(ref bodies);
         pool.Return(ref starts);
@@ -97,8 +99,19 @@ unsafe struct DirectPlan
             FirstRow = before.RowCount,
             EndRow = RowCount,
             HasLoops = hasLoops,
+            HasBounds = HasBounds(joints),
         }, pool);
         return true;
+    }
+
+    internal static bool HasBounds(ReadOnlySpan<DirectNode> joints)
+    {
+        foreach (ref readonly var joint in joints)
+        {
+            if (joint.HasBounds)
+                return true;
+        }
+        return false;
     }
 
     // Lists may have grown, and keep what they have.

@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -33,25 +34,27 @@ sealed unsafe partial class DirectStage
     }
 
     /// <summary>Says of the joints of some bundles whether their load is one that sweeps hold. The last substep is over.</summary>
-    internal void ReadNeeds(in Substep substep, float time, int start, int end)
+    internal void ReadNeeds(in Substep substep, float time, int start, int endBundle)
     {
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
+        var slip = JointNeed.GreatestSlip(substep.Joints.RigidFrequencyDt, substep.Dt);
         int first = 0;
         foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
         {
             var processor = solver.Processor(batch.TypeId);
-            for (int bundle = Math.Max(0, start - first); bundle < Math.Min(end - first, batch.BundleCount); ++bundle)
+            var end = solver.MayAsk(batch.TypeId) ? endBundle - first : 0;
+            for (int bundle = Math.Max(0, start - first); bundle < Math.Min(end, batch.BundleCount); ++bundle)
             {
-                processor.ReadRigidErrors(ref batch, awake, bundle, out var errors);
+                processor.ReadRigidErrors(ref batch, awake, substep, bundle, out var errors);
                 var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
                 for (int lane = 0; lane < lanes; ++lane)
                 {
                     ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
                     ref var need = ref solver.NeedOf(node.Handle);
-                    var size = JointNeedStage.SizeSquared(processor, ref batch, node.Index, errors, lane, set);
+                    var scale = JointScale.Of(processor, ref batch, node.Index, errors, lane, set);
                     var (sag, turn) = Yield(node, processor, ref batch, substep);
-                    if (errors.RigidMask[lane] != 0 && IsHeavy(processor, sag, turn, size))
+                    if (errors.RigidMask[lane] != 0 && IsHeavy(processor, sag, turn, scale, slip))
                         need.Ask();
                     else
                         need.Rest(time);
@@ -64,8 +67,14 @@ sealed unsafe partial class DirectStage
         }
     }
 
-    static bool IsHeavy(TypeProcessor processor, double sag, double turn, float sizeSquared) =>
-        turn > JointNeed.QuietTolerance || processor.MakesHubs && sag * sag > JointNeed.QuietTolerance * (double)JointNeed.QuietTolerance * sizeSquared;
+    // What turns has its gap turn with it as far as its arm goes; the least that it was found by is as much of what it is kept for.
+    static bool IsHeavy(TypeProcessor processor, double sag, double turn, in JointScale scale, float slip)
+    {
+        var tolerance = JointNeed.QuietPart * (double)(scale.Rests ? JointNeed.TolerantAtRest : JointNeed.Tolerance);
+        if (turn > tolerance)
+            return true;
+        return processor.MakesHubs && (sag * sag > tolerance * tolerance * scale.SizeSquared || sag * scale.Leverage > JointNeed.QuietPart * slip);
+    }
 
     // What the load of a joint would bring it to by sweeps, along directions and about axes. A rigid one is a spring of w h = RigidFrequencyDt, which gives way
     // by K lambda h / (w h)^2 under an impulse lambda per substep.
@@ -109,11 +118,18 @@ sealed unsafe partial class DirectStage
     }
 
     // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
-    void Ease(in DirectNode node, TypeProcessor processor, ReadOnlySpan<ConstraintRowWide> wide, int lane, float substepDt)
+    void Ease(
+        in DirectNode node, TypeProcessor processor, ReadOnlySpan<ConstraintRowWide> wide, int lane, Buffer<BodyInertia> inertias, float substepDt,
+        bool corrects)
     {
         ref var need = ref solver.NeedOf(node.Handle);
         if (need.Eases <= 0)
             return;
+        if (!corrects)
+        {
+            need.GoOn(substepDt);
+            return;
+        }
         double linear = 0, angular = 0;
         for (int row = 0; row < node.RowCount; ++row)
         {
@@ -123,10 +139,26 @@ sealed unsafe partial class DirectStage
             else
                 angular += error * error;
         }
-        var linearPart = need.CorrectedPart(ref need.Gap, Math.Sqrt(linear), substepDt);
-        var angularPart = need.CorrectedPart(ref need.Turn, Math.Sqrt(angular), substepDt);
-        need.GoOn(substepDt);
+        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
+        var reach = Correction.Reach(node, processor, jacobians.Memory + node.Jacobian, plan.Bodies, inertias);
+        var pace = JointNeed.PaceOf(TurnSquared(node), Math.Max(linear / reach, angular));
+        var linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
+        var angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
+        need.GoOn(pace * substepDt);
         for (int row = 0; row < node.RowCount; ++row)
             rows[node.FirstRow + row].Target *= processor.IsLinear(row) ? linearPart : angularPart;
+    }
+
+    // Of the body that turns fastest.
+    float TurnSquared(in DirectNode node)
+    {
+        ref var motion = ref bodies.Awake.MotionStates;
+        float greatest = 0;
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            var reference = plan.Bodies[node.Bodies[slot]].Reference;
+            greatest = MathHelper.Max(greatest, Exact.LengthSquared(motion[reference & EncodedBody.IndexMask].Velocity.Angular));
+        }
+        return greatest;
     }
 }

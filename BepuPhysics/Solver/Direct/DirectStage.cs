@@ -14,6 +14,8 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
 {
     const int MaximumBlocks = 16;
     const int BundlesPerBlock = 8;
+    // Of what is as stiff as can be where it may not be rigid, as a part of its own K: 1 / (w h (w h + 2)).
+    static readonly double hardSoftness = SubstepStiffness.DirectSoftness;
     // Of a spring that is so soft that it does nothing.
     const double LeastMassScale = 1e-12;
 
@@ -88,7 +90,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         switch (point)
         {
             case SolverPoint.BeforeWarmStart:
-                ReadBundles(substep.Directly(), block);
+                ReadBundles(substep, block);
                 break;
             case SolverPoint.AfterWarmStart:
                 for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
@@ -113,31 +115,36 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectEquations.MostRows];
+        var ofJoints = substep.Directly();
+        var ofBounds = substep.DirectlyWithBounds();
         int first = 0;
         foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
         {
             var processor = solver.Processor(batch.TypeId);
+            var hasBounds = processor.LimitOf(0) != RowLimit.None;
             for (int bundle = Math.Max(0, start - first); bundle < Math.Min(end - first, batch.BundleCount); ++bundle)
             {
                 var rowsOfBundle = wide[..processor.RowCount];
-                processor.ReadRows(ref batch, awake, substep, bundle, rowsOfBundle);
+                processor.ReadRows(ref batch, awake, hasBounds ? ofBounds : ofJoints, bundle, rowsOfBundle);
                 var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
                 for (int lane = 0; lane < lanes; ++lane)
                 {
                     ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
-                    ReadLane(rowsOfBundle, lane, node);
+                    ReadLane(rowsOfBundle, lane, ref node);
                     if (rowsOfBundle[0].HardMask[lane] == 0)
                         continue;
+                    var corrects = !hasBounds || CorrectsAll(rowsOfBundle, lane, node, substep);
                     if (solver.ChoosesDirectJoints)
-                        Ease(node, processor, rowsOfBundle, lane, substep.Dt);
-                    Limit(node, processor, set.LocalInertias, substep.Dt);
+                        Ease(node, processor, rowsOfBundle, lane, set.LocalInertias, substep.Dt, corrects);
+                    if (corrects && node.Limit != RowLimit.Length)
+                        Limit(node, processor, set.LocalInertias, substep.Dt);
                 }
             }
             first += batch.BundleCount;
         }
     }
 
-    void ReadLane(Span<ConstraintRowWide> wide, int lane, in DirectNode node)
+    void ReadLane(Span<ConstraintRowWide> wide, int lane, ref DirectNode node)
     {
         var j = jacobians.Memory + node.Jacobian;
         for (int i = 0; i < node.RowCount; ++i)
@@ -149,13 +156,38 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
                 j->Linear = ReadLane(ofBody.Linear, lane);
                 j->Angular = ReadLane(ofBody.Angular, lane);
             }
-            // A structure without loops bears joints that do not give at all.
-            var isRigid = wide[i].HardMask[lane] != 0 && !HasLoops(node);
             ref var row = ref rows[node.FirstRow + i];
             row.Target = wide[i].TargetVelocity[lane];
-            row.Softness = isRigid ? 0 : wide[i].ImpulseScale[lane] / Math.Max(wide[i].MassScale[lane], LeastMassScale);
+            row.Softness = Softness(wide[i], lane, node);
             row.Impulse = wide[i].Impulse[lane];
         }
+        node.MostImpulse = wide[0].MaximumImpulse[lane];
+    }
+
+    // A structure without loops bears joints that do not give at all. What has bounds may say the same as the joint beside it.
+    double Softness(in ConstraintRowWide row, int lane, in DirectNode node)
+    {
+        if (row.HardMask[lane] == 0)
+            return row.ImpulseScale[lane] / Math.Max(row.MassScale[lane], LeastMassScale);
+        if (node.HasBounds || HasLoops(node))
+            return hardSoftness;
+        return 0;
+    }
+
+    // A limit with slack left, a servo on its way at its greatest speed and a motor do not correct an error.
+    static bool CorrectsAll(ReadOnlySpan<ConstraintRowWide> wide, int lane, in DirectNode node, in Substep substep)
+    {
+        if (node.Limit == RowLimit.Positive)
+            return wide[0].PositionError[lane] < 0;
+        double error = 0, target = 0;
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            error += wide[row].PositionError[lane] * (double)wide[row].PositionError[lane];
+            target += wide[row].TargetVelocity[lane] * (double)wide[row].TargetVelocity[lane];
+        }
+        var frequencyDt = (double)substep.Servos.RigidFrequencyDt;
+        var whole = frequencyDt / (frequencyDt + 2) * substep.InverseDt;
+        return error > 0 && target > 0.99 * 0.99 * whole * whole * error;
     }
 
     void Limit(in DirectNode node, TypeProcessor processor, Buffer<BodyInertia> inertias, float dt) =>
@@ -169,7 +201,6 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     void Begin(in DirectIsland island, in Substep substep)
     {
         ReadBodies(island);
-        Equations.Factor(island);
         Equations.WarmStart(island, substep.WarmStartScale);
         if (IsSound(island))
         {

@@ -50,15 +50,32 @@ readonly struct JointGraph
     /// <summary>Joints of a dynamic body, in their order.</summary>
     internal unsafe ReadOnlySpan<int> JointsOf(int body) => new(jointsOfBodies.Memory + jointStarts[body], jointStarts[body + 1] - jointStarts[body]);
 
-    /// <summary>Whether the structure, which hangs together, has loops; the ground counts as one body.</summary>
-    // A tree of joints and bodies has one less link between them than there are of both. Two joints between the same two bodies are a loop as well: they may
-    // say nearly the same, and hard rows would take what they are off by for speed.
-    internal bool HasLoops()
+    /// <summary>Whether the structure has loops; the ground counts as one body.</summary>
+    /// <param name="joints">The joints.</param>
+    /// <param name="withBounds">Whether limits, servos and motors count.</param>
+    /// <param name="pool">Memory for the time being.</param>
+    // A joint closes a loop if two of its bodies hang together by those before it. Two joints between the same two bodies are a loop as well: they may say
+    // nearly the same, and hard rows would take what they are off by for speed.
+    internal bool HasLoops(ReadOnlySpan<DirectNode> joints, bool withBounds, BufferPool pool)
     {
-        var grounded = 0;
-        for (int joint = 0; joint < JointCount; ++joint)
-            grounded += BodiesOf(joint).Length == 1 ? 1 : 0;
-        return bodyStarts[JointCount] > JointCount + BodyCount - 1 || grounded > 1;
+        pool.Take<int>(BodyCount + 1, out var parts);
+        DisjointSets.Begin(parts, BodyCount + 1);
+        var hasLoop = false;
+        for (int joint = 0; joint < JointCount && !hasLoop; ++joint)
+        {
+            if (joints[joint].HasBounds && !withBounds)
+                continue;
+            var ofJoint = BodiesOf(joint);
+            var root = DisjointSets.Root(parts, ofJoint.Length == 1 ? BodyCount : ofJoint[0]);
+            foreach (var body in ofJoint.Length == 1 ? ofJoint : ofJoint[1..])
+            {
+                var other = DisjointSets.Root(parts, body);
+                hasLoop |= root == other;
+                root = root == other ? root : DisjointSets.Join(parts, root, other);
+            }
+        }
+        pool.Return(ref parts);
+        return hasLoop;
     }
 
     internal void Dispose(BufferPool pool)

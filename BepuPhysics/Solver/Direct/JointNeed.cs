@@ -13,8 +13,13 @@ struct JointNeed
     // A body that hangs in a hinge by itself is off by half a thousandth at the default setting, ragdolls in a heap by a hundredth. A double pendulum that is
     // off by half a hundredth at times loses 61 % of its energy in a minute where a hundredth is allowed, and 3 % so.
     internal const float Tolerance = 0.005f;
-    /// <summary>What the load of a joint may be worth for it to be left to the sweeps, in the same units.</summary>
-    internal const float QuietTolerance = 0.5f * Tolerance;
+    /// <summary>The same of a joint whose bodies rest, so that it takes no energy from anything.</summary>
+    // Ragdolls that lie in a heap are off by half a hundredth in the median, and by a twentieth at most.
+    internal const float TolerantAtRest = 0.05f;
+    /// <summary>Part of a tolerance that the load of a joint may be worth for it to be left to the sweeps.</summary>
+    internal const float QuietPart = 0.5f;
+    // Part of its energy that a joint may take from what turns, in a second: 6 % in a minute.
+    const float GreatestLoss = 1e-3f;
     /// <summary>For how long a joint asks after the last reason for it, s; twice as long each time that it asks again soon.</summary>
     internal const float LeastPeriod = 1;
     /// <summary>The longest such time, s.</summary>
@@ -24,8 +29,18 @@ struct JointNeed
     const float EaseTime = 0.5f;
     // Time constant of what is beyond that error, s: about that of the sweeps at the default setting.
     const float BeyondTime = 0.02f;
+    // Part of the size of bodies that is no way for them to go within a radian of their turn.
+    const float SmallError = 0.01f;
     // After which a five hundredth is left of it: exp(-2.5^2).
     const float EaseEnd = 2.5f * EaseTime;
+
+    /// <summary>Speed with which the gap of a joint that is swept over may turn, as a part of that of its bodies about it.</summary>
+    /// <param name="frequencyDt">Angular frequency of the joint, times the length of the substep.</param>
+    /// <param name="dt">Length of the substep, s.</param>
+    // With w the frequency and b = w / (w h + 2) the rate at which it corrects, a joint of effective mass M that is off by C pulls with M w^2 C along C. Where
+    // its gap turns at u it pulls against that as well, with u / b as much, and takes the energy M w^2 (C u)^2 / b in a second. Of what the bodies have,
+    // M v^2 / 2, that is 2 w (w h + 2) (C u)^2 / v^2.
+    internal static float GreatestSlip(float frequencyDt, float dt) => MathF.Sqrt(GreatestLoss * dt / (2 * frequencyDt * (frequencyDt + 2)));
 
     /// <summary>Place of the joint in the order in which joints were added, from 1; 0 where there is none.</summary>
     public long Number;
@@ -80,16 +95,23 @@ struct JointNeed
     /// <summary>Goes a substep further on the way from the sweeps.</summary>
     internal void GoOn(float substepDt) => Eases = MathHelper.Max(Eases - substepDt, 0);
 
+    /// <summary>How many times as fast an error goes if a body of the joint turns: within a radian, as a gap that turns with it is a brake.</summary>
+    /// <param name="turnSquared">Square of the angular speed of the body that turns fastest, rad2/s2.</param>
+    /// <param name="error">The error, as a part of the size of the bodies or in radians: one that is not small is not taken back faster than they move.</param>
+    internal static float PaceOf(float turnSquared, double error) =>
+        MathHelper.Max(1, EaseTime * MathF.Sqrt(turnSquared) * (float)Math.Min(1, SmallError / error));
+
     /// <summary>Part of an error that is corrected in a substep.</summary>
     /// <param name="left">What is left of the one that the joint came with: <see cref="Gap"/> or <see cref="Turn"/>; found in the first substep.</param>
     /// <param name="error">Length of the error.</param>
     /// <param name="substepDt">Length of the substep, s.</param>
+    /// <param name="pace">How many times as fast the error goes.</param>
     // What is to be left goes with exp(-(t / T)^2): by a rate of 2 t / T^2, which begins with nothing, so that no velocity jumps; the greatest speed is .86 of
     // it over T. What is beyond, be it added by a motion that turns within a substep, goes as sweeps would take it.
-    internal readonly double CorrectedPart(ref float left, double error, float substepDt)
+    internal readonly double CorrectedPart(ref float left, double error, float substepDt, float pace = 1)
     {
         var t = EaseEnd - Eases;
-        left = t > 0 ? left * (1 - MathHelper.Min(1, 2 * t * substepDt / (EaseTime * EaseTime))) : (float)error;
+        left = t > 0 ? left * (1 - MathHelper.Min(1, 2 * t * pace * substepDt / (EaseTime * EaseTime))) : (float)error;
         return error > left ? (1 - left / error) * Math.Min(1, substepDt / BeyondTime) : 0;
     }
 }

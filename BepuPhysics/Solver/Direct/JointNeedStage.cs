@@ -56,13 +56,14 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
         // Since they were looked at before, if steps are all as long as this one.
         var time = substep.Dt * solver.LastSubstepCount * Solver.NeedTurns;
         if (start < sweptBundles)
-            hasChanged[block] = ReadSwept(start, Math.Min(end, sweptBundles), time);
+            hasChanged[block] = ReadSwept(substep, start, Math.Min(end, sweptBundles), time);
         if (end > sweptBundles)
             direct.ReadNeeds(substep, time, Math.Max(start - sweptBundles, 0), end - sweptBundles);
     }
 
-    bool ReadSwept(int start, int end, float time)
+    bool ReadSwept(in Substep substep, int start, int end, float time)
     {
+        var slip = JointNeed.GreatestSlip(substep.Joints.RigidFrequencyDt, substep.Dt);
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         var anyNew = false;
@@ -72,22 +73,27 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
         {
             ref var batch = ref turn.Current;
             var processor = solver.Processor(batch.TypeId);
+            var isTurn = turn.IsOfCurrent;
             for (int bundle = Math.Max(start - first, 0); bundle < Math.Min(end - first, batch.BundleCount); ++bundle)
             {
-                processor.ReadRigidErrors(ref batch, awake, bundle, out var errors);
-                if (!solver.RemembersNeeds && !MayBeOff(errors))
-                    continue;
                 var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
+                if (!isTurn && !AnyNew(batch, bundle * Vector<float>.Count, lanes))
+                    continue;
+                processor.ReadRigidErrors(ref batch, awake, substep, bundle, out var errors);
+                if (!solver.RemembersNeeds && !MayBeOff(errors, slip * slip))
+                    continue;
                 for (int lane = 0; lane < lanes; ++lane)
                 {
                     var index = bundle * Vector<float>.Count + lane;
                     ref var need = ref solver.NeedOf(batch.IndexToHandle[index]);
-                    if (need.Refused <= 0 && IsOff(processor, ref batch, index, errors, lane, set))
+                    if (!isTurn && !solver.IsNew(need))
+                        continue;
+                    if (need.Refused <= 0 && IsOff(processor, ref batch, index, errors, lane, set, slip * slip))
                     {
                         anyNew |= need.Ask();
                         solver.RemembersNeeds = true;
                     }
-                    else
+                    else if (isTurn)
                         need.Rest(time);
                 }
             }
@@ -96,46 +102,41 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
         return anyNew;
     }
 
+    bool AnyNew(in TypeBatch batch, int start, int count)
+    {
+        for (int i = start; i < start + count; ++i)
+        {
+            if (solver.IsNew(solver.NeedOf(batch.IndexToHandle[i])))
+                return true;
+        }
+        return false;
+    }
+
     // Arms alone are no longer than what joints are judged by.
-    static bool MayBeOff(in JointErrorWide errors)
+    static bool MayBeOff(in JointErrorWide errors, float slipSquared)
     {
         var limit = new Vector<float>(JointNeed.Tolerance * JointNeed.Tolerance) * Wide.Min(errors.ArmASquared, errors.ArmBSquared);
-        return Vector.LessThanAny(limit, errors.Linear * errors.Linear) ||
-            Vector.LessThanAny(new Vector<float>(JointNeed.Tolerance), errors.Angular);
-    }
-
-    static bool IsOff(TypeProcessor processor, ref TypeBatch batch, int index, in JointErrorWide errors, int lane, in BodySet set)
-    {
-        if (errors.Angular[lane] > JointNeed.Tolerance)
+        if (Vector.LessThanAny(limit, errors.Linear * errors.Linear) || Vector.LessThanAny(new Vector<float>(JointNeed.Tolerance), errors.Angular))
             return true;
-        var linear = errors.Linear[lane];
-        return linear > 0 && linear * linear > JointNeed.Tolerance * JointNeed.Tolerance * SizeSquared(processor, ref batch, index, errors, lane, set);
+        var slip = new Vector<float>(slipSquared);
+        var speed = Wide.Max(errors.TurnASquared * errors.ArmASquared, errors.TurnBSquared * errors.ArmBSquared);
+        return Vector.LessThanAny(slip * speed, errors.LinearSlipSquared) ||
+            Vector.LessThanAny(slip * Wide.Max(errors.TurnASquared, errors.TurnBSquared), errors.AngularSlipSquared);
     }
 
-    /// <summary>Square of the length by which an error of a joint is judged: the least radius of gyration of its bodies about where it holds them.</summary>
-    // Infinite where no body of it is moved and turned.
-    internal static float SizeSquared(TypeProcessor processor, ref TypeBatch batch, int index, in JointErrorWide errors, int lane, in BodySet set)
+    static bool IsOff(
+        TypeProcessor processor, ref TypeBatch batch, int index, in JointErrorWide errors, int lane, in BodySet set, float slipSquared)
     {
-        var least = float.PositiveInfinity;
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-        {
-            var reference = processor.BodyReference(ref batch, index, slot);
-            if ((reference & EncodedBody.KinematicFlag) != 0)
-                continue;
-            ref var inertia = ref set.LocalInertias[reference & EncodedBody.IndexMask];
-            ref var inverse = ref inertia.InverseInertiaTensor;
-            var trace = inverse.XX + inverse.YY + inverse.ZZ;
-            var arm = slot == 0 ? errors.ArmASquared[lane] : errors.ArmBSquared[lane];
-            // What nothing turns has its arm, or nothing to be judged by.
-            if (trace > 0)
-                arm += 3 * inertia.InverseMass / trace;
-            if (arm > 0)
-                least = MathHelper.Min(least, arm);
-        }
-        return least;
+        var scale = JointScale.Of(processor, ref batch, index, errors, lane, set);
+        var tolerance = scale.Rests ? JointNeed.TolerantAtRest : JointNeed.Tolerance;
+        var linear = errors.Linear[lane];
+        if (errors.Angular[lane] > tolerance || linear > 0 && linear * linear > tolerance * tolerance * scale.SizeSquared)
+            return true;
+        return scale.Turns && (errors.AngularSlipSquared[lane] > slipSquared * scale.TurnSquared ||
+            errors.LinearSlipSquared[lane] > slipSquared * scale.SpeedSquared);
     }
 
-    // The type batches whose joints are looked at in the present step.
+    // The type batches whose joints are looked at in the present step: all, where there are new joints, which are looked at in each.
     ref struct Turn(Solver solver)
     {
         int batch;
@@ -143,6 +144,9 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
         int colour;
 
         public readonly ref TypeBatch Current => ref solver.ActiveSet.Batches[batch].TypeBatches[typeBatch];
+
+        // Whether it is their turn.
+        public bool IsOfCurrent { get; private set; }
 
         public bool MoveNext()
         {
@@ -156,7 +160,8 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
                 while (++typeBatch < current.TypeBatches.Count)
                 {
                     var typeId = current.TypeBatches[typeBatch].TypeId;
-                    if (((isColoured ? colour : ColourOfFallback) + typeId) % Solver.NeedTurns == solver.NeedTurn && solver.MayBeDirect(typeId))
+                    IsOfCurrent = ((isColoured ? colour : ColourOfFallback) + typeId) % Solver.NeedTurns == solver.NeedTurn;
+                    if ((IsOfCurrent || solver.HasNewJoints) && solver.MayAsk(typeId))
                         return true;
                 }
                 colour += isColoured ? 1 : 0;
