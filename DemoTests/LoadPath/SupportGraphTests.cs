@@ -19,12 +19,22 @@ public class SupportGraphTests
 
     // Each support has three contacts unless said otherwise.
     static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
-        bool[]? slides = null)
+        bool[]? slides = null, bool[]? leans = null, int spoilt = -1)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
-        var links = supports.Select((support, i) =>
-            new SupportLink { Upper = support.Upper, Lower = support.Lower, Count = (byte)contacts, Slides = slides is not null && slides[i] }).ToArray();
+        var links = supports.Select((support, i) => new SupportLink
+        {
+            Upper = support.Upper,
+            Lower = support.Lower,
+            Count = (byte)contacts,
+            Slides = slides is not null && slides[i],
+            Leans = leans is not null && leans[i],
+        }).ToArray();
+        pool.Take<byte>(bodyCount, out var isSpoilt);
+        isSpoilt.Clear(0, bodyCount);
+        if (spoilt >= 0)
+            isSpoilt[spoilt] = 1;
         var found = new SupportLink[links.Length + Gap];
         // In two pieces, as two blocks would find them.
         var half = links.Length / 2;
@@ -32,7 +42,7 @@ public class SupportGraphTests
         links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
         fixed (SupportLink* memory = found)
         {
-            graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, new Heights(heights ?? new float[bodyCount]), pool);
+            graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, isSpoilt, new Heights(heights ?? new float[bodyCount]), pool);
             var middle = graph.Nodes.Count / 2;
             graph.Fill(memory, middle, graph.Nodes.Count);
             graph.Fill(memory, 0, middle);
@@ -53,6 +63,7 @@ public class SupportGraphTests
         }
         var count = graph.Links.Count;
         graph.Dispose(pool);
+        pool.Return(ref isSpoilt);
         pool.AssertEmpty();
         return (islands, count);
     }
@@ -93,6 +104,43 @@ public class SupportGraphTests
     {
         Assert.Empty(Build(2, [(0, Ground), (0, Ground), (1, 0)], slides: [true, true, false]).Islands);
         AssertIslands("0 1", Build(2, [(0, Ground), (0, Ground), (1, 0)], slides: [true, false, false]).Islands);
+    }
+
+    // Two stones that stand, and two between them that hold each other: the first of them on a face that carries no load by itself.
+    static readonly (int, int)[] archSupports = [(0, Ground), (3, Ground), (1, 0), (2, 1), (2, 3)];
+    static readonly bool[] archLeans = [false, false, true, true, true];
+
+    [Fact]
+    public void What_leans_on_each_other_is_one_island()
+    {
+        var (islands, count) = Build(4, archSupports, leans: archLeans);
+        Assert.Equal([0, 1, 2, 3], islands.Single().Order());
+        Assert.Equal(5, count);
+        // What rests on it rests on the ground.
+        Assert.Equal([0, 1, 2, 3, 4], Build(5, [.. archSupports, (4, 2)], leans: [.. archLeans, false]).Islands.Single().Order());
+    }
+
+    [Fact]
+    public void Nothing_leans_of_which_something_is_not_known()
+    {
+        for (int spoilt = 0; spoilt < 4; ++spoilt)
+            AssertIslands("0, 3", Build(4, archSupports, leans: archLeans, spoilt: spoilt).Islands);
+        Assert.Equal(2, Build(5, [.. archSupports, (4, Ground)], leans: [.. archLeans, false], spoilt: 4).Islands.Length);
+    }
+
+    [Fact]
+    public void What_slides_on_all_that_it_leans_on_is_not_in_the_graph() =>
+        AssertIslands("0, 3", Build(4, archSupports, leans: archLeans, slides: [false, false, true, true, true]).Islands);
+
+    [Fact]
+    public void Boxes_side_by_side_do_not_lean() =>
+        AssertIslands("0, 1", Build(2, [(0, Ground), (1, Ground), (0, 1)], leans: [false, false, true]).Islands);
+
+    [Theory, InlineData(64, 1), InlineData(65, 0)]
+    public void Great_islands_do_not_lean(int bodyCount, int expected)
+    {
+        var supports = Enumerable.Range(0, bodyCount - 1).Select(body => (Upper: body + 1, Lower: body)).Prepend((Upper: 0, Lower: Ground)).ToArray();
+        Assert.Equal(expected, Build(bodyCount, supports, leans: [.. Enumerable.Repeat(true, bodyCount)]).Islands.Length);
     }
 
     // Three planks of which each lies on the next: the lowest is taken first, and what it lies on itself is left out.
@@ -145,6 +193,8 @@ public class SupportGraphTests
             links[i] = RandomLink(random, 20, hasCircles);
         var heights = new float[30];
         int bodyCount = 20, half = 20, same = 0;
+        pool.Take<byte>(30, out var spoilt);
+        spoilt.Clear(0, 30);
         SupportGraph kept = default;
         string last = "";
         for (int step = 0; step < 400; ++step)
@@ -171,6 +221,14 @@ public class SupportGraphTests
                 case 5:
                     bodyCount = 50 - bodyCount;
                     break;
+                case 6:
+                    ref var leaning = ref links[random.Next(links.Length)];
+                    leaning.Leans = !leaning.Leans;
+                    break;
+                case 7:
+                    var body = random.Next(20);
+                    spoilt[body] = (byte)(1 - spoilt[body]);
+                    break;
             }
             var found = new SupportLink[links.Length + Gap];
             links.AsSpan(0, half).CopyTo(found);
@@ -179,8 +237,8 @@ public class SupportGraphTests
             fixed (SupportLink* memory = found)
             {
                 (int, int)[] pieces = [(0, half), (half + Gap, links.Length - half)];
-                BuildAndFill(ref fresh, memory, pieces, bodyCount, heights, pool);
-                BuildAndFill(ref kept, memory, pieces, bodyCount, heights, pool);
+                BuildAndFill(ref fresh, memory, pieces, bodyCount, spoilt, heights, pool);
+                BuildAndFill(ref kept, memory, pieces, bodyCount, spoilt, heights, pool);
             }
             var expected = Describe(fresh, bodyCount);
             Assert.Equal(expected, Describe(kept, bodyCount));
@@ -190,6 +248,7 @@ public class SupportGraphTests
         }
         Assert.InRange(same, 100, 390);
         kept.Dispose(pool);
+        pool.Return(ref spoilt);
         pool.AssertEmpty();
     }
 
@@ -201,9 +260,9 @@ public class SupportGraphTests
     }
 
     static unsafe void BuildAndFill(
-        ref SupportGraph graph, SupportLink* found, (int, int)[] pieces, int bodyCount, float[] heights, BufferPool pool)
+        ref SupportGraph graph, SupportLink* found, (int, int)[] pieces, int bodyCount, Buffer<byte> spoilt, float[] heights, BufferPool pool)
     {
-        graph.Build(found, pieces, bodyCount, new Heights(heights), pool);
+        graph.Build(found, pieces, bodyCount, spoilt, new Heights(heights), pool);
         graph.Fill(found, 0, graph.Nodes.Count);
         // What a step does to nodes.
         for (int i = 0; i < graph.Nodes.Count; ++i)
@@ -225,7 +284,7 @@ public class SupportGraphTests
         for (int i = 0; i < bodyCount; ++i)
             lines.Append(graph.NodeOf[i]).Append(',');
         foreach (ref var node in graph.Nodes.AsSpan())
-            lines.Append($"|{node.Body} {node.FirstSupport} {node.SupportCount} {node.Radius}");
+            lines.Append($"|{node.Body} {node.FirstSupport} {node.SupportCount} {node.Radius} {node.Leans} {node.IsRelaxed}");
         foreach (ref var link in graph.Links.AsSpan())
             lines.Append($"|{link.Upper} {link.Lower} {link.Count} {link.Slides}");
         return lines.ToString();

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using Demos.Fuzz;
+using Demos.Governing;
 using Demos.Mechanisms;
 using Demos.Pages;
 using Demos.Sleeping;
@@ -18,6 +19,6 @@ static class EngineCommands
     public static IEnumerable<Command> Create(Func<ParseResult, Func<int>, int> guard) =>
         [
             FuzzCommand.Create(guard), TowersCommand.Create(guard), MechanismCommand.Create(guard), SleepCommand.Create(guard),
-            StageCommand.Create(guard), ConstraintPagesCommand.Create(guard),
+            StageCommand.Create(guard), ConstraintPagesCommand.Create(guard), GovernorCommand.Create(guard),
         ];
 }

@@ -19,6 +19,10 @@ struct LoadNode
     public bool IsActive;
     /// <summary>Of the first body of an island: whether the island is to be worked on in this substep.</summary>
     public bool NeedsWork;
+    /// <summary>Whether it leans on others: its load goes down by no order.</summary>
+    public bool Leans;
+    /// <summary>Of the first body of an island: whether any of the island leans.</summary>
+    public bool IsRelaxed;
     /// <summary>What the transfer has changed of its momentum, N s.</summary>
     public Vector3 Linear;
     /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>

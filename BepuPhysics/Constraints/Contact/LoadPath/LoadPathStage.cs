@@ -13,7 +13,7 @@ namespace BepuPhysics.Constraints.Contact;
 //
 // The contacts through which a load is handed are held: they keep the speed of their surfaces at zero with no softness, and know no overlap within a band
 // about zero. A soft row would give back in the sweep what it was handed.
-sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
+sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     // Bundles, bodies, nodes and islands share this many blocks at most; any number gives the same bits.
     const int MaximumBlocks = 16;
@@ -31,6 +31,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     Buffer<BodyVelocity> before;
     // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
     Buffer<SupportLink> found;
+    // Per body, whether something pushes it from the side that is not among what was found.
+    Buffer<byte> spoilt;
     int bundleCount;
     int blockCount;
     // What each block has found in its room.
@@ -38,6 +40,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     // What carries the nodes of the island that a block is working on. Only one at a time: in the first step of a scene each island has something to
     // hand down, and all of their supports would be more memory than the contacts themselves.
     Buffer<LoadSupport> supports;
+    // The same for what is relaxed; not there if nothing is.
+    Buffer<PatchRelaxation> patches;
     readonly Room[] rooms = new Room[MaximumBlocks];
     // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
@@ -58,6 +62,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
         pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out before);
         pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
+        pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out spoilt);
+        spoilt.Clear(0, bodies.Awake.Count);
         hasBegun = true;
         mayHold.AsSpan(0, blockCount).Fill(true);
         return true;
@@ -124,7 +130,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
     {
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
-        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, QuietSteps * solver.LastSubstepCount,
+        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, spoilt.Memory, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
@@ -150,7 +156,7 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             return;
         }
         ref var set = ref bodies.Awake;
-        graph.Build(found.Memory, used, set.Count, new HeightAgainstGain(set.MotionStates, before), pool);
+        graph.Build(found.Memory, used, set.Count, spoilt, new HeightAgainstGain(set.MotionStates, before), pool);
         MakeRooms();
     }
 
@@ -174,6 +180,8 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
+        if (graph.HasLeaning)
+            pool.TakeAtLeast(Math.Max(1, count), out patches);
     }
 
     int FirstSupport(int island) => graph.Nodes[graph.Islands[island]].FirstSupport;
@@ -219,26 +227,6 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         node.Tolerance = new RestTolerance(ratio, dt).Of(gain, node.Radius);
     }
 
-    void Transfer(int island, ref Room room)
-    {
-        var start = graph.Islands[island];
-        var end = graph.Islands[island + 1];
-        ref var first = ref graph.Nodes[start];
-        first.IsActive = first.NeedsWork;
-        first.NeedsWork = false;
-        if (!first.IsActive)
-            return;
-        var firstSupport = first.FirstSupport;
-        var supports = ReadSupports(island, ref room);
-        for (int i = end - 1; i >= start; --i)
-        {
-            ref var node = ref graph.Nodes[i];
-            if (node.HasLoad)
-                HandDown(ref node, SupportsOf(node, supports, firstSupport));
-        }
-        Apply(start, end, supports);
-    }
-
     // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
     void FindLoads(int block)
     {
@@ -276,80 +264,6 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
         return needsWork;
     }
 
-    Span<LoadSupport> ReadSupports(int island, ref Room room)
-    {
-        var first = FirstSupport(island);
-        var read = new Span<LoadSupport>(supports.Memory + room.Start, EndOfSupports(island) - first);
-        if (room.Island == island)
-            return read;
-        room.Island = island;
-        for (int i = 0; i < read.Length; ++i)
-            read[i] = new LoadSupport(graph.Links[first + i]);
-        return read;
-    }
-
-    static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>
-        ofIsland.Slice(node.FirstSupport - firstOfIsland, node.SupportCount);
-
-    void HandDown(ref LoadNode node, Span<LoadSupport> supports)
-    {
-        ref var set = ref bodies.Awake;
-        ref var velocity = ref set.MotionStates[node.Body].Velocity;
-        ref var inertia = ref set.WorldInertias[node.Body];
-        foreach (ref var support in supports)
-            support.Read();
-        LoadTransfer.Find(supports, velocity.Linear * (1 / inertia.InverseMass) + node.Linear,
-            Symmetric3x3.Invert(inertia.InverseInertiaTensor) * velocity.Angular + node.Angular, node.Radius);
-        foreach (ref var support in supports)
-        {
-            support.Change(out var linear, out var angular);
-            node.Linear += linear;
-            node.Angular += angular;
-            if (support.Lower < 0)
-                continue;
-            ref var lower = ref graph.Nodes[graph.NodeOf[support.Lower]];
-            lower.Linear -= linear;
-            lower.Angular -= angular - Exact.Cross(support.ToLower, linear);
-            lower.HasLoad = true;
-        }
-    }
-
-    // As far as it lowers the kinetic energy of the island, and no farther than all of it. Both ends obey what bounds the impulses, and these
-    // bounds are convex: so does all between.
-    void Apply(int start, int end, Span<LoadSupport> supports)
-    {
-        ref var set = ref bodies.Awake;
-        float slope = 0, curvature = 0;
-        for (int i = start; i < end; ++i)
-        {
-            ref var node = ref graph.Nodes[i];
-            if (!node.HasLoad)
-                continue;
-            ref var velocity = ref set.MotionStates[node.Body].Velocity;
-            ref var inertia = ref set.WorldInertias[node.Body];
-            slope += Exact.Dot(velocity.Linear, node.Linear) + Exact.Dot(velocity.Angular, node.Angular);
-            curvature += Exact.LengthSquared(node.Linear) * inertia.InverseMass + Exact.Dot(node.Angular, inertia.InverseInertiaTensor * node.Angular);
-        }
-        // Not if a number went wrong: the comparison is false then.
-        var part = -slope / curvature;
-        if (!(part > 0))
-            return;
-        part = MathHelper.Min(part, 1);
-        var firstSupport = graph.Nodes[start].FirstSupport;
-        for (int i = start; i < end; ++i)
-        {
-            ref var node = ref graph.Nodes[i];
-            if (!node.HasLoad)
-                continue;
-            ref var velocity = ref set.MotionStates[node.Body].Velocity;
-            ref var inertia = ref set.WorldInertias[node.Body];
-            velocity.Linear += node.Linear * (inertia.InverseMass * part);
-            velocity.Angular += inertia.InverseInertiaTensor * (node.Angular * part);
-            foreach (ref var support in SupportsOf(node, supports, firstSupport))
-                support.Write(part);
-        }
-    }
-
     /// <summary>Gives all memory back.</summary>
     internal void Dispose() => graph.Dispose(pool);
 
@@ -368,8 +282,12 @@ sealed unsafe class LoadPathStage(Solver solver, Bodies bodies, BufferPool pool)
             pool.Return(ref before);
         if (found.Allocated)
             pool.Return(ref found);
+        if (spoilt.Allocated)
+            pool.Return(ref spoilt);
         if (supports.Allocated)
             pool.Return(ref supports);
+        if (patches.Allocated)
+            pool.Return(ref patches);
     }
 
     // The sign of the zero tells the next step that they were held.

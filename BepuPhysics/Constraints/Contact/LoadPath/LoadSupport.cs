@@ -79,7 +79,7 @@ unsafe struct LoadSupport
             After[i] = Before[i] = Impulse(i);
         var first = ContactPrestepLayout.FrictionImpulse(Count);
         FrictionAfter = FrictionBefore = new Vector3(Impulse(first), Impulse(first + 1), Impulse(first + 2)) * Sign;
-        TwistAfter = TwistBefore = Impulse(first + 3) * Sign;
+        TwistAfter = TwistBefore = Impulse(first + 3);
     }
 
     /// <summary>Writes impulses part of the way from those before the transfer to those after it.</summary>
@@ -92,8 +92,11 @@ unsafe struct LoadSupport
         Impulse(first) = friction.X;
         Impulse(first + 1) = friction.Y;
         Impulse(first + 2) = friction.Z;
-        Impulse(first + 3) = (TwistBefore + (TwistAfter - TwistBefore) * part) * Sign;
+        Impulse(first + 3) = TwistBefore + (TwistAfter - TwistBefore) * part;
     }
+
+    /// <summary>What it has come to by now.</summary>
+    internal readonly PatchImpulses Present => new() { Normals = After, Friction = FrictionAfter, Twist = TwistAfter };
 
     /// <summary>Sum of the normal impulses before the transfer, N s.</summary>
     internal readonly float Load
@@ -110,11 +113,20 @@ unsafe struct LoadSupport
     /// <summary>Change of momentum and of angular momentum about its centre that the transfer gives the upper body.</summary>
     internal readonly void Change(out Vector3 linear, out Vector3 angular)
     {
-        linear = FrictionAfter - FrictionBefore;
-        angular = Exact.Cross(Center, linear) + Normal * (TwistAfter - TwistBefore);
+        var change = new PatchImpulses { Friction = FrictionAfter - FrictionBefore, Twist = TwistAfter - TwistBefore };
+        for (int i = 0; i < Count; ++i)
+            change.Normals[i] = After[i] - Before[i];
+        Sum(change, out linear, out angular);
+    }
+
+    /// <summary>Momentum and angular momentum about its centre that impulses give the upper body.</summary>
+    internal readonly void Sum(in PatchImpulses impulses, out Vector3 linear, out Vector3 angular)
+    {
+        linear = impulses.Friction;
+        angular = Exact.Cross(Center, linear) + Normal * impulses.Twist;
         for (int i = 0; i < Count; ++i)
         {
-            var normal = Normal * (After[i] - Before[i]);
+            var normal = Normal * impulses.Normals[i];
             linear += normal;
             angular += Exact.Cross(Arms[i], normal);
         }

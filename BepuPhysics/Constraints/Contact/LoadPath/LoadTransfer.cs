@@ -181,7 +181,7 @@ static class LoadTransfer
         }
     }
 
-    static Vector3 Limit(Vector3 value, float length)
+    internal static Vector3 Limit(Vector3 value, float length)
     {
         var squared = Exact.LengthSquared(value);
         return squared > length * length ? value * (length / MathF.Sqrt(squared)) : value;

@@ -8,6 +8,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="bodies">The bodies, after the first integration.</param>
 /// <param name="before">Their velocities before it, a row each, of which only the first half is read.</param>
 /// <param name="constraints">Their lists of constraints, a row each.</param>
+/// <param name="spoilt">Per body: becomes 1 where something pushes it from the side that is not found.</param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
 /// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
@@ -18,7 +19,7 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, float quietSteps, RestTolerance tolerance, float warmStartScale)
+    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, float quietSteps, RestTolerance tolerance, float warmStartScale)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
     internal const int LeastContacts = 3;
@@ -28,6 +29,9 @@ readonly unsafe struct SupportFinder(
     // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
     // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
     const float RestingSteps = 1;
+    // The same where a body leans, as part of what is quiet: it takes the sweeps some substeps to know the load of an arch, and meanwhile it falls.
+    const float LeaningShare = 0.5f;
+
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
     const float SlidingShare = 0.99f;
     const float SlidingSteps = 0.1f;
@@ -71,12 +75,21 @@ readonly unsafe struct SupportFinder(
         var normal = *(Vector3Wide*)(prestep + ContactPrestepLayout.Normal(count));
         var along = -Vector3Wide.Dot(gain, normal);
         var isUpperA = Vector.GreaterThan(along, Vector<float>.Zero);
-        carries &= Vector.GreaterThan(along * along, new Vector<float>(LeastSlope * LeastSlope) * gain.LengthSquared()) & (isUpperA | ~fixedB);
-        var resting = new Vector<float>(RestingSteps) * fastest;
+        var flat = Vector.GreaterThan(along * along, new Vector<float>(LeastSlope * LeastSlope) * gain.LengthSquared()) & (isUpperA | ~fixedB);
+        var leans = Vector.AndNot(carries, flat);
+        if (leans != Vector<int>.Zero)
+            leans &= Pushes(count, impulses);
+        if (count < LeastContacts)
+            carries &= flat;
+        isUpperA |= fixedB;
+        var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
         carries &= Vector.LessThan((bodyA.Linear - gainA).LengthSquared(), resting * resting);
         carries &= Vector.LessThan((bodyB.Linear - gainB).LengthSquared(), resting * resting);
         if (carries == Vector<int>.Zero)
+        {
+            Spoil(leans, references, hasB);
             return 0;
+        }
 
         ReadRest(references[0], ref bodyA);
         carries &= Vector.GreaterThan(bodyA.InverseMass, Vector<float>.Zero);
@@ -116,10 +129,11 @@ readonly unsafe struct SupportFinder(
             open |= Vector.AndNot(new Vector<int>(1 << i), touches | Vector.GreaterThan(impulses[i], Vector<float>.Zero));
         }
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
+        Spoil(Vector.AndNot(leans, carries), references, hasB);
         radius = Vector.SquareRoot(radius);
         if (!hasB)
         {
-            var alone = carries & IsBorne(count, bodyA, normal, impulses, fastest, radius);
+            var alone = carries & flat & IsBorne(count, bodyA, normal, impulses, fastest, radius);
             if (alone != Vector<int>.Zero)
                 alone &= IsAlone((int*)references);
             if (alone != Vector<int>.Zero)
@@ -154,6 +168,7 @@ readonly unsafe struct SupportFinder(
                 HasTwoBodies = hasB,
                 IsUpperA = isUpperA[lane] != 0,
                 Slides = slides[lane] != 0,
+                Leans = flat[lane] == 0,
             };
         }
         return foundCount;
@@ -168,6 +183,26 @@ readonly unsafe struct SupportFinder(
         var impulse = normal * load + *(Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count));
         var left = body.Linear + impulse * (body.InverseMass * new Vector<float>(warmStartScale));
         return Vector.LessThan(left.Length() + body.Angular.Length() * radius, tolerance.Of(gain, radius));
+    }
+
+    static Vector<int> Pushes(int count, Vector<float>* impulses)
+    {
+        var pushes = Vector.GreaterThan(impulses[0], Vector<float>.Zero);
+        for (int i = 1; i < count; ++i)
+            pushes |= Vector.GreaterThan(impulses[i], Vector<float>.Zero);
+        return pushes;
+    }
+
+    // Says of the bodies of some lanes that something pushes them from the side of which the graph knows nothing. Threads may say it at once.
+    void Spoil(Vector<int> lanes, Vector<int>* references, bool hasB)
+    {
+        for (var left = Wide.Bits(lanes); left != 0; left &= left - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(left);
+            spoilt[references[0][lane] & EncodedBody.IndexMask] = 1;
+            if (hasB)
+                spoilt[references[1][lane] & EncodedBody.IndexMask] = 1;
+        }
     }
 
     // Whether a body has no constraint but this one.

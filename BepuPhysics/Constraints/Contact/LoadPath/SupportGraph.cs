@@ -12,7 +12,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// does not either. One thread says who comes where, from the little that this takes, and where that little is what it was a step ago, as in all that
 /// stands, so is the graph. The links follow node by node.
 /// </remarks>
-unsafe struct SupportGraph
+unsafe partial struct SupportGraph
 {
     // What has to be known of a link until it has its place.
     struct Support
@@ -23,6 +23,8 @@ unsafe struct SupportGraph
         public int Lower;
         public byte CarryingCount;
         public bool Slides;
+        public bool Leans;
+        public bool IsSpoilt;
         public bool Carries;
     }
 
@@ -40,6 +42,8 @@ unsafe struct SupportGraph
     // Support with the same lower body that follows, by index in the order of upper bodies.
     Buffer<int> nextAbove;
     QuickList<int> order;
+    // Supports that lean, by index in the order of upper bodies.
+    QuickList<int> leaning;
     // What the graph was built of, beside the supports: it is the same of the same.
     QuickList<(int Start, int Count)> builtOf;
     int builtBodyCount;
@@ -52,6 +56,8 @@ unsafe struct SupportGraph
     internal QuickList<SupportLink> Links;
     /// <summary>Where the nodes of each island begin, and where those of the last one end.</summary>
     internal QuickList<int> Islands;
+    /// <summary>Whether any bodies lean on each other.</summary>
+    internal readonly bool HasLeaning => leaning.Count > 0;
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
     internal Buffer<int> NodeOf;
 
@@ -59,21 +65,25 @@ unsafe struct SupportGraph
     /// <param name="found">What was found.</param>
     /// <param name="pieces">Which of that is in use.</param>
     /// <param name="bodyCount">Bodies of the active set.</param>
+    /// <param name="spoilt">Not zero for each body that something unknown pushes from the side.</param>
     /// <param name="heights">Height of each body, in any unit, by which a circle of supports is cut.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal void Build<THeights>(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, THeights heights, BufferPool pool)
+    internal void Build<THeights>(
+        SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, THeights heights, BufferPool pool)
         where THeights : struct, IHeights
     {
-        if (IsBuiltOf(found, pieces, bodyCount))
+        if (IsBuiltOf(found, pieces, bodyCount, spoilt))
             return;
         Dispose(pool);
         var count = 0;
         foreach (var piece in pieces)
             count += piece.Count;
         Take(count, bodyCount, pool);
-        SortByUpper(found, pieces, bodyCount, pool);
-        LinkAbove(bodyCount);
+        SortByUpper(found, pieces, bodyCount, spoilt, pool);
+        LinkAbove(bodyCount, pool);
         OrderUpwards(bodyCount, heights, pool);
+        if (leaning.Count > 0)
+            FindLeaning(pool);
         MakeNodes(bodyCount, pool);
         builtOf = new QuickList<(int, int)>(pieces.Length, pool);
         foreach (var piece in pieces)
@@ -82,7 +92,7 @@ unsafe struct SupportGraph
     }
 
     // The supports lie by their upper body, each with its place among those found: no two have the same, so they are all.
-    readonly bool IsBuiltOf(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount)
+    readonly bool IsBuiltOf(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt)
     {
         if (!builtOf.Span.Allocated || dependsOnHeights || bodyCount != builtBodyCount || !builtOf.AsSpan().SequenceEqual(pieces))
             return false;
@@ -90,8 +100,12 @@ unsafe struct SupportGraph
         {
             ref var support = ref byUpper[i];
             ref var link = ref found[support.Found];
-            if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount || link.Slides != support.Slides)
+            if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount ||
+                link.Slides != support.Slides || link.Leans != support.Leans ||
+                (link.Leans && IsSpoilt(link, spoilt) != support.IsSpoilt))
+            {
                 return false;
+            }
         }
         return true;
     }
@@ -111,6 +125,7 @@ unsafe struct SupportGraph
         pool.TakeAtLeast(bodyCount, out NodeOf);
         pool.TakeAtLeast(bodyCount, out grounded);
         order = new QuickList<int>(Math.Max(1, bodyCount), pool);
+        leaning = new QuickList<int>(16, pool);
         for (int i = 0; i < bodyCount; ++i)
             positions[i] = above[i] = NodeOf[i] = -1;
         waiting.Clear(0, bodyCount);
@@ -120,7 +135,7 @@ unsafe struct SupportGraph
     }
 
     // By counting, so that supports of one body stay in the order in which they were found.
-    void SortByUpper(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, BufferPool pool)
+    void SortByUpper(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, BufferPool pool)
     {
         foreach (var piece in pieces)
         {
@@ -143,18 +158,22 @@ unsafe struct SupportGraph
                     Lower = link.Lower,
                     CarryingCount = (byte)link.CarryingCount,
                     Slides = link.Slides,
+                    Leans = link.Leans,
+                    IsSpoilt = link.Leans && IsSpoilt(link, spoilt),
                 };
             }
         }
         pool.Return(ref next);
     }
 
-    void LinkAbove(int bodyCount)
+    void LinkAbove(int bodyCount, BufferPool pool)
     {
         for (int i = starts[bodyCount] - 1; i >= 0; --i)
         {
             var lower = byUpper[i].Lower;
-            if (lower < 0)
+            if (byUpper[i].Leans)
+                leaning.Add(i, pool);
+            if (lower < 0 || byUpper[i].Leans)
                 continue;
             ++waiting[byUpper[i].Upper];
             nextAbove[i] = above[lower];
@@ -232,7 +251,7 @@ unsafe struct SupportGraph
         var slides = true;
         for (int i = starts[body]; i < starts[body + 1]; ++i)
         {
-            if (!Carries(byUpper[i]))
+            if (byUpper[i].Leans || !Carries(byUpper[i]))
                 continue;
             contacts += byUpper[i].CarryingCount;
             slides &= byUpper[i].Slides;
@@ -252,7 +271,8 @@ unsafe struct SupportGraph
         for (int i = 0; i < starts[bodyCount]; ++i)
         {
             ref var support = ref byUpper[i];
-            support.Carries = Carries(support);
+            if (!support.Leans)
+                support.Carries = Carries(support);
             if (!support.Carries)
                 continue;
             ++carrying[support.Upper];
@@ -296,8 +316,10 @@ unsafe struct SupportGraph
                 continue;
             var node = next[place[DisjointSets.Root(islandOf, order[i])]]++;
             NodeOf[order[i]] = node;
-            Nodes[node] = new() { Body = order[i] };
+            Nodes[node] = new() { Body = order[i], Leans = grounded[order[i]] == Leans };
         }
+        if (leaning.Count > 0)
+            FindRelaxed(islandCount);
         pool.Return(ref next);
         pool.Return(ref place);
         // Links that carry, in the order of the nodes.
@@ -320,7 +342,14 @@ unsafe struct SupportGraph
         {
             ref var node = ref Nodes[i];
             // Nothing is left of the last step.
-            node = new() { Body = node.Body, FirstSupport = node.FirstSupport, SupportCount = node.SupportCount };
+            node = new()
+            {
+                Body = node.Body,
+                FirstSupport = node.FirstSupport,
+                SupportCount = node.SupportCount,
+                Leans = node.Leans,
+                IsRelaxed = node.IsRelaxed,
+            };
             var link = node.FirstSupport;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
@@ -357,6 +386,7 @@ unsafe struct SupportGraph
             pool.Return(ref grounded);
             pool.Return(ref nextAbove);
             order.Dispose(pool);
+            leaning.Dispose(pool);
             Nodes.Dispose(pool);
             Links.Dispose(pool);
             Islands.Dispose(pool);

@@ -27,6 +27,8 @@ unsafe struct SupportLink
     public bool IsUpperA;
     /// <summary>Whether friction is at its limit and the surfaces move along each other.</summary>
     public bool Slides;
+    /// <summary>Whether the contacts are too steep to hand a load down: their bodies hold each other.</summary>
+    public bool Leans;
 
     /// <summary>Number of contacts that may carry.</summary>
     internal readonly int CarryingCount => Count - BitOperations.PopCount(Open);

@@ -1,0 +1,125 @@
+using System;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints.Contact;
+
+// What is done with an island that has something to hand down.
+sealed unsafe partial class LoadPathStage
+{
+    void Transfer(int island, ref Room room)
+    {
+        var start = graph.Islands[island];
+        var end = graph.Islands[island + 1];
+        ref var first = ref graph.Nodes[start];
+        first.IsActive = first.NeedsWork;
+        first.NeedsWork = false;
+        if (!first.IsActive)
+            return;
+        var firstSupport = first.FirstSupport;
+        var supports = ReadSupports(island, ref room);
+        for (int i = end - 1; i >= start; --i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (node.HasLoad && !node.Leans)
+                HandDown(ref node, SupportsOf(node, supports, firstSupport));
+        }
+        if (first.IsRelaxed)
+            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length));
+        Apply(start, end, supports);
+    }
+
+    Span<LoadSupport> ReadSupports(int island, ref Room room)
+    {
+        var first = FirstSupport(island);
+        var read = new Span<LoadSupport>(supports.Memory + room.Start, EndOfSupports(island) - first);
+        if (room.Island == island)
+            return read;
+        room.Island = island;
+        for (int i = 0; i < read.Length; ++i)
+            read[i] = new LoadSupport(graph.Links[first + i]);
+        return read;
+    }
+
+    // All of its bodies at once, and all of its patches: those through which nothing was handed down are read here.
+    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches)
+    {
+        var firstSupport = graph.Nodes[start].FirstSupport;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            var isRead = node.HasLoad && !node.Leans;
+            node.HasLoad = true;
+            for (int j = node.FirstSupport - firstSupport; j < node.FirstSupport - firstSupport + node.SupportCount; ++j)
+            {
+                if (!isRead)
+                    supports[j].Read();
+                patches[j].Upper = i - start;
+                patches[j].Lower = supports[j].Lower < 0 ? -1 : graph.NodeOf[supports[j].Lower] - start;
+            }
+        }
+        ref var set = ref bodies.Awake;
+        new LoadRelaxation(new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias).Run();
+    }
+
+    static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>
+        ofIsland.Slice(node.FirstSupport - firstOfIsland, node.SupportCount);
+
+    void HandDown(ref LoadNode node, Span<LoadSupport> supports)
+    {
+        ref var set = ref bodies.Awake;
+        ref var velocity = ref set.MotionStates[node.Body].Velocity;
+        ref var inertia = ref set.WorldInertias[node.Body];
+        foreach (ref var support in supports)
+            support.Read();
+        LoadTransfer.Find(supports, velocity.Linear * (1 / inertia.InverseMass) + node.Linear,
+            Symmetric3x3.Invert(inertia.InverseInertiaTensor) * velocity.Angular + node.Angular, node.Radius);
+        foreach (ref var support in supports)
+        {
+            support.Change(out var linear, out var angular);
+            node.Linear += linear;
+            node.Angular += angular;
+            if (support.Lower < 0)
+                continue;
+            ref var lower = ref graph.Nodes[graph.NodeOf[support.Lower]];
+            lower.Linear -= linear;
+            lower.Angular -= angular - Exact.Cross(support.ToLower, linear);
+            lower.HasLoad = true;
+        }
+    }
+
+    // As far as it lowers the kinetic energy of the island, and no farther than all of it. Both ends obey what bounds the impulses, and these
+    // bounds are convex: so does all between.
+    void Apply(int start, int end, Span<LoadSupport> supports)
+    {
+        ref var set = ref bodies.Awake;
+        float slope = 0, curvature = 0;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (!node.HasLoad)
+                continue;
+            ref var velocity = ref set.MotionStates[node.Body].Velocity;
+            ref var inertia = ref set.WorldInertias[node.Body];
+            slope += Exact.Dot(velocity.Linear, node.Linear) + Exact.Dot(velocity.Angular, node.Angular);
+            curvature += Exact.LengthSquared(node.Linear) * inertia.InverseMass + Exact.Dot(node.Angular, inertia.InverseInertiaTensor * node.Angular);
+        }
+        // Not if a number went wrong: the comparison is false then.
+        var part = -slope / curvature;
+        if (!(part > 0))
+            return;
+        part = MathHelper.Min(part, 1);
+        var firstSupport = graph.Nodes[start].FirstSupport;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (!node.HasLoad)
+                continue;
+            ref var velocity = ref set.MotionStates[node.Body].Velocity;
+            ref var inertia = ref set.WorldInertias[node.Body];
+            velocity.Linear += node.Linear * (inertia.InverseMass * part);
+            velocity.Angular += inertia.InverseInertiaTensor * (node.Angular * part);
+            foreach (ref var support in SupportsOf(node, supports, firstSupport))
+                support.Write(part);
+        }
+    }
+}
