@@ -9,7 +9,10 @@ public enum ContinuousDetectionMode
     Discrete = 0,
     /// <summary>Bounds grow with the whole velocity; contacts are still limited to the speculative margin.</summary>
     Passive = 1,
-    /// <summary>As passive, and the time of impact is searched for where the motion exceeds the margin.</summary>
+    /// <summary>
+    /// As passive, and what moves by more than half of its inner radius in a step is tested where it will touch, and does not pass: turning included, and
+    /// without loss of time. Either of two collidables may be marked.
+    /// </summary>
     Continuous = 2,
 }
 
@@ -18,9 +21,14 @@ public struct ContinuousDetection
 {
     /// <summary>How contacts are found.</summary>
     public ContinuousDetectionMode Mode;
-    /// <summary>Shortest time that a sweep tells apart, s; used by continuous detection.</summary>
+    /// <summary>
+    /// Time that a search for an impact goes on by at least, s; counts for no more than a hundredth of the thinner shape's inner radius. Of continuous
+    /// detection; the less of two that are not the same.
+    /// </summary>
     public float MinimumSweepTimestep;
-    /// <summary>Time to which a sweep converges, s; used by continuous detection.</summary>
+    /// <summary>
+    /// Time to which a search for an impact converges, s; counts for no more than a thousandth of the thinner shape's inner radius. Of continuous detection.
+    /// </summary>
     public float SweepConvergenceThreshold;
 
     /// <summary>Whether bounds grow by more than the speculative margin.</summary>
@@ -30,9 +38,9 @@ public struct ContinuousDetection
     /// <summary>Bounds grow with the whole velocity.</summary>
     public static ContinuousDetection Passive => new() { Mode = ContinuousDetectionMode.Passive };
 
-    /// <summary>Sweeps where the motion exceeds the speculative margin.</summary>
-    /// <param name="minimumSweepTimestep">Shortest time that a sweep tells apart, s.</param>
-    /// <param name="sweepConvergenceThreshold">Time to which a sweep converges, s.</param>
+    /// <summary>What is fast passes nothing.</summary>
+    /// <param name="minimumSweepTimestep">See <see cref="MinimumSweepTimestep"/>, s.</param>
+    /// <param name="sweepConvergenceThreshold">See <see cref="SweepConvergenceThreshold"/>, s.</param>
     public static ContinuousDetection Continuous(float minimumSweepTimestep = 1e-3f, float sweepConvergenceThreshold = 1e-3f) =>
         new() { Mode = ContinuousDetectionMode.Continuous, MinimumSweepTimestep = minimumSweepTimestep, SweepConvergenceThreshold = sweepConvergenceThreshold };
 

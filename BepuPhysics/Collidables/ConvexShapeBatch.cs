@@ -39,6 +39,12 @@ public class ConvexShapeBatch<TShape, TShapeWide> : ShapeBatch<TShape>, IConvexS
         return maximumRadius;
     }
 
+    internal sealed override float InnerRadius(int shapeIndex)
+    {
+        this[shapeIndex].ComputeAngularExpansionData(out var maximumRadius, out var maximumAngularExpansion);
+        return maximumRadius - maximumAngularExpansion;
+    }
+
     internal sealed override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations,
         out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
     {

@@ -303,6 +303,9 @@ public abstract unsafe partial class ShapeBatch
     /// <summary>Distance from the centre of a shape to its farthest point.</summary>
     internal abstract float MaximumRadius(int shapeIndex);
 
+    /// <summary>Radius of a ball about the centre of a shape that is inside of it, m; zero where none is known to be.</summary>
+    internal virtual float InnerRadius(int shapeIndex) => 0;
+
     /// <summary>Tells a shape that exists from those that were in its slot before.</summary>
     internal int Generation(int shapeIndex)
     {

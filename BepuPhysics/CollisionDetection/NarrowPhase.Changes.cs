@@ -67,6 +67,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             FinishColumns(dispatcher, appliesNotes: true);
         }
         WatchBouncingPairs();
+        WatchFastPairs();
     }
 
     // Whether what constraints hold waits: for many threads, or because so many are new that the memory of all doubles, which then need not be copied.

@@ -34,6 +34,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             velocityB = setB.MotionStates[locationB.Index].Velocity;
             expansion = Math.Max(expansion, MaximumExpansion(setB.Collidables[locationB.Index]));
         }
+        // Where they will touch, nothing is ahead.
+        if (tested.IsImpact)
+            expansion = margin;
         ref var worker = ref workers[workerIndex];
         worker.Batcher.AddParent(task, taskIndex, flipped, shapeA.Index, shapeB.Index, poseB.Position - poseA.Position, poseA.Orientation,
             poseB.Orientation, margin, worker.TestedPairs.Add(tested, worker.Pool),
@@ -169,8 +172,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             NoteSensed(workerIndex, tested.Pair, results);
             return;
         }
-        tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry;
-        tested.IsExact = worker.Batcher.HitsThin || HitsCorner(tested.Pair, results);
+        tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry && !tested.IsImpact;
+        tested.IsExact |= worker.Batcher.HitsThin || HitsCorner(tested.Pair, results);
+        if (tested.IsImpact)
+            MoveBack(tested, results);
         if (HasParentHistory(tested))
             Record(tested, worker.Batcher.Dt, offsetB, results);
         CompleteChildren(workerIndex, tested, offsetB, results);

@@ -21,6 +21,12 @@ public abstract partial class NarrowPhase
             if (Restitution.TryGetBounce(i, out var constraint, out var impulse))
                 Simulation.Events.AddBounce(pairOfConstraint[constraint.Slot], impulse);
         }
+        for (int i = 0; i < FastPairs.Count; ++i)
+        {
+            var impulse = FastPairs.ImpulseOf(i, out var pair);
+            if (impulse > 0)
+                Simulation.Events.AddBounce(pair, impulse);
+        }
         Simulation.Events.EndSolve();
     }
 }

@@ -29,6 +29,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public QuickList<ContactPatch> Old;
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
+        public QuickList<FastNote> Fast;
         public QuickList<CollidablePair> Sensed;
         /// <summary>Pairs that wait for others of their body.</summary>
         public StaticPairs Statics;
@@ -117,21 +118,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var locationA = ref bodies.Locations[a.Slot];
         ref var setA = ref bodies.SetOf(locationA);
         ref var collidableA = ref setA.Collidables[locationA.Index];
-        ref var poseA = ref setA.MotionStates[locationA.Index].Pose;
+        scoped ref var poseA = ref setA.MotionStates[locationA.Index].Pose;
         var margin = collidableA.SpeculativeMargin;
+        var mode = collidableA.Continuity.Mode;
         TypedIndex shapeB;
-        ref var poseB = ref Unsafe.NullRef<RigidPose>();
+        scoped ref var poseB = ref Unsafe.NullRef<RigidPose>();
         if (b.Mobility == CollidableMobility.Static)
         {
             ref var other = ref Simulation.Statics.StaticsBuffer[Simulation.Statics.Indices[b.Slot]];
             shapeB = other.Shape;
             poseB = ref other.Pose;
+            mode |= other.Continuity.Mode;
         }
         else
         {
             ref var locationB = ref bodies.Locations[b.Slot];
             ref var setB = ref bodies.SetOf(locationB);
             shapeB = setB.Collidables[locationB.Index].Shape;
+            mode |= setB.Collidables[locationB.Index].Continuity.Mode;
             margin += setB.Collidables[locationB.Index].SpeculativeMargin;
             poseB = ref setB.MotionStates[locationB.Index].Pose;
             if (Simulation.Solver.HasApart && Simulation.Solver.KeepsApart(pair.A.BodyHandle, pair.B.BodyHandle))
@@ -153,15 +157,26 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
         tested.IsSensor = isSensor;
+        tested.MayCarry = tested.IsCarried = tested.IsExact = tested.IsImpact = false;
         tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
         if (tested.IsAtSeam)
             AgreedPairs.Prefetch(a);
+        Unsafe.SkipInit(out ImpactPoses placed);
+        if (mode >= ContinuousDetectionMode.Continuous && !isSensor)
+        {
+            if (TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed))
+            {
+                poseA = ref placed.A;
+                poseB = ref placed.B;
+                offsetB = poseB.Position;
+            }
+            margin = tested.SpeculativeMargin;
+        }
         if (task.Expands)
         {
-            tested.MayCarry = tested.IsCarried = tested.IsExact = false;
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
-            if (!TCallbacks.DecidesOnChildren && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
+            if (!TCallbacks.DecidesOnChildren && !tested.IsImpact && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
                 return;
             TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
             return;
@@ -217,6 +232,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             NoteSensed(workerIndex, tested.Pair, ref manifold);
             return;
         }
+        if (tested.IsImpact)
+            MoveBack(tested, ref manifold);
         // What has no contacts has nothing to wait with.
         if (manifold.Count > 0 && Waits(tested))
         {
@@ -233,7 +250,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint.");
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        NoteSurface(workerIndex, tested.Pair, ref manifold);
+        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
         CallbackChecks.Contacts(tested.Pair, convex, material);
         Complete(ref worker, tested, convex, material, StaticPairs.Nothing, default);
     }
@@ -280,7 +297,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         }
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        NoteSurface(workerIndex, tested.Pair, ref manifold);
+        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
         CallbackChecks.Contacts(tested.Pair, convex, material);
         var isOfGame = !BytesOf.AreEqual(shown, manifold);
         var index = worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
@@ -339,6 +356,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Release(ref worker.Old, worker.Pool);
         Release(ref worker.Bouncing, worker.Pool);
         Release(ref worker.Gone, worker.Pool);
+        Release(ref worker.Fast, worker.Pool);
         Release(ref worker.Sensed, worker.Pool);
         worker.Statics.Release(worker.Pool);
         worker.Pool = null!;

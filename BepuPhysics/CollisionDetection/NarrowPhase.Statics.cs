@@ -24,7 +24,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool Waits(in TestedPair tested) =>
-        tested.Pair.B.Mobility != CollidableMobility.Dynamic && (tested.IsAtSeam || tested.ConstraintTypeId == CachedManifold.NoConstraint);
+        tested.Pair.B.Mobility != CollidableMobility.Dynamic && !tested.IsImpact &&
+        (tested.IsAtSeam || tested.ConstraintTypeId == CachedManifold.NoConstraint);
 
     struct SeamWork : IStagedWork
     {

@@ -20,6 +20,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly WorldLock World;
     internal PairCache Pairs;
     private protected readonly Restitution Restitution;
+    private protected readonly FastPairs FastPairs;
     readonly LoadPathStage loadPath;
     private protected Buffer<CollidablePair> pairOfConstraint;
     internal AgreedPairs AgreedPairs;
@@ -37,6 +38,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         World = simulation.World;
         CollisionTaskRegistry = collisionTaskRegistry;
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
+        // Before all others: these are to see where bodies have come to.
+        FastPairs = new FastPairs(this, simulation, Pool);
+        simulation.Solver.OptionalStages.Insert(0, FastPairs);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
         loadPath = new LoadPathStage(simulation.Solver, simulation.Bodies, Pool);
@@ -82,6 +86,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal abstract void FindContacts(float dt, IThreadDispatcher? dispatcher);
     internal abstract void Flush(IThreadDispatcher? dispatcher);
     internal abstract void DisposeCallbacks();
+    /// <summary>Asks the callbacks of a game what an impact is like that no contact has foreseen.</summary>
+    /// <returns>Whether there is to be one.</returns>
+    internal abstract bool ConfigureImpact(in CollidablePair pair, ref ConvexContactManifold manifold, out float friction, out float restitution);
     /// <summary>Compiles what is generic over the callbacks of a game, without calling them.</summary>
     /// <param name="shapeTypes">Ids of the shape types whose tests are compiled.</param>
     internal abstract void Compile(ReadOnlySpan<int> shapeTypes);
@@ -92,6 +99,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         AgreedPairs.Clear();
         PairCount = 0;
         Restitution.BeginStep();
+        FastPairs.BeginStep();
     }
 
     /// <param name="copy">Where to.</param>
@@ -104,8 +112,10 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         PairCount = copy.Value(PairCount);
         SkippedPairCount = copy.Value(SkippedPairCount);
         // What bounces is found in each step.
-        if (copy.Restores)
-            Restitution.BeginStep();
+        if (!copy.Restores)
+            return;
+        Restitution.BeginStep();
+        FastPairs.BeginStep();
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
@@ -116,6 +126,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         pairOfConstraint = default;
         PairCount = 0;
         Restitution.Abandon();
+        FastPairs.Abandon();
         loadPath.Abandon();
     }
 
@@ -124,6 +135,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs.Dispose(Pool);
         AgreedPairs.Dispose(Pool);
         Restitution.Dispose();
+        FastPairs.Dispose();
         loadPath.Dispose();
         if (pairOfConstraint.Allocated)
             Pool.Return(ref pairOfConstraint);

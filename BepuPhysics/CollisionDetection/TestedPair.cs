@@ -22,8 +22,14 @@ struct TestedPair
     /// <summary>Of a pair with children: whether its patches may be carried along, and whether they are.</summary>
     public bool MayCarry, IsCarried;
 
-    /// <summary>Whether impacts of the pair are made exactly (<see cref="ThinImpacts"/>, <see cref="CornerHits"/>).</summary>
+    /// <summary>Whether impacts of the pair are made exactly (<see cref="ThinImpacts"/>, <see cref="CornerHits"/>, and what is fast).</summary>
     public bool IsExact;
+
+    /// <summary>Whether the pair is tested where it will touch; then its contacts are those of that time.</summary>
+    public bool IsImpact;
+
+    /// <summary>Time at which it will touch, s from the beginning of the step.</summary>
+    public float ImpactTime;
 
     /// <summary>Greatest distance at which a contact exists, m.</summary>
     public float SpeculativeMargin;

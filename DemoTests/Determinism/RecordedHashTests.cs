@@ -6,6 +6,7 @@ using BepuPhysics;
 using BepuUtilities.Diagnostics;
 using Demos.Accuracy;
 using Demos.Scenes;
+using DemoTests.FastBodies;
 using DemoTests.Quality;
 using DemoTests.Queries;
 using DemoTests.Scenes;
@@ -47,6 +48,8 @@ public class RecordedHashTests
         ["wave"] = () => Run(SmallScenes.Wave(), 350),
         ["sweeps"] = Sweeps,
         ["near"] = Near,
+        ["marked shots at a mesh"] = () => ThinWallTests.HashOf(Shot.Hammer, Wall.Mesh, 1),
+        ["marked shots at bodies"] = () => ThinWallTests.HashOf(Shot.SpinningRod, Wall.Heavy, 1),
     };
 
     public static TheoryData<string> Names() => new(scenes.Keys);

@@ -13,6 +13,9 @@ readonly struct ImpactAccuracy(double minimumProgression, double convergenceThre
 
     public readonly double MinimumProgression = minimumProgression, ConvergenceThreshold = convergenceThreshold;
     public readonly int MaximumRoundCount = maximumRoundCount;
+
+    /// <summary>Distance at which shapes count as touching, m, where others are less.</summary>
+    public double TouchingDistance { get; init; }
 }
 
 /// <summary>The first contact of two shapes that move.</summary>

@@ -24,6 +24,8 @@ unsafe struct ImpactCore
     // Half extents of a box; half length, and radius, of a segment or cylinder. Corners of a triangle. Normal of a plane.
     DoubleVector3 a, b, c;
     HullHeader* hull;
+    // Of a hull, about its origin.
+    double hullScale;
 
     /// <summary>Distance of the surface from the core, m.</summary>
     public double Margin;
@@ -98,6 +100,7 @@ unsafe struct ImpactCore
             case ConvexHull.Id:
                 core.kind = Kind.Hull;
                 core.hull = ((ConvexHull*)shape)->Header;
+                core.hullScale = 1;
                 // Of the farthest vertex as floats have it: what bounds a motion must not be less.
                 core.Size = core.Reach = core.hull->OuterRadius * (1 + VertexRounding);
                 break;
@@ -112,6 +115,29 @@ unsafe struct ImpactCore
                 break;
         }
         return core;
+    }
+
+    /// <summary>Takes a part of its inner radius off the shape, all around; a hull is made smaller by that part, which takes no less off.</summary>
+    // A ball of the inner radius is in a hull, and so is what a hull that is smaller by a part sweeps with a ball of that part of the radius.
+    public void Thin(double part)
+    {
+        switch (kind)
+        {
+            case Kind.Point or Kind.Segment:
+                Margin *= 1 - part;
+                Size = Reach + Margin;
+                break;
+            case Kind.Box or Kind.Cylinder:
+                var skin = part * Math.Min(a.X, kind == Kind.Box ? Math.Min(a.Y, a.Z) : a.Y);
+                a = kind == Kind.Box ? new(a.X - skin, a.Y - skin, a.Z - skin) : new(a.X - skin, a.Y - skin, 0);
+                Size = Reach = a.Length;
+                break;
+            case Kind.Hull:
+                hullScale = 1 - part;
+                Reach *= hullScale;
+                Size *= hullScale;
+                break;
+        }
     }
 
     void SetTriangle(Triangle* triangle)
@@ -178,7 +204,7 @@ unsafe struct ImpactCore
                 var radius = 0.0;
                 for (int i = 0; i < hull->VertexCount; ++i)
                     radius = Math.Max(radius, DistanceFrom(axis, new(hull->GetPoint(i))));
-                return radius;
+                return radius * hullScale;
             default:
                 return 0;
         }
@@ -204,7 +230,7 @@ unsafe struct ImpactCore
                 double onA = DoubleVector3.Dot(a, direction), onB = DoubleVector3.Dot(b, direction), onC = DoubleVector3.Dot(c, direction);
                 return onA >= onB ? onA >= onC ? a : c : onB >= onC ? b : c;
             case Kind.Hull:
-                return FarthestVertex(direction);
+                return FarthestVertex(direction) * hullScale;
             default:
                 return default;
         }

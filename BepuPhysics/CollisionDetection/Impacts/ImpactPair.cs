@@ -76,7 +76,7 @@ ref partial struct ImpactPair
     {
         impact = default;
         var start = b.Core.IsPlane ? 0 : ImpactBalls.FirstMeeting(
-            offsetB + b.BallCenter - a.BallCenter, linear, a.BallRadius + b.BallRadius);
+            offsetB + b.BallCenter - a.BallCenter, linear, a.BallRadius + b.BallRadius + accuracy.TouchingDistance);
         if (!(start <= maximumT))
             return false;
         Begin(start);
@@ -91,7 +91,8 @@ ref partial struct ImpactPair
             impact.Overlaps = true;
             return IsInFront();
         }
-        var touching = Math.Max(Math.Min(a.Core.Size, b.Core.Size) * TouchingPart, WayIn(accuracy.ConvergenceThreshold));
+        var touching = Math.Max(
+            Math.Max(Math.Min(a.Core.Size, b.Core.Size) * TouchingPart, accuracy.TouchingDistance), WayIn(accuracy.ConvergenceThreshold));
         // What touches as good as it starts has an impact only if it comes nearer still: what leaves, or slides along, has none.
         touching = Math.Max(Math.Min(touching, gap * 0.5), rounding * RoundingPart);
         if (DoubleVector3.Dot(linear, linear) == 0 && a.Turns != b.Turns)

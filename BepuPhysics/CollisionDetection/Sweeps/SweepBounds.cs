@@ -19,7 +19,7 @@ static class SweepBounds
 
     // By how much a box around a part has to be wider, m: for a coordinate of the greatest size there is, m, and a speed of its body, m/s.
     static double Pad(in ImpactBody part, in SweepMotion motion, double coordinate, double speed) =>
-        part.Core.Size * TouchingPart + coordinate * Rounding + Touching(motion, speed + part.SurfaceSpeed);
+        part.Core.Size * TouchingPart + coordinate * Rounding + motion.Accuracy.TouchingDistance + Touching(motion, speed + part.SurfaceSpeed);
 
     /// <summary>A box around a part of A on its way, where it starts, in the frame of a container B.</summary>
     /// <param name="motion">How the bodies move.</param>

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -16,6 +17,20 @@ struct SweepMotion
     public double MaximumT;
     /// <summary>How exactly the time is sought.</summary>
     public ImpactAccuracy Accuracy;
+    /// <summary>Part of its inner radius by which each convex part is thinner than its shape; of triangles and half-spaces nothing is taken.</summary>
+    public double ThinnerPart;
+
+    /// <summary>A convex part.</summary>
+    /// <param name="typeId">Type of its shape.</param>
+    /// <param name="shape">The shape.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly unsafe ImpactCore CoreOf(int typeId, void* shape)
+    {
+        var core = ImpactCore.Of(typeId, shape);
+        if (ThinnerPart > 0)
+            core.Thin(ThinnerPart);
+        return core;
+    }
 
     /// <summary>
     /// Whether a part of A may meet a part of B in time, as far as balls about them tell; before there is a body for the part of B.
@@ -29,7 +44,7 @@ struct SweepMotion
         if (core.IsPlane || part.Core.IsPlane || AngularB.X != 0 || AngularB.Y != 0 || AngularB.Z != 0)
             return true;
         var center = OffsetB + OrientationB.Turn(new(local)) - part.BallCenter;
-        return ImpactBalls.FirstMeeting(center, LinearA - LinearB, part.BallRadius + core.Margin + core.Reach) <= maximumT;
+        return ImpactBalls.FirstMeeting(center, LinearA - LinearB, part.BallRadius + core.Margin + core.Reach + Accuracy.TouchingDistance) <= maximumT;
     }
 }
 

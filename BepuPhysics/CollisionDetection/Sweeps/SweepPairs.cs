@@ -28,7 +28,7 @@ static unsafe class SweepPairs
         hit = default;
         if (ImpactCore.Exists(typeA))
         {
-            var part = new ImpactBody(ImpactCore.Of(typeA, a), motion.OrientationA, motion.AngularA);
+            var part = new ImpactBody(motion.CoreOf(typeA, a), motion.OrientationA, motion.AngularA);
             TestPart(motion, ref part, 0, typeB, b, ref filter, false, shapes, pool, ref hit);
             return;
         }
@@ -48,7 +48,7 @@ static unsafe class SweepPairs
             AngularB = motion.AngularA,
             OffsetB = -motion.OffsetB,
         };
-        var partB = new ImpactBody(ImpactCore.Of(typeB, b), flipped.OrientationA, flipped.AngularA);
+        var partB = new ImpactBody(motion.CoreOf(typeB, b), flipped.OrientationA, flipped.AngularA);
         TestPart(flipped, ref partB, 0, typeA, a, ref filter, true, shapes, pool, ref hit);
         hit.Normal = -hit.Normal;
         hit.Place += motion.OffsetB;
@@ -71,7 +71,7 @@ static unsafe class SweepPairs
         var sweep = new ContainerSweep<TFilter>(motion, ref part, partIndex, ref filter, isFlipped, shapes, pool, ref hit);
         if (ContainerTypes.TryUse(typeB, b, ref sweep))
             return;
-        var core = ImpactCore.Of(typeB, b);
+        var core = motion.CoreOf(typeB, b);
         part.Restart();
         if (!motion.BallsMeet(part, core, default, hit.LatestT(motion)))
             return;
@@ -105,7 +105,7 @@ static unsafe class SweepPairs
                     a.GetChild(children[i], shapes, (byte*)scratch, out var child);
                     if (!ImpactCore.Exists(child.TypeId))
                         continue;
-                    var part = new ImpactBody(ImpactCore.Of(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
+                    var part = new ImpactBody(motion.CoreOf(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
                     TestPart(motion, ref part, children[i], typeB, b, ref filter, false, shapes, pool, ref hit);
                 }
             }

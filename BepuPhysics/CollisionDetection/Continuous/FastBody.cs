@@ -1,0 +1,86 @@
+using System.Numerics;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>The way of a body in a substep: from where it was at its beginning, or at its last impact, to where it is at its end.</summary>
+struct FastBody
+{
+    /// <summary>Index in the active set.</summary>
+    public int Index;
+    /// <summary>Time from which on the way is known, s from the beginning of the substep.</summary>
+    public double Time;
+    /// <summary>Where the body is at that time.</summary>
+    public DoubleVector3 Position;
+    /// <summary>Its orientation at that time.</summary>
+    public Quaternion Orientation;
+    /// <summary>Constant velocities that take it from there to its end, m/s and rad/s. What turns otherwise comes to the same end.</summary>
+    public DoubleVector3 Linear, Angular;
+    /// <summary>Orientation and velocity at the end of the substep.</summary>
+    public Quaternion EndOrientation;
+    /// <summary>See <see cref="EndOrientation"/>.</summary>
+    public BodyVelocity Velocity;
+    /// <summary>Inverse inertia in the frame of the body.</summary>
+    public BodyInertia Inertia;
+    /// <summary>Whether an impact has changed its way.</summary>
+    public bool HasChanged;
+
+    /// <summary>Begins with the way from where the body was to where it is.</summary>
+    public void Begin(in DoubleVector3 position, in Quaternion orientation, in MotionState end, double dt)
+    {
+        Time = 0;
+        Position = position;
+        Orientation = orientation;
+        EndOrientation = end.Pose.Orientation;
+        Velocity = end.Velocity;
+        Linear = (new DoubleVector3(end.Pose.Position) - position) * (1 / dt);
+        Angular = BodyTurn.Between(orientation, EndOrientation, new DoubleVector3(Velocity.Angular) * dt) * (1 / dt);
+        HasChanged = false;
+    }
+
+    /// <summary>Where the body is at a time.</summary>
+    public readonly DoubleVector3 PositionAt(double time) => Position + Linear * (time - Time);
+
+    /// <summary>Its axes at a time.</summary>
+    public readonly DoubleMatrix3x3 AxesAt(double time) =>
+        BodyTurn.Of(Angular, time - Time).After(DoubleMatrix3x3.FromQuaternion(Orientation));
+
+    /// <summary>Brings the body to a time, with the velocity that it has there: in its own frame that of the end, which is that of its energy.</summary>
+    // Angular momentum that is kept would give a thin body a great spin about its length where the way is not quite that of free rotation.
+    public void GoTo(double time)
+    {
+        Position = PositionAt(time);
+        Orientation = BodyTurn.Turn(Orientation, Angular, time - Time);
+        Time = time;
+        Velocity.Angular = Exact.Rotate(Exact.RotateByInverse(Velocity.Angular, EndOrientation), Orientation);
+        EndOrientation = Orientation;
+    }
+
+    /// <summary>Inverse inertia in world axes at the time to which the body was brought.</summary>
+    public readonly BodyInertia WorldInertia => new()
+    {
+        InverseInertiaTensor = Symmetric3x3.RotateInverseInertia(Inertia.InverseInertiaTensor, Orientation),
+        InverseMass = Inertia.InverseMass,
+    };
+
+    /// <summary>What is left of a spin where a body can turn only about a direction: the angular momentum about it stays as it is.</summary>
+    public readonly Vector3 SpinAbout(in Vector3 direction, in Vector3 spin)
+    {
+        var inverse = WorldInertia.InverseInertiaTensor;
+        var determinant = Symmetric3x3.Determinant(inverse);
+        if (!(determinant > 0) || !(determinant < float.MaxValue))
+            return default;
+        var inertia = Symmetric3x3.Invert(inverse);
+        return direction * (Exact.Dot(inertia * spin, direction) / Exact.Dot(inertia * direction, direction));
+    }
+
+    /// <summary>Goes on from the time to which the body was brought, with its velocity as it is now.</summary>
+    /// <param name="dt">End of the substep, s.</param>
+    public void GoOn(double dt)
+    {
+        Linear = new(Velocity.Linear);
+        Angular = new(Velocity.Angular);
+        EndOrientation = BodyTurn.Turn(Orientation, Angular, dt - Time);
+        HasChanged = true;
+    }
+}

@@ -1,0 +1,37 @@
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A pair of which one collidable is marked as continuous, and that moves far in this step.</summary>
+struct FastPair
+{
+    /// <summary>Time of a pair that does not meet in the substep.</summary>
+    internal const double Never = double.PositiveInfinity;
+
+    public CollidablePair Pair;
+    public TypedIndex ShapeA, ShapeB;
+    /// <summary>Indices in the active set, then of the bodies that are watched; -1 for what does not move in this step.</summary>
+    public int A, B;
+    /// <summary>Inner radius of the thinner shape, m.</summary>
+    public float Inner;
+    /// <summary>Where what does not move is.</summary>
+    public RigidPose PoseA, PoseB;
+    /// <summary>Next pair of the same body, or -1.</summary>
+    public int NextOfA, NextOfB;
+
+    /// <summary>When the cores of the shapes meet, s from the beginning of the substep.</summary>
+    public double Time;
+    /// <summary>Unit normal from B to A at that time.</summary>
+    public DoubleVector3 Normal;
+    /// <summary>Place at that time, from the centres of A and of B.</summary>
+    public DoubleVector3 ArmA, ArmB;
+    /// <summary>Impacts in this substep.</summary>
+    public int ImpactCount;
+
+    /// <summary>Whether the callbacks were asked about the pair, and whether they let it pass.</summary>
+    public bool IsAsked, Passes;
+    /// <summary>What they said of its surfaces.</summary>
+    public float Friction, Restitution;
+    /// <summary>What impacts have pushed along their normals in this step, N s.</summary>
+    public float Impulse;
+}

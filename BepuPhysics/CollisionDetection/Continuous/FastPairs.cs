@@ -1,0 +1,354 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>Keeps fast pairs from passing each other: the ways that their bodies have gone in a substep are swept.</summary>
+// Contacts know what is hit first. What was turned by a hit comes with another edge within the same step, or goes where no contact was foreseen. So when the
+// bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, so that what
+// merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and restitution of
+// the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their times, and after each
+// the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
+sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
+{
+    // Parts of the inner radius by which cores are thinner: the first at which they are apart.
+    static ReadOnlySpan<double> SkinParts => [.1, .3, .6, .9];
+    // Part of the inner radius at which cores count as touching: they may come back to half of that some times, and still be apart for all that rounding tells.
+    const double TouchingPart = .01;
+    // Impacts of one pair in a substep from which on it does not turn any more, from which on it is stopped, and from which on it is left alone: something
+    // holds it there.
+    const int SlidingCount = 8;
+    const int StoppingCount = 16;
+    const int MaximumCount = 32;
+
+    QuickList<FastPair> pairs = new(16, pool);
+    QuickList<FastBody> movers = new(16, pool);
+    // Pairs of each mover that come first.
+    QuickList<int> firstPairs = new(16, pool);
+    // Movers of the active set's bodies; -1 for the others.
+    QuickList<int> moverOf = new(16, pool);
+
+    /// <summary>Number of pairs that are watched in this step.</summary>
+    internal int Count => pairs.Count;
+
+    /// <summary>Number of impacts that were made in the last step.</summary>
+    internal int ImpactCount { get; private set; }
+
+    /// <summary>Number of pairs that were stopped in the last step, as impacts did not end.</summary>
+    internal int StopCount { get; private set; }
+
+    /// <summary>Begins a step: nothing is watched.</summary>
+    internal void BeginStep()
+    {
+        pairs.Count = 0;
+        ImpactCount = StopCount = 0;
+    }
+
+    /// <summary>Watches a pair in the coming step.</summary>
+    /// <param name="pair">The pair.</param>
+    /// <param name="inner">Inner radius of the thinner shape, m.</param>
+    internal void Watch(in CollidablePair pair, float inner) => pairs.Add(new() { Pair = pair, Inner = inner }, pool);
+
+    /// <summary>What the impacts of a pair have pushed along their normals, N s.</summary>
+    internal float ImpulseOf(int index, out CollidablePair pair)
+    {
+        pair = pairs[index].Pair;
+        return pairs[index].Impulse;
+    }
+
+    internal void Dispose()
+    {
+        pairs.Dispose(pool);
+        movers.Dispose(pool);
+        firstPairs.Dispose(pool);
+        moverOf.Dispose(pool);
+    }
+
+    internal void Abandon()
+    {
+        pairs = default;
+        movers = default;
+        firstPairs = default;
+        moverOf = default;
+    }
+
+    bool ISolverStage.BeginStep() => pairs.Count > 0;
+
+    int ISolverStage.GetBlockCount(SolverPoint point) =>
+        point is SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration or SolverPoint.AfterSubsteps && pairs.Count > 0 ? 1 : 0;
+
+    void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
+    {
+        if (point == SolverPoint.BeforeSubsteps)
+            Link();
+        else if (point == SolverPoint.AfterSubsteps || substep.Index > 0)
+            Check(substep.Dt);
+    }
+
+    void Link()
+    {
+        moverOf.EnsureCapacity(Bodies.ActiveSet.Count, pool);
+        moverOf.Count = Bodies.ActiveSet.Count;
+        moverOf.AsSpan().Fill(-1);
+        movers.Count = firstPairs.Count = 0;
+        for (int i = pairs.Count - 1; i >= 0; --i)
+        {
+            ref var pair = ref pairs[i];
+            // A game may have removed one of them since collisions were detected, or given it another shape.
+            pair.Passes = !TryFind(pair.Pair.A, out pair.ShapeA, out pair.PoseA, out pair.A) ||
+                !TryFind(pair.Pair.B, out pair.ShapeB, out pair.PoseB, out pair.B) ||
+                !SweepPairs.IsKnown(pair.ShapeA.Type) || !SweepPairs.IsKnown(pair.ShapeB.Type);
+            if (pair.Passes)
+                pair.A = pair.B = -1;
+            pair.NextOfA = Link(ref pair.A, i);
+            pair.NextOfB = Link(ref pair.B, i);
+        }
+    }
+
+    Bodies Bodies => simulation.Bodies;
+
+    bool TryFind(CollidableReference collidable, out TypedIndex shape, out RigidPose pose, out int index)
+    {
+        (shape, pose, index) = (default, default, -1);
+        var isStatic = collidable.Mobility == CollidableMobility.Static;
+        if (!(isStatic ? simulation.Statics.StaticExists(collidable.StaticHandle) : Bodies.BodyExists(collidable.BodyHandle)))
+            return false;
+        simulation.GetPoseAndShape(collidable, out pose, out shape);
+        // What sleeps does not move.
+        if (!isStatic && !Bodies.IsAsleep(collidable.Slot))
+            index = Bodies.Locations[collidable.Slot].Index;
+        return shape.Exists;
+    }
+
+    int Link(ref int body, int pair)
+    {
+        if (body < 0)
+            return -1;
+        ref var mover = ref moverOf[body];
+        if (mover < 0)
+        {
+            mover = movers.Count;
+            ref var pose = ref Bodies.ActiveSet.MotionStates[body].Pose;
+            movers.Add(new() { Index = body, Position = new(pose.Position), Orientation = pose.Orientation, Inertia = Bodies.ActiveSet.LocalInertias[body] }, pool);
+            firstPairs.Add(-1, pool);
+        }
+        body = mover;
+        var next = firstPairs[body];
+        firstPairs[body] = pair;
+        return next;
+    }
+
+    void Check(double dt)
+    {
+        ref var set = ref Bodies.ActiveSet;
+        for (int i = 0; i < movers.Count; ++i)
+        {
+            ref var mover = ref movers[i];
+            mover.Begin(mover.Position, mover.Orientation, set.MotionStates[mover.Index], dt);
+        }
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            pairs[i].ImpactCount = 0;
+            Find(ref pairs[i], 0, dt);
+        }
+        for (int next; (next = FindEarliest()) >= 0;)
+            MakeImpact(ref pairs[next], dt);
+        for (int i = 0; i < movers.Count; ++i)
+            End(ref movers[i], ref set, dt);
+    }
+
+    static void End(ref FastBody mover, ref BodySet set, double dt)
+    {
+        ref var motion = ref set.MotionStates[mover.Index];
+        if (mover.HasChanged)
+        {
+            ref var displacement = ref set.Displacements[mover.Index];
+            displacement.Linear += (mover.PositionAt(dt) - new DoubleVector3(motion.Pose.Position)).ToSingle();
+            displacement.Angular += BodyTurn.Between(motion.Pose.Orientation, mover.EndOrientation, default).ToSingle();
+            motion.Pose.Position = set.Origins[mover.Index].Position + displacement.Linear;
+            motion.Pose.Orientation = mover.EndOrientation;
+            motion.Velocity = mover.Velocity;
+            set.WorldInertias[mover.Index].InverseInertiaTensor =
+                Symmetric3x3.RotateInverseInertia(mover.Inertia.InverseInertiaTensor, motion.Pose.Orientation);
+        }
+        mover.Position = new(motion.Pose.Position);
+        mover.Orientation = motion.Pose.Orientation;
+    }
+
+    // Few pairs meet in any substep.
+    int FindEarliest()
+    {
+        var earliest = -1;
+        var time = FastPair.Never;
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            if (!(pairs[i].Time < time))
+                continue;
+            earliest = i;
+            time = pairs[i].Time;
+        }
+        return earliest;
+    }
+
+    void Find(ref FastPair pair, double from, double dt)
+    {
+        pair.Time = FastPair.Never;
+        if (pair.Passes || pair.ImpactCount >= MaximumCount)
+            return;
+        var motion = new SweepMotion { MaximumT = dt - from, Accuracy = ImpactAccuracy.Default with { TouchingDistance = TouchingPart * pair.Inner } };
+        Place(pair.A, pair.PoseA, from, out motion.LinearA, out motion.AngularA, out motion.OrientationA, out var positionA);
+        Place(pair.B, pair.PoseB, from, out motion.LinearB, out motion.AngularB, out motion.OrientationB, out var positionB);
+        motion.OffsetB = positionB - positionA;
+        SweepHit hit = default;
+        foreach (var part in SkinParts)
+        {
+            motion.ThinnerPart = part;
+            Sweep(pair, motion, out hit);
+            if (!hit.Overlaps)
+                break;
+        }
+        if (!hit.Exists || hit.Overlaps)
+            return;
+        pair.Time = from + hit.T;
+        pair.Normal = hit.Normal;
+        pair.ArmA = hit.Place - motion.LinearA * hit.T;
+        pair.ArmB = hit.Place - motion.OffsetB - motion.LinearB * hit.T;
+    }
+
+    void Place(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 angular, out DoubleMatrix3x3 axes,
+        out DoubleVector3 position)
+    {
+        if (body < 0)
+        {
+            linear = angular = default;
+            axes = DoubleMatrix3x3.FromQuaternion(still.Orientation);
+            position = new(still.Position);
+            return;
+        }
+        ref var mover = ref movers[body];
+        (linear, angular) = (mover.Linear, mover.Angular);
+        axes = mover.AxesAt(time);
+        position = mover.PositionAt(time);
+    }
+
+    void Sweep(in FastPair pair, in SweepMotion motion, out SweepHit hit)
+    {
+        var children = new AllChildren();
+        SweepPairs.Test(motion, pair.ShapeA.Type, simulation.Shapes.GetBatch(pair.ShapeA.Type).GetPointer(pair.ShapeA.Index),
+            pair.ShapeB.Type, simulation.Shapes.GetBatch(pair.ShapeB.Type).GetPointer(pair.ShapeB.Index), ref children, simulation.Shapes, pool, out hit);
+    }
+
+    struct AllChildren : ISweepFilter
+    {
+        public readonly bool AllowTest(int childA, int childB) => true;
+    }
+
+    void MakeImpact(ref FastPair pair, double dt)
+    {
+        var time = pair.Time;
+        if (!pair.IsAsked)
+        {
+            var manifold = new ConvexContactManifold { OffsetB = (pair.ArmA - pair.ArmB).ToSingle(), Normal = pair.Normal.ToSingle(), Count = 1 };
+            manifold.Contact0.Offset = pair.ArmA.ToSingle();
+            pair.IsAsked = true;
+            pair.Passes = !narrowPhase.ConfigureImpact(pair.Pair, ref manifold, out pair.Friction, out pair.Restitution);
+            if (pair.Passes)
+            {
+                pair.Time = FastPair.Never;
+                return;
+            }
+        }
+        ++pair.ImpactCount;
+        ++ImpactCount;
+        FastBody still = default;
+        ref var a = ref pair.A >= 0 ? ref movers[pair.A] : ref still;
+        ref var b = ref pair.B >= 0 ? ref movers[pair.B] : ref still;
+        if (pair.A >= 0)
+            a.GoTo(time);
+        if (pair.B >= 0)
+            b.GoTo(time);
+        if (pair.ImpactCount >= SlidingCount)
+            Stop(pair, ref a, ref b);
+        else
+            Bounce(ref pair, ref a, ref b);
+        if (pair.A >= 0)
+            a.GoOn(dt);
+        if (pair.B >= 0)
+            b.GoOn(dt);
+        SweepAgain(pair.A, time, dt);
+        SweepAgain(pair.B, time, dt);
+    }
+
+    void SweepAgain(int body, double time, double dt)
+    {
+        if (body < 0)
+            return;
+        for (int i = firstPairs[body]; i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+            Find(ref pairs[i], time, dt);
+    }
+
+    static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b)
+    {
+        Vector3 normal = pair.Normal.ToSingle(), armA = pair.ArmA.ToSingle(), armB = pair.ArmB.ToSingle();
+        var (inertiaA, inertiaB) = (a.Inertia.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);
+        var row = new ContactRow(normal, Exact.Cross(armA, normal), Exact.Cross(normal, armB));
+        // What comes back at once comes from an edge that does not leave: it is stopped there.
+        var restitution = pair.ImpactCount == 1 ? pair.Restitution : 0;
+        var approach = -row.Along(a.Velocity, b.Velocity);
+        var pushed = Push(row, inertiaA, inertiaB, (1 + restitution) * approach, float.MaxValue, ref a.Velocity, ref b.Velocity);
+        pair.Impulse += pushed;
+        if (!(pair.Friction > 0) || !(pushed > 0))
+            return;
+        var sliding = a.Velocity.Linear + Exact.Cross(a.Velocity.Angular, armA) - b.Velocity.Linear - Exact.Cross(b.Velocity.Angular, armB);
+        sliding -= normal * Exact.Dot(sliding, normal);
+        var speed = Exact.Length(sliding);
+        if (!(speed > 0))
+            return;
+        var tangent = sliding * (-1 / speed);
+        Push(new ContactRow(tangent, Exact.Cross(armA, tangent), Exact.Cross(tangent, armB)), inertiaA, inertiaB, speed,
+            pair.Friction * pushed, ref a.Velocity, ref b.Velocity);
+    }
+
+    // By the impulse along a row that changes the velocity in it.
+    static float Push(in ContactRow row, in BodyInertia inertiaA, in BodyInertia inertiaB, float change, float most, ref BodyVelocity a, ref BodyVelocity b)
+    {
+        var inverseMass = row.Along(row.ResponseOfA(inertiaA, 1), row.ResponseOfB(inertiaB, 1));
+        if (!(change > 0) || !(inverseMass > 0))
+            return 0;
+        var impulse = MathHelper.Min(change / inverseMass, most);
+        var (changeA, changeB) = (row.ResponseOfA(inertiaA, impulse), row.ResponseOfB(inertiaB, impulse));
+        a = new(a.Linear + changeA.Linear, a.Angular + changeA.Angular);
+        b = new(b.Linear + changeB.Linear, b.Angular + changeB.Angular);
+        return impulse;
+    }
+
+    // Impacts that do not end are those of a body that lies against the other, or spins against it edge by edge. It stops to approach, and to turn but about
+    // the normal: then no part of it comes nearer to a face. Where that does not help it stops altogether. The heavier body keeps its turn.
+    void Stop(in FastPair pair, ref FastBody a, ref FastBody b)
+    {
+        var normal = pair.Normal.ToSingle();
+        var inverseMass = a.Inertia.InverseMass + b.Inertia.InverseMass;
+        var aIsLighter = a.Inertia.InverseMass > b.Inertia.InverseMass;
+        ref var lighter = ref aIsLighter ? ref a : ref b;
+        ref var heavier = ref aIsLighter ? ref b : ref a;
+        var isLast = pair.ImpactCount >= StoppingCount;
+        StopCount += isLast ? 1 : 0;
+        var spin = lighter.Velocity.Angular - heavier.Velocity.Angular;
+        lighter.Velocity.Angular = heavier.Velocity.Angular + (isLast ? default : lighter.SpinAbout(normal, spin));
+        // Of the place of the impact, as a part of the heavier body.
+        var arm = (aIsLighter ? pair.ArmB - pair.ArmA : pair.ArmA - pair.ArmB).ToSingle();
+        var relative = lighter.Velocity.Linear - heavier.Velocity.Linear - Exact.Cross(heavier.Velocity.Angular, arm);
+        if (!isLast)
+            relative = normal * (aIsLighter ? MathHelper.Min(0, Exact.Dot(relative, normal)) : MathHelper.Max(0, Exact.Dot(relative, normal)));
+        if (!(inverseMass > 0))
+            return;
+        lighter.Velocity.Linear -= relative * (lighter.Inertia.InverseMass / inverseMass);
+        heavier.Velocity.Linear += relative * (heavier.Inertia.InverseMass / inverseMass);
+    }
+}

@@ -1,0 +1,183 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Pairs of which one collidable is marked as continuous, and that move far in a step. When they first touch is found as a sweep finds it; they are tested
+// where that is, and the contacts hold in this step, as far ahead as the surfaces approach until then. What does not touch has no contacts ahead: no plane
+// turns aside what passes an edge. What is hit does not give way: it is hit by the stage of bounces.
+//
+// Contacts of a solver's step are linear: n . (v + w x r) dt closes a gap. So the arms of an impact are those of its time, in world axes, and not where they
+// are at the beginning; the gap is what the contact's speed at that time makes of the time.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    // A pair is fast that moves by more than this part of the inner radius of the thinner shape, in a step; where neither has one, of the mover's radius.
+    const float FastPart = .5f;
+    const float FastPartOfRadius = .02f;
+    // How much longer than the step is looked ahead: what pushes may hasten an impact, and a contact that is not reached does nothing.
+    const float Lookahead = 1.25f;
+    // Parts of the thinner shape's inner radius: how far around an impact contacts are looked for, how near is nearby, and how exact an impact is at least.
+    const float MarginPart = .5f;
+    const float NearPart = .02f;
+    const float ExactnessPart = 1e-3f;
+    const float ProgressionPart = 1e-2f;
+
+    /// <summary>Poses of two collidables from the position of the first.</summary>
+    struct ImpactPoses
+    {
+        public RigidPose A, B;
+    }
+
+    // A pair whose ways are to be swept.
+    struct FastNote : INote
+    {
+        public CollidablePair Pair { get; init; }
+        public float Inner;
+    }
+
+    // Children as the callbacks know them.
+    readonly struct ChildFilter(NarrowPhase<TCallbacks> narrowPhase, int workerIndex, CollidablePair pair) : ISweepFilter
+    {
+        public bool AllowTest(int childA, int childB) => narrowPhase.Callbacks.AllowContactGeneration(workerIndex, pair, childA, childB);
+    }
+
+    /// <summary>Finds where a pair will touch, if it is fast, and is apart now.</summary>
+    /// <param name="workerIndex">The worker.</param>
+    /// <param name="tested">The pair; its margin is that of the test.</param>
+    /// <param name="shapeA">Shape of A.</param>
+    /// <param name="shapeB">Shape of B.</param>
+    /// <param name="poseA">Where A is.</param>
+    /// <param name="poseB">Where B is.</param>
+    /// <param name="placed">Where they will touch.</param>
+    /// <returns>Whether they do; otherwise they are to be tested where they are.</returns>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    bool TryPlaceAtImpact(int workerIndex, ref TestedPair tested, TypedIndex shapeA, TypedIndex shapeB, in RigidPose poseA, in RigidPose poseB,
+        ref ImpactPoses placed)
+    {
+        var dt = workers[workerIndex].Batcher.Dt;
+        var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
+        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
+        float innerA = batchA.InnerRadius(shapeA.Index), innerB = batchB.InnerRadius(shapeB.Index);
+        float radiusA = batchA.MaximumRadius(shapeA.Index), radiusB = batchB.MaximumRadius(shapeB.Index);
+        var inner = innerA > 0 && innerB > 0 ? MathHelper.Min(innerA, innerB) : MathHelper.Max(innerA, innerB);
+        if (!(inner > 0))
+            inner = MathHelper.Min(radiusA, radiusB) * (FastPartOfRadius / FastPart);
+        var speed = Exact.Length(velocityA.Linear - velocityB.Linear) +
+            SurfaceSpeed(velocityA.Angular, radiusA, innerA) + SurfaceSpeed(velocityB.Angular, radiusB, innerB);
+        if (!(speed * dt > FastPart * inner))
+            return false;
+        tested.IsExact = true;
+        if (!SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+            return false;
+        Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner }, workers[workerIndex].Pool);
+        // What slides along several things that do not give way agrees with all of them.
+        if (tested.IsAtSeam)
+            return false;
+        var continuity = ContinuityOf(tested.Pair.A);
+        var other = ContinuityOf(tested.Pair.B);
+        if (other.Mode == ContinuousDetectionMode.Continuous && (continuity.Mode != ContinuousDetectionMode.Continuous ||
+            other.MinimumSweepTimestep < continuity.MinimumSweepTimestep))
+            continuity = other;
+        var offsetB = poseB.Position - poseA.Position;
+        var motion = new SweepMotion
+        {
+            OrientationA = DoubleMatrix3x3.FromQuaternion(poseA.Orientation),
+            OrientationB = DoubleMatrix3x3.FromQuaternion(poseB.Orientation),
+            LinearA = new(velocityA.Linear),
+            LinearB = new(velocityB.Linear),
+            AngularA = new(velocityA.Angular),
+            AngularB = new(velocityB.Angular),
+            OffsetB = new(offsetB),
+            MaximumT = dt * (double)Lookahead,
+            Accuracy = new ImpactAccuracy(
+                LimitTime(continuity.MinimumSweepTimestep, ProgressionPart * inner / speed),
+                LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed), ImpactAccuracy.Default.MaximumRoundCount),
+        };
+        var filter = new ChildFilter(this, workerIndex, tested.Pair);
+        SweepPairs.Test(motion, shapeA.Type, batchA.GetPointer(shapeA.Index), shapeB.Type, batchB.GetPointer(shapeB.Index), ref filter,
+            Simulation.Shapes, workers[workerIndex].Pool, out var hit);
+        if (hit.Overlaps)
+            return false;
+        if (!hit.Exists)
+        {
+            tested.SpeculativeMargin = MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
+            return false;
+        }
+        tested.IsImpact = true;
+        tested.ImpactTime = (float)hit.T;
+        tested.SpeculativeMargin = MarginPart * inner;
+        placed.A = new(default, BodyTurn.Turn(poseA.Orientation, motion.AngularA, hit.T));
+        placed.B = new((motion.OffsetB + (motion.LinearB - motion.LinearA) * hit.T).ToSingle(), BodyTurn.Turn(poseB.Orientation, motion.AngularB, hit.T));
+        return true;
+    }
+
+    // By which its turn moves the surface of a shape that is not a ball.
+    static float SurfaceSpeed(in Vector3 angular, float radius, float inner) => inner < radius ? Exact.Length(angular) * radius : 0;
+
+    static double LimitTime(float time, float limit) => Math.Clamp(time, 0, limit);
+
+    ContinuousDetection ContinuityOf(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static)
+            return Simulation.Statics.StaticsBuffer[Simulation.Statics.Indices[collidable.Slot]].Continuity;
+        ref var location = ref Simulation.Bodies.Locations[collidable.Slot];
+        return Simulation.Bodies.SetOf(location).Collidables[location.Index].Continuity;
+    }
+
+    // Contacts of the time of an impact, as far ahead as the surfaces approach until then.
+    void MoveBack<TManifold>(in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+    {
+        if (typeof(TManifold) == typeof(ConvexContactManifold))
+            MoveBack(tested, ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold));
+    }
+
+    void MoveBack(in TestedPair tested, Span<ChildResult> results)
+    {
+        foreach (ref var result in results)
+            MoveBack(tested, ref result.Manifold);
+    }
+
+    void MoveBack(in TestedPair tested, ref ConvexContactManifold manifold)
+    {
+        var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+            var velocity = velocityA.Linear - velocityB.Linear + Exact.Cross(velocityA.Angular, contact.Offset) -
+                Exact.Cross(velocityB.Angular, contact.Offset - manifold.OffsetB);
+            // What parts at that time was farther away on its way, as far as a line tells, and is not to be pushed by what the line makes of it.
+            var closing = MathHelper.Max(0, -Exact.Dot(velocity, manifold.Normal));
+            contact.Depth -= closing * tested.ImpactTime;
+        }
+    }
+
+    void WatchFastPairs()
+    {
+        FastPairs.BeginStep();
+        order.Count = 0;
+        for (int i = 0; i < workers.Length; ++i)
+            Gather(ref workers[i].Fast, i);
+        SortByKey();
+        for (int i = 0; i < order.Count; ++i)
+        {
+            ref var note = ref workers[order[i].Worker].Fast[order[i].Index];
+            FastPairs.Watch(note.Pair, note.Inner);
+        }
+    }
+
+    // Nobody else calls back while the solver runs, so that any worker's number will do.
+    internal override bool ConfigureImpact(in CollidablePair pair, ref ConvexContactManifold manifold, out float friction, out float restitution)
+    {
+        friction = restitution = 0;
+        if (!Callbacks.ConfigureContactManifold(0, pair, ref manifold, out var material) || manifold.Count == 0)
+            return false;
+        CallbackChecks.Contacts(pair, manifold, material);
+        friction = material.FrictionCoefficient;
+        restitution = TCallbacks.SurfaceOf(ref Callbacks, 0, pair, ref manifold).Restitution;
+        CallbackChecks.Restitution(pair, restitution);
+        return true;
+    }
+}
