@@ -38,6 +38,9 @@ struct KeptArms
     // How far a contact may be from there, as a part of that, before it is asked whether the bodies have turned together.
     const float StillPart = 1 / 25f;
 
+    // Part of the way that contacts have moved, about their middle, by which they may be beside where a turn takes them.
+    const float LeftPart = 0.25f;
+
     // Cosine of 10 degrees: how far the normal may turn in a step.
     const float LeastCosine = 0.98480775f;
 
@@ -180,6 +183,18 @@ struct KeptArms
         if (!(MathF.Abs(across) > Tolerance * StillPart * along))
             return false;
         var turn = new ArmTurn(manifold.Normal, across / along);
+        // Contacts that slip, or are found in other places, are not where any turn takes them.
+        float moved = 0, left = 0;
+        for (int i = 0; i < manifold.Count; ++i)
+        {
+            if (Places[i] < 0)
+                continue;
+            var (before, now) = (old[Places[i]] - oldMean, manifold.Read(i).Offset - mean);
+            moved += Exact.DistanceSquared(before, now);
+            left += Exact.DistanceSquared(turn.Apply(before), now);
+        }
+        if (!(left < LeftPart * LeftPart * moved))
+            return false;
         (old.X, old.Y, old.Z) = turn.Apply(old.X, old.Y, old.Z);
         var turned = turn.Apply(old.OffsetB);
         // Unless the one turns on the other, which stays where it is.

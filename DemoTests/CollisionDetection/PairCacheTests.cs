@@ -16,7 +16,7 @@ public class PairCacheTests
     static CollidablePair Pair(int a, int b) =>
         new(new CollidableReference(CollidableMobility.Dynamic, new BodyHandle(a)), new CollidableReference(new StaticHandle(b)));
 
-    /// <summary>What a pair of convex shapes takes is two lines of the cache for four pairs; children of others pay for their indices, a line for each.</summary>
+    /// <summary>What a pair of convex shapes takes is two lines of the cache for four pairs; each child of others has a line.</summary>
     [Fact]
     public void Records_have_the_sizes_that_the_decision_says()
     {

@@ -180,8 +180,9 @@ public class FastBodyTests
     {
         using var world = new TestWorld(Weightless);
         var wall = world.AddStatic(new Box(.01f, 4, 4), new RigidPose(new Vector3(3, 0, 0)));
-        var other = Shoot(world, new Box(1, .01f, .01f), 1, new RigidPose(new Vector3(0, 3, 0)), new BodyVelocity(new Vector3(400, 0, 0), new Vector3(9, 40, 0)));
-        var rod = Shoot(world, new Box(1, .01f, .01f), 1, default(Vector3), new BodyVelocity(new Vector3(400, 0, 0), new Vector3(9, 40, 0)));
+        var velocity = new BodyVelocity(new Vector3(400, 0, 0), new Vector3(9, 40, 0));
+        var other = Shoot(world, new Box(1, .01f, .01f), 1, new RigidPose(new Vector3(0, 3, 0)), velocity);
+        var rod = Shoot(world, new Box(1, .01f, .01f), 1, default(Vector3), velocity);
         ((DefaultTimestepper)world.Simulation.Timestepper).CollisionsDetected += (_, _) =>
         {
             if (world.Statics.StaticExists(wall))

@@ -83,7 +83,8 @@ sealed class ThinWall : IDisposable
         switch (wall)
         {
             case Wall.Box:
-                Simulation.Statics.Add(new StaticDescription(default, Quaternion.Identity, shapes.Add(new Box(2 * HalfExtent, 2 * HalfThickness, 2 * HalfExtent))));
+                var plate = new Box(2 * HalfExtent, 2 * HalfThickness, 2 * HalfExtent);
+                Simulation.Statics.Add(new StaticDescription(default, Quaternion.Identity, shapes.Add(plate)));
                 break;
             case Wall.HalfSpace:
                 Simulation.Statics.Add(new StaticDescription(default, Quaternion.Identity, shapes.Add(new HalfSpace(Vector3.UnitY))));

@@ -34,7 +34,8 @@ public interface ICollisionCallbacks
 
     /// <summary>The children of some pairs come soon: what is remembered of them may be loaded.</summary>
     internal static virtual void PrefetchChildren<TCallbacks>(ref TCallbacks callbacks, ReadOnlySpan<int> pairIds)
-        where TCallbacks : struct, ICollisionCallbacks { }
+        where TCallbacks : struct, ICollisionCallbacks
+    { }
 
     /// <summary>The children of a pair come next.</summary>
     internal static virtual void BeginChildren<TCallbacks>(ref TCallbacks callbacks, int pairId) where TCallbacks : struct, ICollisionCallbacks { }

@@ -13,7 +13,8 @@ namespace BepuPhysics.CollisionDetection;
 // Contacts know what is hit first. What was turned by a hit comes with another edge within the same step, or goes where no contact was foreseen. So when the
 // bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, so that what
 // merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and restitution of
-// the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their times, and after each
+// the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their
+// times, and after each
 // the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
 sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
 {
@@ -135,7 +136,14 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         {
             mover = movers.Count;
             ref var pose = ref Bodies.ActiveSet.MotionStates[body].Pose;
-            movers.Add(new() { Index = body, Position = new(pose.Position), Orientation = pose.Orientation, Inertia = Bodies.ActiveSet.LocalInertias[body] }, pool);
+            var first = new FastBody
+            {
+                Index = body,
+                Position = new(pose.Position),
+                Orientation = pose.Orientation,
+                Inertia = Bodies.ActiveSet.LocalInertias[body],
+            };
+            movers.Add(first, pool);
             firstPairs.Add(-1, pool);
         }
         body = mover;
@@ -254,7 +262,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         var time = pair.Time;
         if (!pair.IsAsked)
         {
-            var manifold = new ConvexContactManifold { OffsetB = (pair.ArmA - pair.ArmB).ToSingle(), Normal = pair.Normal.ToSingle(), Count = 1 };
+            var manifold = new ConvexContactManifold { Normal = pair.Normal.ToSingle(), Count = 1 };
+            manifold.OffsetB = (pair.ArmA - pair.ArmB).ToSingle();
             manifold.Contact0.Offset = pair.ArmA.ToSingle();
             pair.IsAsked = true;
             pair.Passes = !narrowPhase.ConfigureImpact(pair.Pair, ref manifold, out pair.Friction, out pair.Restitution);

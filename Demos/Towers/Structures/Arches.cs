@@ -26,7 +26,8 @@ static class Arches
 
     static Structure Arch(string name, int wedges, float thickness, float radius = Radius, bool stands = true) =>
         new(name, FormattableString.Invariant($"arch of {wedges} wedges over {2 * radius} m, as thick as {thickness} of its radius"),
-            () => Create(name, wedges, thickness, radius)) { FreeAxes = Vector3.UnitZ, Stands = stands, Scale = radius / Radius };
+            () => Create(name, wedges, thickness, radius))
+        { FreeAxes = Vector3.UnitZ, Stands = stands, Scale = radius / Radius };
 
     static SceneDescription Create(string name, int wedges, float thickness, float radius)
     {
