@@ -32,9 +32,7 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THandler : struct, IShapeContactHandler
     {
         using var reading = world.Read("Simulation.FindContacts");
-        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
-            throw new ArgumentException($"Contacts of shapes of type {typeof(TShape).Name} cannot be found.", nameof(shape));
-        shape.Validate();
+        SweepChecks.Shape(shape, "have no contacts");
         BodyChecks.Pose(pose);
         BoxMath.RequireLength(margin);
         ArgumentOutOfRangeException.ThrowIfEqual(margin, float.PositiveInfinity);

@@ -32,9 +32,7 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THandler : IProximityHandler
     {
         using var reading = world.Read("Simulation.FindNear");
-        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
-            throw new ArgumentException($"Distances of shapes of type {typeof(TShape).Name} cannot be found.", nameof(shape));
-        shape.Validate();
+        SweepChecks.Shape(shape, "have no distances");
         var near = shape;
         FindNear(ImpactCore.Of(TShape.TypeId, &near), pose, maximumDistance, pool, ref handler, layers);
     }
@@ -127,15 +125,10 @@ public sealed unsafe partial class Simulation
         var body = new ImpactBody(core, motion.OrientationA, default);
         var tester = new WorldProximity<THandler>
         {
-            Simulation = this,
-            Pool = pool,
             Handler = handler,
-            Layers = layers,
-            Motion = &motion,
-            Shape = &body,
-            Position = new(pose.Position),
+            Query = new() { Simulation = this, Pool = pool, Layers = layers, Motion = &motion, Shape = &body, Position = new(pose.Position) },
         };
-        SweepBounds.InWorld(motion, body, tester.Position, out var min, out var max);
+        SweepBounds.InWorld(motion, body, tester.Query.Position, out var min, out var max);
         BroadPhase.FindNear(min, max, maximumDistance, ref tester);
         handler = tester.Handler;
     }

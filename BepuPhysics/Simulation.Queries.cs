@@ -72,7 +72,7 @@ public sealed partial class Simulation
 
         public unsafe void RayTest(CollidableReference collidable, RayData* rayData, float* maximumT, BufferPool pool)
         {
-            if (CollisionLayers.MayMeet(Layers, Inner.Simulation.Layers.Of(collidable)))
+            if (Inner.Simulation.MayMeet(Layers, collidable))
                 Inner.RayTest(collidable, rayData, maximumT, pool);
         }
     }
@@ -104,6 +104,10 @@ public sealed partial class Simulation
         public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, int childIndex) =>
             Handler.OnRayHit(ray, ref maximumT, t, normal, Collidable, childIndex);
     }
+
+    // Whether layers let a query meet a collidable; one without layers meets all.
+    internal bool MayMeet(CollisionLayers? layers, CollidableReference collidable) =>
+        layers is not { } own || CollisionLayers.MayMeet(own, Layers.Of(collidable));
 
     internal void GetPoseAndShape(CollidableReference collidable, out RigidPose pose, out TypedIndex shape)
     {

@@ -82,9 +82,7 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THitHandler : ISweepHitHandler
     {
         using var reading = world.Read("Simulation.Sweep");
-        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
-            throw new ArgumentException($"Shapes of type {typeof(TShape).Name} cannot be swept.", nameof(shape));
-        shape.Validate();
+        SweepChecks.Shape(shape, "cannot be swept");
         BodyChecks.Pose(pose);
         BodyChecks.Velocity(velocity);
         SweepChecks.Length(maximumT, pool);
@@ -100,15 +98,10 @@ public sealed unsafe partial class Simulation
         var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &swept), motion.OrientationA, motion.AngularA);
         var tester = new WorldSweep<THitHandler>
         {
-            Simulation = this,
-            Pool = pool,
             Handler = hitHandler,
-            Layers = layers,
-            Motion = &motion,
-            Swept = &body,
-            Position = new(pose.Position),
+            Query = new() { Simulation = this, Pool = pool, Layers = layers, Motion = &motion, Shape = &body, Position = new(pose.Position) },
         };
-        SweepBounds.InWorld(motion, body, tester.Position, out var min, out var max);
+        SweepBounds.InWorld(motion, body, tester.Query.Position, out var min, out var max);
         BroadPhase.SweepBox(min, max, velocity.Linear, maximumT, pool, ref tester);
         hitHandler = tester.Handler;
     }

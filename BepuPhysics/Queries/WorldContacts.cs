@@ -28,9 +28,7 @@ unsafe struct WorldContacts<THandler> : IBreakableForEach<CollidableReference> w
     /// <inheritdoc/>
     public readonly bool LoopBody(CollidableReference collidable)
     {
-        if (Layers is { } layers && !CollisionLayers.MayMeet(layers, Simulation.Layers.Of(collidable)))
-            return true;
-        if (!Batcher.Callbacks.Handler.AllowTest(collidable))
+        if (!Simulation.MayMeet(Layers, collidable) || !Batcher.Callbacks.Handler.AllowTest(collidable))
             return true;
         Simulation.GetPoseAndShape(collidable, out var pose, out var shape);
         if (!Simulation.NarrowPhase.CollisionTaskRegistry.TryGetTask(ShapeType, shape.Type, out _, out _, out _))

@@ -1,7 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities.Memory;
 
 namespace BepuPhysics;
 
@@ -9,36 +8,16 @@ namespace BepuPhysics;
 /// <typeparam name="THandler">Type of the handler.</typeparam>
 unsafe struct WorldProximity<THandler> : IBroadPhaseSweepTester, ISweepFilter where THandler : IProximityHandler
 {
-    public Simulation Simulation;
-    public BufferPool Pool;
+    public WorldQuery Query;
     public THandler Handler;
-    /// <summary>Layers that the query is in and meets, if it has any.</summary>
-    public CollisionLayers? Layers;
-    /// <summary>Where the shape is, on the stack of the caller; of the collidable nothing.</summary>
-    public SweepMotion* Motion;
-    /// <summary>The shape.</summary>
-    public ImpactBody* Shape;
-    /// <summary>Its position, m.</summary>
-    public DoubleVector3 Position;
-
-    CollidableReference collidable;
 
     /// <inheritdoc/>
     public void Test(CollidableReference collidable, ref float maximumT)
     {
-        if (Layers is { } layers && !CollisionLayers.MayMeet(layers, Simulation.Layers.Of(collidable)))
+        if (!Query.MayMeet(collidable) || !Handler.AllowTest(collidable) || !Query.TryPlace(collidable, out var type, out var data))
             return;
-        if (!Handler.AllowTest(collidable))
-            return;
-        Simulation.GetPoseAndShape(collidable, out var pose, out var shape);
-        if (!SweepPairs.IsKnown(shape.Type))
-            return;
-        this.collidable = collidable;
-        Motion->OrientationB = DoubleMatrix3x3.FromQuaternion(pose.Orientation);
-        Motion->OffsetB = new DoubleVector3(pose.Position) - Position;
         var nearest = new NearestPart(maximumT);
-        var data = Simulation.Shapes.GetBatch(shape.Type).GetPointer(shape.Index);
-        DistancePairs.Test(*Motion, ref *Shape, shape.Type, data, ref this, Simulation.Shapes, Pool, ref nearest);
+        DistancePairs.Test(*Query.Motion, ref *Query.Shape, type, data, ref this, Query.Simulation.Shapes, Query.Pool, ref nearest);
         if (!nearest.Exists)
             return;
         ref readonly var found = ref nearest.Found;
@@ -53,11 +32,11 @@ unsafe struct WorldProximity<THandler> : IBroadPhaseSweepTester, ISweepFilter wh
         if (!found.Overlaps)
         {
             proximity.Normal = found.Normal.ToSingle();
-            proximity.Place = (Position + found.Place).ToSingle();
+            proximity.Place = (Query.Position + found.Place).ToSingle();
         }
         Handler.OnProximity(ref maximumT, proximity);
     }
 
     /// <inheritdoc/>
-    public bool AllowTest(int childA, int childB) => Handler.AllowTest(collidable, childB);
+    public bool AllowTest(int childA, int childB) => Handler.AllowTest(Query.Collidable, childB);
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
@@ -79,6 +80,15 @@ static class DirectStructures
     {
         var pose = world.Bodies[body].Pose;
         return pose.Position + Vector3.Transform(new Vector3(along, 0, 0), pose.Orientation);
+    }
+
+    /// <summary>Greatest error of joints, rad.</summary>
+    public static double GreatestAngle(TestWorld world, List<ConstraintHandle> joints)
+    {
+        double greatest = 0;
+        foreach (var joint in joints)
+            greatest = Math.Max(greatest, world.Solver.GetSeparation(joint).Angular);
+        return greatest;
     }
 
     /// <summary>Greatest gap of the joints of a chain.</summary>

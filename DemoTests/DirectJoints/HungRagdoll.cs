@@ -56,11 +56,5 @@ sealed class HungRagdoll
     }
 
     /// <summary>By how much a limit is overstepped at most, rad.</summary>
-    public double Limit()
-    {
-        double greatest = 0;
-        foreach (var limit in limits)
-            greatest = Math.Max(greatest, world.Solver.GetSeparation(limit).Angular);
-        return greatest;
-    }
+    public double Limit() => DirectStructures.GreatestAngle(world, limits);
 }

@@ -84,13 +84,7 @@ sealed class RobotArm
     }
 
     /// <summary>Greatest error of the servos, rad.</summary>
-    public double Turn()
-    {
-        double greatest = 0;
-        foreach (var servo in servos)
-            greatest = Math.Max(greatest, world.Solver.GetSeparation(servo).Angular);
-        return greatest;
-    }
+    public double Turn() => DirectStructures.GreatestAngle(world, servos);
 
     /// <summary>How far the torques of the servos about Z are from what statics says, as a part of the greatest.</summary>
     public double TorqueError(double gravity)

@@ -259,6 +259,22 @@ sealed class SweepMaze : IDisposable
         return maker.Body;
     }
 
+    /// <summary>The motion of a case beside a collidable.</summary>
+    public SweepMotion MotionOf(in Case sweep, CollidableReference collidable)
+    {
+        Simulation.GetPoseAndShape(collidable, out var pose, out _);
+        return new()
+        {
+            OrientationA = DoubleMatrix3x3.FromQuaternion(sweep.Pose.Orientation),
+            OrientationB = DoubleMatrix3x3.FromQuaternion(pose.Orientation),
+            LinearA = new(sweep.Velocity.Linear),
+            AngularA = new(sweep.Velocity.Angular),
+            OffsetB = new DoubleVector3(pose.Position) - new DoubleVector3(sweep.Pose.Position),
+            MaximumT = sweep.MaximumT,
+            Accuracy = ImpactAccuracy.Default,
+        };
+    }
+
     struct BodyMaker : IShapeUser
     {
         public SweepMotion Motion;

@@ -196,14 +196,8 @@ public sealed class WorldProximityTests : IDisposable
     // Every child by itself, or the shape, without any tree. Where shapes overlap, the child that was told must be one that does.
     Proximity? BruteForce(in SweepMaze.Case near, CollidableReference collidable, int told)
     {
-        maze.Simulation.GetPoseAndShape(collidable, out var pose, out _);
         var position = new DoubleVector3(near.Pose.Position);
-        var motion = new SweepMotion
-        {
-            OrientationA = DoubleMatrix3x3.FromQuaternion(near.Pose.Orientation),
-            OrientationB = DoubleMatrix3x3.FromQuaternion(pose.Orientation),
-            OffsetB = new DoubleVector3(pose.Position) - position,
-        };
+        var motion = maze.MotionOf(near with { Velocity = default }, collidable);
         var a = maze.SweptBody(near, motion);
         Proximity? nearest = null;
         var least = double.PositiveInfinity;

@@ -181,19 +181,9 @@ public sealed class WorldSweepTests : IDisposable
     // Every child by itself, or the shape, without any tree.
     SweptHit? BruteForce(in SweepMaze.Case sweep, CollidableReference collidable, out bool isContainer, int? only = null)
     {
-        maze.Simulation.GetPoseAndShape(collidable, out var pose, out _);
         var children = maze.Children(collidable);
         isContainer = children is not null;
-        var motion = new SweepMotion
-        {
-            OrientationA = DoubleMatrix3x3.FromQuaternion(sweep.Pose.Orientation),
-            OrientationB = DoubleMatrix3x3.FromQuaternion(pose.Orientation),
-            LinearA = new(sweep.Velocity.Linear),
-            AngularA = new(sweep.Velocity.Angular),
-            OffsetB = new DoubleVector3(pose.Position) - new DoubleVector3(sweep.Pose.Position),
-            MaximumT = sweep.MaximumT,
-            Accuracy = ImpactAccuracy.Default,
-        };
+        var motion = maze.MotionOf(sweep, collidable);
         var part = maze.SweptBody(sweep, motion);
         var hit = default(SweepHit);
         foreach (var child in children ?? [0])

@@ -10,12 +10,11 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Keeps fast pairs from passing each other: the ways that their bodies have gone in a substep are swept.</summary>
-// Contacts know what is hit first. What was turned by a hit comes with another edge within the same step, or goes where no contact was foreseen. So when the
-// bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, so that what
-// merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and restitution of
-// the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their
-// times, and after each
-// the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
+// Contacts know what is hit first. What was turned by a hit comes with another edge within the same step, or goes where no contact was foreseen. So when
+// the bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, so that
+// what merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and
+// restitution of the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their
+// times, and after each the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
 sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
 {
     // Parts of the inner radius by which cores are thinner: the first at which they are apart.

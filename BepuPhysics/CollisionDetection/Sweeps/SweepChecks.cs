@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Memory;
 
@@ -8,6 +9,16 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Checks of what a sweep is given.</summary>
 static class SweepChecks
 {
+    /// <summary>Checks the shape that is asked about.</summary>
+    /// <param name="shape">The shape.</param>
+    /// <param name="refusal">What is said of shapes of a type that cannot be asked about, behind the name of the type.</param>
+    public static void Shape<TShape>(in TShape shape, string refusal) where TShape : unmanaged, IConvexShape
+    {
+        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
+            throw new ArgumentException($"Shapes of type {typeof(TShape).Name} {refusal}.", nameof(shape));
+        shape.Validate();
+    }
+
     public static void Offset(Vector3 offset) => BodyChecks.Position(offset * .5f, nameof(offset));
 
     /// <summary>Checks how long a sweep is, and where its memory comes from.</summary>
