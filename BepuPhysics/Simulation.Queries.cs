@@ -32,6 +32,17 @@ public sealed partial class Simulation
         hitHandler = tester.Hits.Handler;
     }
 
+    /// <summary>Finds what a ray hits, with the pool of the simulation: by one thread at a time.</summary>
+    /// <remarks>As with a pool, which see. Threads that ask at once each pass a pool of their own.</remarks>
+    /// <param name="origin">Where the ray starts, m.</param>
+    /// <param name="direction">Direction of the ray; its length is the unit in which t is measured. A direction of zero length hits nothing.</param>
+    /// <param name="maximumT">Length of the ray in units of its direction; may be infinite.</param>
+    /// <param name="hitHandler">Chooses what to test and receives the hits; copied in and copied back.</param>
+    /// <param name="id">The caller's number for the ray.</param>
+    /// <exception cref="ArgumentException">A component is not finite, or the length is negative or not a number.</exception>
+    public void RayCast<THitHandler>(Vector3 origin, Vector3 direction, float maximumT, ref THitHandler hitHandler, int id = 0)
+        where THitHandler : IRayHitHandler => RayCast(origin, direction, maximumT, BufferPool, ref hitHandler, id);
+
     /// <summary>Finds what a ray hits among the collidables that its layers let it meet; the handler hears of no others.</summary>
     /// <remarks>As without layers, which see.</remarks>
     /// <param name="origin">Where the ray starts, m.</param>

@@ -15,7 +15,7 @@ namespace BepuPhysics.Collidables;
 /// left of the least inverse moment to a percent, up to several thousand times as long as thick; a longer hull must have its length along
 /// an axis, or <see cref="ComputeInertia"/> refuses it.
 /// </remarks>
-public unsafe struct ConvexHull : IConvexShape, IDisposableShape
+public unsafe partial struct ConvexHull : IConvexShape, IDisposableShape
 {
     /// <summary>Type id of convex hulls.</summary>
     public const int Id = 5;
