@@ -36,6 +36,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         public CollidablePair Pair { get; init; }
         public float Inner;
+        public bool IsSensor;
     }
 
     // Children as the callbacks know them.
@@ -69,10 +70,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             SurfaceSpeed(velocityA.Angular, radiusA, innerA) + SurfaceSpeed(velocityB.Angular, radiusB, innerB);
         if (!(speed * dt > FastPart * inner))
             return false;
-        tested.IsExact = true;
+        // A sensor is passed: nothing is foreseen of it.
+        tested.IsExact = !tested.IsSensor;
         if (!SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
             return false;
-        Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner }, workers[workerIndex].Pool);
+        Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner, IsSensor = tested.IsSensor }, workers[workerIndex].Pool);
+        if (tested.IsSensor)
+            return false;
         // What slides along several things that do not give way agrees with all of them.
         if (tested.IsAtSeam)
             return false;
@@ -164,7 +168,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < order.Count; ++i)
         {
             ref var note = ref workers[order[i].Worker].Fast[order[i].Index];
-            FastPairs.Watch(note.Pair, note.Inner);
+            FastPairs.Watch(note.Pair, note.Inner, note.IsSensor);
         }
     }
 

@@ -6,8 +6,14 @@ public abstract partial class NarrowPhase
     /// <summary>Finds the contacts whose impulses are to be told.</summary>
     internal void BeginEvents()
     {
-        if (Simulation.Events.IsUsed)
-            Simulation.Events.BeginSolve(ref Pairs, IsAtRest);
+        if (!Simulation.Events.IsUsed)
+            return;
+        for (int i = 0; i < FastPairs.Count; ++i)
+        {
+            if (FastPairs.IsSensor(i, out var pair))
+                Simulation.Events.NoteSwept(pair);
+        }
+        Simulation.Events.BeginSolve(ref Pairs, IsAtRest);
     }
 
     /// <summary>Tells what has happened in the step.</summary>
@@ -26,6 +32,8 @@ public abstract partial class NarrowPhase
             var impulse = FastPairs.ImpulseOf(i, out var pair);
             if (impulse > 0)
                 Simulation.Events.AddBounce(pair, impulse);
+            else if (FastPairs.HasPassed(i))
+                Simulation.Events.AddPassed(pair);
         }
         Simulation.Events.EndSolve();
     }

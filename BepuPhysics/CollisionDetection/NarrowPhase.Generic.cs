@@ -163,7 +163,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         if (tested.IsAtSeam)
             AgreedPairs.Prefetch(a);
         Unsafe.SkipInit(out ImpactPoses placed);
-        if (mode >= ContinuousDetectionMode.Continuous && !isSensor)
+        if (mode >= ContinuousDetectionMode.Continuous)
         {
             if (TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed))
             {

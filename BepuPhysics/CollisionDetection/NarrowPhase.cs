@@ -40,7 +40,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         // Before all others: these are to see where bodies have come to.
         FastPairs = new FastPairs(this, simulation, Pool);
-        simulation.Solver.OptionalStages.Insert(0, FastPairs);
+        simulation.Solver.OptionalStages.InsertRange(
+            0, [new FastPairsShare(FastPairs, sweeps: false), new FastPairsShare(FastPairs, sweeps: true), FastPairs]);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
         loadPath = new LoadPathStage(simulation.Solver, simulation.Bodies, Pool);

@@ -1,3 +1,5 @@
+using BepuUtilities.Memory;
+
 namespace BepuPhysics.Constraints;
 
 /// <summary>Points of a step at which optional stages of the solver may run.</summary>
@@ -50,7 +52,16 @@ interface ISolverStage
     int CountBlocks(SolverPoint point, int most) => most;
 
     /// <summary>Does one block. Called on worker threads.</summary>
-    void Execute(SolverPoint point, in Substep substep, int block);
+    /// <param name="point">The point.</param>
+    /// <param name="substep">The substep.</param>
+    /// <param name="block">The block.</param>
+    /// <param name="workerPool">Temporary memory, of this worker alone.</param>
+    void Execute(SolverPoint point, in Substep substep, int block, BufferPool workerPool) => Execute(point, substep, block);
+
+    /// <summary>As the other one, for stages that need no memory.</summary>
+    void Execute(SolverPoint point, in Substep substep, int block)
+    {
+    }
 
     /// <summary>Ends a step, also one that an exception of the game broke off. Called on the caller's thread.</summary>
     void EndStep() { }

@@ -4,6 +4,7 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
@@ -113,7 +114,9 @@ public sealed unsafe partial class Solver
             BuildBlocks(ref work);
             BuildStages(ref work);
             integrator.Prepare(substepDt);
-            StagedWork.Run(ref work, IsWorthSharing(work) ? dispatcher : null);
+            var sharing = IsWorthSharing(work) ? dispatcher : null;
+            work.WorkerPools = sharing?.WorkerPools;
+            StagedWork.Run(ref work, sharing);
             MoveFreeBodies(work, dt, dispatcher);
             ReadError();
             ReadNeeds();
@@ -311,6 +314,8 @@ public sealed unsafe partial class Solver
         // Batches with joints, in the order in which the present substep sweeps over them if it is random.
         public QuickList<int> Order;
         public bool ShufflesOrder;
+        // None without other workers.
+        public WorkerBufferPools? WorkerPools;
 
         public readonly int StageCount => Stages.Count;
 
@@ -354,7 +359,7 @@ public sealed unsafe partial class Solver
                     Split.Join(ref Solver.bodies.Awake, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
                     break;
                 case StageKind.Optional:
-                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, stage.Substep, blockIndex);
+                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, stage.Substep, blockIndex, WorkerPools?[workerIndex] ?? Solver.pool);
                     break;
                 case StageKind.SubstepStarted:
                     Solver.Raise(Solver.SubstepStarted!, stage.Substep.Index);

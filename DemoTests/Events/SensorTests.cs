@@ -10,7 +10,7 @@ using Xunit;
 
 namespace DemoTests.Events;
 
-/// <summary>Sensors see what overlaps them when a step begins, and push nothing.</summary>
+/// <summary>Sensors see what overlaps them when a step begins, and what is marked on its way, and push nothing.</summary>
 public sealed class SensorTests
 {
     [Theory]
@@ -46,6 +46,46 @@ public sealed class SensorTests
         }
         Assert.Equal(1, visits);
         Assert.False(wasInside);
+    }
+
+    /// <summary>A bullet is seen by what it passes within a step, once, and not by what is behind the wall that stops it, nor by what it misses.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(3)]
+    public void AMarkedBodyIsSeenByThinSensorsOnItsWay(int threads)
+    {
+        for (int phase = 0; phase < 8; ++phase)
+        {
+            using var world = new TestWorld(new() { Gravity = default }, threads: threads);
+            var events = world.Simulation.Events;
+            var handles = new List<StaticHandle>();
+            foreach (var x in (float[])[20.3f, 22.1f, 60.7f])
+                handles.Add(world.AddStatic(new Box(.01f, 4, 4), new RigidPose(new Vector3(x, 0, 0))));
+            // Beside its way, and behind the wall.
+            handles.Add(world.AddStatic(new Box(4, .01f, 4), new RigidPose(new Vector3(30, .2f, 0))));
+            world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(80, 0, 0)));
+            handles.Add(world.AddStatic(new Box(.01f, 4, 4), new RigidPose(new Vector3(80.8f, 0, 0))));
+            foreach (var zone in handles)
+            {
+                events.SetSensor(zone, true);
+                events.Listen(zone, EventMask.All);
+            }
+            var bullet = new Sphere(.05f);
+            world.Bodies.Add(BodyDescription.CreateDynamic(new RigidPose(new Vector3(phase, 0, 0)), new BodyVelocity(new Vector3(500, 0, 0)),
+                bullet.ComputeInertia(1), new CollidableDescription(world.Simulation.Shapes.Add(bullet), ContinuousDetection.Continuous()), -1));
+            var began = new List<StaticHandle>();
+            var ended = new List<StaticHandle>();
+            for (int step = 0; step < 20; ++step)
+            {
+                world.Step();
+                began.AddRange(events.Began.ToArray().Select(e => e.Pair.B.StaticHandle));
+                ended.AddRange(events.Ended.ToArray().Select(e => e.Pair.B.StaticHandle));
+                Assert.All(events.Began.ToArray(), e => Assert.True(e.IsSensor));
+            }
+            Assert.Equal(handles.Take(3), began.OrderBy(handle => handle.Value));
+            Assert.Equal(handles.Take(3), ended.OrderBy(handle => handle.Value));
+            Assert.InRange(world.Bodies.ActiveSet.MotionStates[0].Pose.Position.X, 79, 79.5f);
+        }
     }
 
     [Fact]

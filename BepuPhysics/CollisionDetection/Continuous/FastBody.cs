@@ -8,6 +8,10 @@ struct FastBody
 {
     /// <summary>Index in the active set.</summary>
     public int Index;
+    /// <summary>Where the body was at the end of the last substep, of which it is known that nothing was passed: from there it is swept.</summary>
+    public Vector3 CheckedPosition;
+    /// <summary>See <see cref="CheckedPosition"/>.</summary>
+    public Quaternion CheckedOrientation;
     /// <summary>Time from which on the way is known, s from the beginning of the substep.</summary>
     public double Time;
     /// <summary>Where the body is at that time.</summary>
@@ -26,16 +30,17 @@ struct FastBody
     public bool HasChanged;
 
     /// <summary>Begins with the way from where the body was to where it is.</summary>
-    public void Begin(in DoubleVector3 position, in Quaternion orientation, in MotionState end, double dt)
+    public void Begin(in MotionState end, double dt)
     {
         Time = 0;
-        Position = position;
-        Orientation = orientation;
+        Position = new(CheckedPosition);
+        Orientation = CheckedOrientation;
         EndOrientation = end.Pose.Orientation;
         Velocity = end.Velocity;
-        Linear = (new DoubleVector3(end.Pose.Position) - position) * (1 / dt);
-        Angular = BodyTurn.Between(orientation, EndOrientation, new DoubleVector3(Velocity.Angular) * dt) * (1 / dt);
+        Linear = (new DoubleVector3(end.Pose.Position) - Position) * (1 / dt);
+        Angular = BodyTurn.Between(Orientation, EndOrientation, new DoubleVector3(Velocity.Angular) * dt) * (1 / dt);
         HasChanged = false;
+        (CheckedPosition, CheckedOrientation) = (end.Pose.Position, end.Pose.Orientation);
     }
 
     /// <summary>Where the body is at a time.</summary>

@@ -14,6 +14,10 @@ struct FastPair
     public int A, B;
     /// <summary>Inner radius of the thinner shape, m.</summary>
     public float Inner;
+    /// <summary>Whether one of them is a sensor, which is seen to be met and passed.</summary>
+    public bool IsSensor;
+    /// <summary>Whether it has been met in this step.</summary>
+    public bool HasPassed;
     /// <summary>Where what does not move is.</summary>
     public RigidPose PoseA, PoseB;
     /// <summary>Next pair of the same body, or -1.</summary>

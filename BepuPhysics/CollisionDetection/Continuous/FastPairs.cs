@@ -15,6 +15,9 @@ namespace BepuPhysics.CollisionDetection;
 // what merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and
 // restitution of the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their
 // times, and after each the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
+//
+// Where there are many pairs, the ways of bodies and the first sweep of each pair are what takes time. They do not depend on each other, and FastPairsShare
+// has them done by all threads; what is left for one are the impacts.
 sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
 {
     // Parts of the inner radius by which cores are thinner: the first at which they are apart.
@@ -27,12 +30,20 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
     const int StoppingCount = 16;
     const int MaximumCount = 32;
 
+    // From how many pairs on other threads take part, and pairs in a block of theirs.
+    const int LeastForThreads = 16;
+    const int PairsPerBlock = 8;
+
     QuickList<FastPair> pairs = new(16, pool);
     QuickList<FastBody> movers = new(16, pool);
     // Pairs of each mover that come first.
     QuickList<int> firstPairs = new(16, pool);
     // Movers of the active set's bodies; -1 for the others.
     QuickList<int> moverOf = new(16, pool);
+    // Movers whose way an impact has changed in the substep.
+    QuickList<int> changed = new(16, pool);
+    // When pairs meet in the substep.
+    EarliestTime times = new(pool);
 
     /// <summary>Number of pairs that are watched in this step.</summary>
     internal int Count => pairs.Count;
@@ -53,7 +64,19 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
     /// <summary>Watches a pair in the coming step.</summary>
     /// <param name="pair">The pair.</param>
     /// <param name="inner">Inner radius of the thinner shape, m.</param>
-    internal void Watch(in CollidablePair pair, float inner) => pairs.Add(new() { Pair = pair, Inner = inner }, pool);
+    /// <param name="isSensor">Whether one of them is a sensor.</param>
+    internal void Watch(in CollidablePair pair, float inner, bool isSensor) =>
+        pairs.Add(new() { Pair = pair, Inner = inner, IsSensor = isSensor }, pool);
+
+    /// <summary>Whether one of a pair is a sensor.</summary>
+    internal bool IsSensor(int index, out CollidablePair pair)
+    {
+        pair = pairs[index].Pair;
+        return pairs[index].IsSensor;
+    }
+
+    /// <summary>Whether a pair is one of a sensor that was met in the step.</summary>
+    internal bool HasPassed(int index) => pairs[index].HasPassed;
 
     /// <summary>What the impacts of a pair have pushed along their normals, N s.</summary>
     internal float ImpulseOf(int index, out CollidablePair pair)
@@ -68,6 +91,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         movers.Dispose(pool);
         firstPairs.Dispose(pool);
         moverOf.Dispose(pool);
+        changed.Dispose(pool);
+        times.Dispose(pool);
     }
 
     internal void Abandon()
@@ -76,6 +101,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         movers = default;
         firstPairs = default;
         moverOf = default;
+        changed = default;
+        times = default;
     }
 
     bool ISolverStage.BeginStep() => pairs.Count > 0;
@@ -87,16 +114,38 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
     {
         if (point == SolverPoint.BeforeSubsteps)
             Link();
-        else if (point == SolverPoint.AfterSubsteps || substep.Index > 0)
+        else if (HasMoved(point, substep))
             Check(substep.Dt);
     }
 
+    /// <summary>Whether the bodies of a substep have moved before a point.</summary>
+    internal static bool HasMoved(SolverPoint point, in Substep substep) => point == SolverPoint.AfterSubsteps || substep.Index > 0;
+
+    /// <summary>Blocks for other threads; 0 if there is too little for them to do.</summary>
+    internal int SharedBlockCount => pairs.Count < LeastForThreads ? 0 : (pairs.Count + PairsPerBlock - 1) / PairsPerBlock;
+
+    /// <summary>Begins the ways of one block's bodies.</summary>
+    internal void BeginWays(int block, int blockCount, double dt)
+    {
+        for (int i = StartOf(block, blockCount, movers.Count); i < StartOf(block + 1, blockCount, movers.Count); ++i)
+            movers[i].Begin(Bodies.ActiveSet.MotionStates[movers[i].Index], dt);
+    }
+
+    /// <summary>Sweeps the pairs of one block along the ways of the substep.</summary>
+    internal void SweepAll(int block, int blockCount, double dt, BufferPool workerPool)
+    {
+        for (int i = StartOf(block, blockCount, pairs.Count); i < StartOf(block + 1, blockCount, pairs.Count); ++i)
+        {
+            pairs[i].ImpactCount = 0;
+            Find(ref pairs[i], 0, dt, workerPool);
+        }
+    }
+
+    static int StartOf(int block, int blockCount, int count) => (int)((long)count * block / blockCount);
+
     void Link()
     {
-        moverOf.EnsureCapacity(Bodies.ActiveSet.Count, pool);
-        moverOf.Count = Bodies.ActiveSet.Count;
-        moverOf.AsSpan().Fill(-1);
-        movers.Count = firstPairs.Count = 0;
+        ForgetMovers();
         for (int i = pairs.Count - 1; i >= 0; --i)
         {
             ref var pair = ref pairs[i];
@@ -109,6 +158,20 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             pair.NextOfA = Link(ref pair.A, i);
             pair.NextOfB = Link(ref pair.B, i);
         }
+    }
+
+    // Only what the last step has written: what is marked costs nothing for bodies that are not.
+    void ForgetMovers()
+    {
+        for (int i = 0; i < movers.Count; ++i)
+            moverOf[movers[i].Index] = -1;
+        movers.Count = firstPairs.Count = 0;
+        var known = moverOf.Count;
+        if (known >= Bodies.ActiveSet.Count)
+            return;
+        moverOf.EnsureCapacity(Bodies.ActiveSet.Count, pool);
+        moverOf.Count = Bodies.ActiveSet.Count;
+        moverOf.AsSpan()[known..].Fill(-1);
     }
 
     Bodies Bodies => simulation.Bodies;
@@ -138,8 +201,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             var first = new FastBody
             {
                 Index = body,
-                Position = new(pose.Position),
-                Orientation = pose.Orientation,
+                CheckedPosition = pose.Position,
+                CheckedOrientation = pose.Orientation,
                 Inertia = Bodies.ActiveSet.LocalInertias[body],
             };
             movers.Add(first, pool);
@@ -153,57 +216,39 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
 
     void Check(double dt)
     {
+        if (SharedBlockCount == 0)
+        {
+            BeginWays(0, 1, dt);
+            SweepAll(0, 1, dt, pool);
+        }
+        times.Clear(pairs.Count, pool);
+        for (int i = 0; i < pairs.Count; ++i)
+            times.Note(i, pairs[i].Time);
+        times.Arrange();
+        changed.Count = 0;
+        for (int next; (next = times.First) >= 0;)
+            MakeImpact(next, dt);
+        for (int i = 0; i < changed.Count; ++i)
+            End(ref movers[changed[i]], dt);
+    }
+
+    void End(ref FastBody mover, double dt)
+    {
         ref var set = ref Bodies.ActiveSet;
-        for (int i = 0; i < movers.Count; ++i)
-        {
-            ref var mover = ref movers[i];
-            mover.Begin(mover.Position, mover.Orientation, set.MotionStates[mover.Index], dt);
-        }
-        for (int i = 0; i < pairs.Count; ++i)
-        {
-            pairs[i].ImpactCount = 0;
-            Find(ref pairs[i], 0, dt);
-        }
-        for (int next; (next = FindEarliest()) >= 0;)
-            MakeImpact(ref pairs[next], dt);
-        for (int i = 0; i < movers.Count; ++i)
-            End(ref movers[i], ref set, dt);
-    }
-
-    static void End(ref FastBody mover, ref BodySet set, double dt)
-    {
         ref var motion = ref set.MotionStates[mover.Index];
-        if (mover.HasChanged)
-        {
-            ref var displacement = ref set.Displacements[mover.Index];
-            displacement.Linear += (mover.PositionAt(dt) - new DoubleVector3(motion.Pose.Position)).ToSingle();
-            displacement.Angular += BodyTurn.Between(motion.Pose.Orientation, mover.EndOrientation, default).ToSingle();
-            motion.Pose.Position = set.Origins[mover.Index].Position + displacement.Linear;
-            motion.Pose.Orientation = mover.EndOrientation;
-            motion.Velocity = mover.Velocity;
-            set.WorldInertias[mover.Index].InverseInertiaTensor =
-                Symmetric3x3.RotateInverseInertia(mover.Inertia.InverseInertiaTensor, motion.Pose.Orientation);
-        }
-        mover.Position = new(motion.Pose.Position);
-        mover.Orientation = motion.Pose.Orientation;
+        ref var displacement = ref set.Displacements[mover.Index];
+        displacement.Linear += (mover.PositionAt(dt) - new DoubleVector3(motion.Pose.Position)).ToSingle();
+        displacement.Angular += BodyTurn.Between(motion.Pose.Orientation, mover.EndOrientation, default).ToSingle();
+        motion.Pose.Position = set.Origins[mover.Index].Position + displacement.Linear;
+        motion.Pose.Orientation = mover.EndOrientation;
+        motion.Velocity = mover.Velocity;
+        set.WorldInertias[mover.Index].InverseInertiaTensor =
+            Symmetric3x3.RotateInverseInertia(mover.Inertia.InverseInertiaTensor, motion.Pose.Orientation);
+        mover.CheckedPosition = motion.Pose.Position;
+        mover.CheckedOrientation = motion.Pose.Orientation;
     }
 
-    // Few pairs meet in any substep.
-    int FindEarliest()
-    {
-        var earliest = -1;
-        var time = FastPair.Never;
-        for (int i = 0; i < pairs.Count; ++i)
-        {
-            if (!(pairs[i].Time < time))
-                continue;
-            earliest = i;
-            time = pairs[i].Time;
-        }
-        return earliest;
-    }
-
-    void Find(ref FastPair pair, double from, double dt)
+    void Find(ref FastPair pair, double from, double dt, BufferPool temporary)
     {
         pair.Time = FastPair.Never;
         if (pair.Passes || pair.ImpactCount >= MaximumCount)
@@ -213,10 +258,16 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         Place(pair.B, pair.PoseB, from, out motion.LinearB, out motion.AngularB, out motion.OrientationB, out var positionB);
         motion.OffsetB = positionB - positionA;
         SweepHit hit = default;
+        if (pair.IsSensor)
+        {
+            Sweep(pair, motion, temporary, out hit);
+            pair.Time = hit.Overlaps ? from : hit.Exists ? from + hit.T : FastPair.Never;
+            return;
+        }
         foreach (var part in SkinParts)
         {
             motion.ThinnerPart = part;
-            Sweep(pair, motion, out hit);
+            Sweep(pair, motion, temporary, out hit);
             if (!hit.Overlaps)
                 break;
         }
@@ -244,11 +295,12 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         position = mover.PositionAt(time);
     }
 
-    void Sweep(in FastPair pair, in SweepMotion motion, out SweepHit hit)
+    void Sweep(in FastPair pair, in SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         var children = new AllChildren();
         SweepPairs.Test(motion, pair.ShapeA.Type, simulation.Shapes.GetBatch(pair.ShapeA.Type).GetPointer(pair.ShapeA.Index),
-            pair.ShapeB.Type, simulation.Shapes.GetBatch(pair.ShapeB.Type).GetPointer(pair.ShapeB.Index), ref children, simulation.Shapes, pool, out hit);
+            pair.ShapeB.Type, simulation.Shapes.GetBatch(pair.ShapeB.Type).GetPointer(pair.ShapeB.Index), ref children, simulation.Shapes, temporary,
+            out hit);
     }
 
     struct AllChildren : ISweepFilter
@@ -256,9 +308,18 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         public readonly bool AllowTest(int childA, int childB) => true;
     }
 
-    void MakeImpact(ref FastPair pair, double dt)
+    void MakeImpact(int index, double dt)
     {
+        ref var pair = ref pairs[index];
         var time = pair.Time;
+        if (pair.IsSensor)
+        {
+            // Once is enough to know, and in the order of times: nobody sees a way on which a wall before it has let nothing go.
+            pair.HasPassed = pair.Passes = true;
+            pair.Time = FastPair.Never;
+            times.Change(index, pair.Time);
+            return;
+        }
         if (!pair.IsAsked)
         {
             var manifold = new ConvexContactManifold { Normal = pair.Normal.ToSingle(), Count = 1 };
@@ -269,6 +330,7 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             if (pair.Passes)
             {
                 pair.Time = FastPair.Never;
+                times.Change(index, pair.Time);
                 return;
             }
         }
@@ -285,12 +347,20 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             Stop(pair, ref a, ref b);
         else
             Bounce(ref pair, ref a, ref b);
-        if (pair.A >= 0)
-            a.GoOn(dt);
-        if (pair.B >= 0)
-            b.GoOn(dt);
+        GoOn(pair.A, dt);
+        GoOn(pair.B, dt);
         SweepAgain(pair.A, time, dt);
         SweepAgain(pair.B, time, dt);
+    }
+
+    void GoOn(int body, double dt)
+    {
+        if (body < 0)
+            return;
+        ref var mover = ref movers[body];
+        if (!mover.HasChanged)
+            changed.Add(body, pool);
+        mover.GoOn(dt);
     }
 
     void SweepAgain(int body, double time, double dt)
@@ -298,7 +368,10 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         if (body < 0)
             return;
         for (int i = firstPairs[body]; i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
-            Find(ref pairs[i], time, dt);
+        {
+            Find(ref pairs[i], time, dt, pool);
+            times.Change(i, pairs[i].Time);
+        }
     }
 
     static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b)

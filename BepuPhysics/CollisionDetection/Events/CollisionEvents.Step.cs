@@ -33,6 +33,9 @@ public sealed unsafe partial class CollisionEvents
     /// <summary>Notes that a sensor sees the other of its pair in this step.</summary>
     internal void NoteSensed(in CollidablePair pair) => Add(ref sensed, new() { Pair = pair, IsSensor = true });
 
+    /// <summary>Notes that the way of the other of a sensor's pair is swept in this step. Before the solver runs.</summary>
+    internal void NoteSwept(in CollidablePair pair) => Add(ref added, new() { Pair = pair, IsSensor = true, MayPass = true });
+
     /// <summary>Finds the pairs to tell of, and the contacts to be summed up. Before the solver runs.</summary>
     internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
@@ -68,9 +71,15 @@ public sealed unsafe partial class CollisionEvents
             var order = known == pairs.Count ? 1 : fresh == added.Count ? -1 : ListenedPair.Compare(pairs[known], added[fresh]);
             var pair = order <= 0 ? pairs[known++] : added[fresh];
             var isNoted = order >= 0;
+            var isSensed = false;
+            pair.MayPass = pair.HasPassed = false;
             // A pair is noted for each of its constraints.
             for (; isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0; ++fresh)
+            {
                 pair.Touches |= added[fresh].Touches;
+                pair.MayPass |= added[fresh].MayPass;
+                isSensed |= !added[fresh].MayPass;
+            }
             if (!pair.IsSensor && cache.IsAsleep(pair.Pair))
             {
                 RememberAsleep(pair);
@@ -79,11 +88,11 @@ public sealed unsafe partial class CollisionEvents
             pair.BounceImpulse = 0;
             pair.FirstManifold = stage.Manifolds.Count;
             pair.IsAsleep = pair.IsSensor && !isNoted && Sleeps(pair.Pair);
-            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isNoted : ListContacts(ref pair, ref cache));
+            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isSensed : ListContacts(ref pair, ref cache));
             pair.ManifoldCount = stage.Manifolds.Count - pair.FirstManifold;
-            if (pair.Exists)
+            if (pair.Exists || pair.MayPass)
                 pair.Mask = MaskOf(pair.Pair);
-            if (pair.Mask != EventMask.None && (pair.Exists || pair.Touches))
+            if (pair.Mask != EventMask.None && (pair.Exists || pair.MayPass || pair.Touches))
                 Add(ref spare, pair);
         }
         (pairs, spare) = (spare, pairs);
@@ -129,7 +138,21 @@ public sealed unsafe partial class CollisionEvents
     /// <summary>Adds what a bounce has pushed to the pair, if it is listened to.</summary>
     internal void AddBounce(in CollidablePair pair, float impulse)
     {
-        var wanted = new ListenedPair { Pair = pair };
+        var index = IndexOf(new() { Pair = pair });
+        if (index >= 0)
+            pairs[index].BounceImpulse += impulse;
+    }
+
+    /// <summary>Notes that the way of the other of a pair has met its sensor.</summary>
+    internal void AddPassed(in CollidablePair pair)
+    {
+        var index = IndexOf(new() { Pair = pair, IsSensor = true });
+        if (index >= 0)
+            pairs[index].HasPassed = true;
+    }
+
+    int IndexOf(in ListenedPair wanted)
+    {
         int low = 0;
         int high = pairs.Count;
         while (low < high)
@@ -140,8 +163,7 @@ public sealed unsafe partial class CollisionEvents
             else
                 high = middle;
         }
-        if (low < pairs.Count && ListenedPair.Compare(pairs[low], wanted) == 0)
-            pairs[low].BounceImpulse += impulse;
+        return low < pairs.Count && ListenedPair.Compare(pairs[low], wanted) == 0 ? low : -1;
     }
 
     /// <summary>Tells what has happened. When the solver has ended.</summary>
@@ -171,7 +193,8 @@ public sealed unsafe partial class CollisionEvents
             if (described.Impulse > 0 && described.ApproachSpeed >= hitSpeed)
                 Tell(ref hits, EventMask.Hit, pair, described);
             pair.Touches = touches;
-            if (pair.Exists)
+            // What has passed ends in the next step, unless it is still there.
+            if (pair.Exists || pair.HasPassed)
                 pairs[kept++] = pair;
         }
         pairs.Count = kept;
@@ -188,7 +211,7 @@ public sealed unsafe partial class CollisionEvents
     ContactEvent Describe(in ListenedPair pair, out bool touches)
     {
         var result = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor, Impulse = pair.BounceImpulse, ApproachSpeed = float.NegativeInfinity };
-        touches = pair.BounceImpulse > 0 || (pair.IsSensor && pair.Exists);
+        touches = pair.BounceImpulse > 0 || (pair.IsSensor && (pair.Exists || pair.HasPassed));
         if (pair.ManifoldCount == 0)
         {
             result.ApproachSpeed = 0;

@@ -19,6 +19,8 @@ struct ListenedPair
     public bool IsAsleep;
     public int FirstManifold;
     public int ManifoldCount;
+    /// <summary>Whether it is one of a sensor and of a way that is swept, and whether that way has met the sensor in this step.</summary>
+    public bool MayPass, HasPassed;
     /// <summary>Where the centre of A was when collisions were detected, and that of B relative to it.</summary>
     public Vector3 CenterOfA, OffsetB;
     /// <summary>Sum of the impulses of this step's bounces.</summary>
