@@ -205,7 +205,7 @@ unsafe struct ChildPairs(BufferPool pool)
 
     /// <summary>Whether a parent may have children that it was pressed through.</summary>
     public readonly bool MayHaveSunk(in SeamSet set, in KnownPatches known) =>
-        set.Count < parents[set.Owner].SlotCount && SunkChildren.MayHave(set, Seams.TouchingOf(set), known);
+        set.Count < parents[set.Owner].SlotCount && SunkChildren.MayHave(set, parents[set.Owner].SlotCount, Seams.TouchingOf(set), known);
 
     /// <summary>Keeps a parent in front of these.</summary>
     public void HoldSunk(ref SeamSet set, in KnownPatches known, in LastMotion motion, BufferPool pool) =>

@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics;
 using System.Numerics;
+using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -222,8 +223,16 @@ static class ChildAgreement
     /// <summary>Whether two normals are nearer to each other than those of one surface may be.</summary>
     public static bool HasOneNormal(in Vector3 a, in Vector3 b) => Exact.Dot(a, b) > SameNormal;
 
-    static bool SharesChild(in RankedChild a, in RankedChild b, in ChildIds idsA, in ChildIds idsB) =>
-        idsA.A == idsB.A || idsA.A == AnyChild || idsB.A == AnyChild || (a.Pair == b.Pair && idsA.B == idsB.B);
+    static bool SharesChild(in RankedChild a, in RankedChild b, SeamView view)
+    {
+        ref readonly var idsA = ref view.Result(a).Children;
+        ref readonly var idsB = ref view.Result(b).Children;
+        return idsA.A == idsB.A || idsA.A == AnyChild || idsB.A == AnyChild || (a.Pair == b.Pair && idsA.B == idsB.B) || AreOfSurface(a, b, view);
+    }
+
+    // Triangles of one body are one thing: what its side is stopped by is what its bottom, which has an edge with it, lies on.
+    static bool AreOfSurface(in RankedChild a, in RankedChild b, SeamView view) =>
+        view.Placed(a).TypeA == Triangle.Id && view.Placed(b).TypeA == Triangle.Id;
 
     // Whether one child, in the order of children, may yield to another at all.
     static bool MayYield(in RankedChild child, in RankedChild other, SeamView view)
@@ -232,7 +241,7 @@ static class ChildAgreement
             return false;
         ref var result = ref view.Result(child);
         ref var accepted = ref view.Result(other);
-        return SharesChild(child, other, result.Children, accepted.Children) &&
+        return SharesChild(child, other, view) &&
             Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) is >= LeastCosine and <= SameNormal;
     }
 

@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -75,7 +74,7 @@ static class ForeseenContacts
         ref var placed = ref view.Placed(child);
         var gap = -child.Depth;
         // Two triangles that touch may as well be behind each other: where they would meet says nothing.
-        if (!(gap > 0) || !placed.AreKnown || placed.Motion.Way == default || (placed.TypeA == Triangle.Id && placed.TypeB == Triangle.Id))
+        if (!(gap > 0) || !placed.AreKnown || placed.Motion.Way == default || placed.AreTriangles)
             return false;
         ref var result = ref view.Result(child);
         var normal = result.Manifold.Normal;

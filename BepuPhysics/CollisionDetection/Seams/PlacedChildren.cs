@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -98,13 +99,27 @@ unsafe struct PlacedChildren
         return typeId;
     }
 
-    /// <summary>Radius of a ball that lies in the mover, m; of a triangle, which is flat, that of the other.</summary>
+    /// <summary>Whether both shapes are triangles.</summary>
+    public readonly bool AreTriangles => TypeA == Triangle.Id && TypeB == Triangle.Id;
+
+    /// <summary>
+    /// Radius of a ball that lies in the mover, m; of a triangle, which is flat, that of the other, and if that is one too, of a circle in the mover.
+    /// </summary>
     public readonly float InnerRadius()
     {
+        if (AreTriangles)
+            return InnerRadius((MoverIsB ? ShapeB : ShapeA).Read<Triangle>());
         var radius = MoverIsB ? InnerRadius(TypeB, ShapeB) : InnerRadius(TypeA, ShapeA);
         if (radius > 0)
             return radius;
         return MoverIsB ? InnerRadius(TypeA, ShapeA) : InnerRadius(TypeB, ShapeB);
+    }
+
+    // Twice the area over the length of the border.
+    static float InnerRadius(in Triangle triangle)
+    {
+        var (ab, bc, ca) = (triangle.B - triangle.A, triangle.C - triangle.B, triangle.A - triangle.C);
+        return Exact.Length(Exact.Cross(ab, bc)) / (Exact.Length(ab) + Exact.Length(bc) + Exact.Length(ca));
     }
 
     static float InnerRadius(int typeId, in ShapeCopy shape)

@@ -15,6 +15,10 @@ namespace BepuPhysics.CollisionDetection;
 /// what the pair was held by in the last step, holds the other shape along its own normal, if that is about as deep in it as half of its thickness, and no
 /// deeper than the contacts of the last step and the way since then can have made it.
 /// </para>
+/// <para>
+/// Two triangles, which both have no depth, do not cross any more as soon as one has sunk into the other as a whole. So that is asked for wherever two lie
+/// across what held them: as long as they are no deeper than that was, and their way since then.
+/// </para>
 /// <para>What has come from behind was not held, and is deeper than what holds it. So is what a game has put there.</para>
 /// </remarks>
 static class SunkChildren
@@ -33,10 +37,13 @@ static class SunkChildren
 
     /// <summary>Whether triangles that a pair does not touch may have to hold it: if it touches nothing any more, or is thin along what held it.</summary>
     /// <param name="set">The children of the pair.</param>
+    /// <param name="count">Number of them.</param>
     /// <param name="touching">Those that touch.</param>
     /// <param name="known">What the pair was held by in the last step.</param>
-    public static unsafe bool MayHave(in SeamSet set, ReadOnlySpan<RankedChild> touching, in KnownPatches known)
+    public static unsafe bool MayHave(in SeamSet set, int count, ReadOnlySpan<RankedChild> touching, in KnownPatches known)
     {
+        if (HasSunkFaces(set, count))
+            return true;
         var touches = false;
         foreach (ref readonly var child in touching)
         {
@@ -59,9 +66,42 @@ static class SunkChildren
         return !touches;
     }
 
+    // Two triangles that face each other do not cross any more when one has sunk into the other.
+    static unsafe bool HasSunkFaces(in SeamSet set, int count)
+    {
+        for (int i = 0; i < count; ++i)
+        {
+            if (set.Results[i].Manifold.Count == 0 && set.Placed[i].AreTriangles && IsOneSided(set.Placed[i]))
+                return true;
+        }
+        return false;
+    }
+
     static bool IsOneSided(in PlacedChildren placed) => placed.AreKnown &&
-        (placed.TypeA == Triangle.Id) != (placed.TypeB == Triangle.Id) &&
-        !(placed.TypeA == Triangle.Id ? placed.ShapeA : placed.ShapeB).Read<Triangle>().TwoSided;
+        IsOneSided(placed.TypeA, placed.ShapeA) && IsOneSided(placed.TypeB, placed.ShapeB) && (placed.TypeA == Triangle.Id || placed.TypeB == Triangle.Id);
+
+    static bool IsOneSided(int type, in ShapeCopy shape) => type != Triangle.Id || !shape.Read<Triangle>().TwoSided;
+
+    // Along the front of the triangle that lies across what held the pair; of two, which both have to, along that of the one that is nearer to it.
+    static bool TryFindNormal(in PlacedChildren placed, in KnownPatches known, out Vector3 normal)
+    {
+        var isA = placed.TypeA == Triangle.Id;
+        normal = Exact.Normalize(TriangleNeighbours.FaceVector(placed, isA));
+        if (isA)
+            normal = -normal;
+        var patch = Find(known, normal);
+        if (patch < 0)
+            return false;
+        if (!placed.AreTriangles)
+            return true;
+        var front = Exact.Normalize(TriangleNeighbours.FaceVector(placed, isA: false));
+        var cosine = Exact.Dot(front, known[patch].Normal);
+        if (cosine < LeastCosine)
+            return false;
+        if (cosine >= Exact.Dot(normal, known[patch].Normal))
+            normal = front;
+        return true;
+    }
 
     /// <summary>Adds the children that are held to those of a pair that touch.</summary>
     /// <param name="memory">The set, of which nothing is waited for.</param>
@@ -77,10 +117,7 @@ static class SunkChildren
             ref var placed = ref set.Placed[i];
             if (set.Results[i].Manifold.Count > 0 || !IsOneSided(placed))
                 continue;
-            var isA = placed.TypeA == Triangle.Id;
-            var front = Exact.Normalize(TriangleNeighbours.FaceVector(placed, isA));
-            var normal = isA ? -front : front;
-            if (Find(known, normal) >= 0)
+            if (TryFindNormal(placed, known, out var normal))
                 memory.Tests.Add(placed, normal, float.MaxValue, placed.SpeculativeMargin, i, pool);
         }
         if (memory.Tests.Count == 0)
@@ -96,7 +133,8 @@ static class SunkChildren
             result.Replace(test);
             // A search that begins at the back may stay there.
             result.KeepsHistory &= !(result.Manifold.Count > 0 && result.Manifold.GreatestDepth > 0);
-            if (Holds(result.Manifold, known, motion, set.Placed[test.Owner].InnerRadius()))
+            ref var owner = ref set.Placed[test.Owner];
+            if (Holds(result.Manifold, known, motion, owner.AreTriangles ? 0 : owner.InnerRadius()))
                 memory.Touching.Add(new() { Slot = test.Owner, Class = 1 }, pool);
             else
                 result.Manifold.Count = 0;

@@ -113,7 +113,7 @@ static class TriangleNeighbours
             ref var child = ref view.Ranked[test.Owner];
             child.Class = 1;
             // What is a triangle too may have gone through the neighbour, and be seen by nobody else.
-            child.IsOfNeighbours = test.Manifold.Count == 0 || (!AreTriangles(view.Placed(child)) &&
+            child.IsOfNeighbours = test.Manifold.Count == 0 || (!view.Placed(child).AreTriangles &&
                 Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine);
             if (!child.IsOfNeighbours)
                 view.Result(child).Replace(test);
@@ -160,8 +160,6 @@ static class TriangleNeighbours
     static bool IsBeyond(in PlacedChildren placed, in Vector3 normal, bool isA) =>
         IsSurface(placed, isA) && Create(placed, isA).Violated(isA ? -normal : normal) != default;
 
-    static bool AreTriangles(in PlacedChildren placed) => placed.TypeA == Triangle.Id && placed.TypeB == Triangle.Id;
-
     // Nothing is next to what is no triangle of a surface.
     static bool IsSurface(in PlacedChildren placed, bool isA) =>
         placed.AreKnown && (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;
@@ -193,7 +191,7 @@ static class TriangleNeighbours
         var direction = isA ? -normal : normal;
         // Two triangles that face each other do not meet any more once one has sunk into the other. What holds them then are the triangles beside them,
         // which stand on the face of the other mesh with their edges, along its normal.
-        if (IsFaceNormal(placed, direction, isA) || (AreTriangles(placed) && IsFaceNormal(placed, -direction, !isA)))
+        if (IsFaceNormal(placed, direction, isA) || (placed.AreTriangles && IsFaceNormal(placed, -direction, !isA)))
             return;
         var surface = Create(placed, isA);
         // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
