@@ -145,8 +145,9 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (TBodies.Count > 1) isHub |= BodySlots.At(ref bodies, 1).HubMask;
         if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
         if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
-        var limits = TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints;
-        return TJoint.Spring(prestep).ForSubstep(substep, limits, substep.Hubs, isHub);
+        return TJoint.Kind == RowKind.Servo ?
+            TJoint.Spring(prestep).ForSubstep(substep, substep.Servos, substep.RigidServos, isHub) :
+            TJoint.Spring(prestep).ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub);
     }
 
     // What correcting all of C does to rotations is M^-1 J^T K^-1 C.

@@ -85,13 +85,15 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     /// <summary>Coefficients of the implicit Euler step of the spring, or of its relaxation, where some lanes have limits of their own.</summary>
     /// <param name="substep">The substep, and what its present sweep is for.</param>
     /// <param name="limits">How stiff the kind of constraint may be in it.</param>
-    /// <param name="hubLimits">How stiff it may be besides in lanes of hubs.</param>
-    /// <param name="hubMask">Lanes of hubs.</param>
+    /// <param name="rigid">The coefficients of what a game gave no frequency, by the same limits.</param>
+    /// <param name="hubMask">Lanes of hubs, which have the limits of these besides.</param>
+    // Nearly all joints are rigid, and what is the same for all of these needs not be worked out for each.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal readonly SoftnessWide ForSubstep(
-        in Substep substep, in SubstepStiffness limits, in SubstepStiffness hubLimits, Vector<int> hubMask) => ForSubstep(
-        substep,
-        Least(limits.RigidFrequencyDt, hubLimits.RigidFrequencyDt, hubMask), Least(limits.GreatestFrequencyDt, hubLimits.GreatestFrequencyDt, hubMask));
+    internal readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits, in RigidSoftness rigid, Vector<int> hubMask) =>
+        Vector.EqualsAll(AngularFrequency, Vector<float>.Zero) ? rigid.Widen(hubMask) : ForSubstep(
+            substep,
+            Least(limits.RigidFrequencyDt, substep.Hubs.RigidFrequencyDt, hubMask),
+            Least(limits.GreatestFrequencyDt, substep.Hubs.GreatestFrequencyDt, hubMask));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<float> Least(float limit, float hubLimit, Vector<int> hubMask) =>

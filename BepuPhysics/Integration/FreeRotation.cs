@@ -29,6 +29,10 @@ static class FreeRotation
     // Half of the angle, rad, by which the momentum turns within the body in a substep: a degree takes ten hours at 240 Hz.
     const float LeastPrecession = 1e-9f;
 
+    // Angles, rad, up to which sine and cosine are those of small angles, and one inner step is enough, whatever a sum in another order rounds to.
+    const float GreatestSlowAngle = 1.4f;
+    const float GreatestSingleAngle = AnglePerInnerStep * 0.99f;
+
     /// <summary>Turns by the angular velocity, which stays as it is.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static QuaternionWide Turn(in QuaternionWide orientation, in Vector3Wide angular, Vector<float> dt) =>
@@ -49,6 +53,16 @@ static class FreeRotation
         // A copy, so that what all others go on with need not have an address.
         var copy = rotation;
         return QuaternionWide.Select(isSmall, turn, FromLargeRotation(copy));
+    }
+
+    // Of rotations up to the greatest slow angle, with the same bits.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static QuaternionWide FromSmallRotation(in Vector3Wide rotation)
+    {
+        var half = rotation * new Vector<float>(0.5f);
+        Wide.SinOverAngle(half.LengthSquared(), out var sin, out var cos);
+        var v = half * sin;
+        return new(v.X, v.Y, v.Z, cos);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -97,12 +111,61 @@ static class FreeRotation
     /// <param name="dt">Time, s.</param>
     /// <param name="orientation">Orientation.</param>
     /// <param name="angular">Angular velocity.</param>
+    // Nearly all bodies turn by little in a substep, and the inertia of most is diagonal in their own frame. For these nothing is called, since all that lives
+    // across a call would be in memory, even where that call hardly ever comes. What is read is read part by part: a copy of a whole is made by wider
+    // registers than it was written by, and waits for that.
     [MethodImpl(MethodImplOptions.NoInlining)]
     internal static unsafe void Tumble(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
         ref QuaternionWide orientation, ref Vector3Wide angular)
     {
+        Vector3Wide own = new(angular.X, angular.Y, angular.Z);
+        own = WithoutDust(own, LeastSpeed);
+        QuaternionWide frame = new(orientation.X, orientation.Y, orientation.Z, orientation.W);
+        var turning = own * dt;
+        var slow = new Vector<float>(GreatestSlowAngle * GreatestSlowAngle);
+        if (!Vector.LessThanAll(turning.LengthSquared(), slow) ||
+            !Vector.EqualsAll(IsDiagonal(inverseInertia), Vector<int>.AllBitsSet))
+        {
+            TumbleAny(inverseInertia, frames, indices, dt, ref orientation, ref angular);
+            return;
+        }
+        var tumbles = Tumbles(inverseInertia, own);
+        if (Vector.EqualsAll(tumbles, Vector<int>.Zero))
+        {
+            orientation = Tidy(QuaternionWide.Concatenate(frame, FromSmallRotation(turning)));
+            return;
+        }
+        var local = QuaternionWide.Conjugate(frame) * own;
+        Split(new(inverseInertia.XX, inverseInertia.YY, inverseInertia.ZZ), tumbles, dt, ref local, out var order, out var inverse, out var rate,
+            out var momentum);
+        var worldTurn = (frame * order.FromCycle(momentum)) * dt;
+        var square = momentum.LengthSquared();
+        var isSlow = Vector.LessThan(Wide.Max(worldTurn.LengthSquared(), square * Wide.Max(rate.X * rate.X, rate.Y * rate.Y)), slow) &
+            Vector.LessThan(square * Vector.Abs(rate.X * rate.Y), new Vector<float>(GreatestSingleAngle * GreatestSingleAngle));
+        if (!Vector.EqualsAll(isSlow, Vector<int>.AllBitsSet))
+        {
+            TumbleAny(inverseInertia, frames, indices, dt, ref orientation, ref angular);
+            return;
+        }
+        RotateSlowly(rate.X, rate.Y, momentum, out var change, out var spin);
+        var turnedAngular = Join(order, inverse, FromSmallRotation(worldTurn), own, local, change, spin, ref frame);
+        if (!Vector.EqualsAll(tumbles, Vector<int>.AllBitsSet))
+        {
+            QuaternionWide still = new(orientation.X, orientation.Y, orientation.Z, orientation.W);
+            frame = QuaternionWide.Select(tumbles, frame, Tidy(QuaternionWide.Concatenate(still, FromSmallRotation(turning))));
+            turnedAngular = Vector3Wide.Select(tumbles, turnedAngular, angular);
+        }
+        angular = turnedAngular;
+        orientation = frame;
+    }
+
+    // As above, for any bodies and any speed.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static unsafe void TumbleAny(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
+        ref QuaternionWide orientation, ref Vector3Wide angular)
+    {
         var own = WithoutDust(angular, LeastSpeed);
-        var tumbles = CanTumble(inverseInertia) & ~Vector.Equals(own.LengthSquared(), Vector<float>.Zero);
+        var tumbles = Tumbles(inverseInertia, own);
         var turned = orientation;
         if (!Vector.EqualsAll(tumbles, Vector<int>.AllBitsSet))
         {
@@ -119,37 +182,60 @@ static class FreeRotation
         if (tilts)
             frame = QuaternionWide.Select(isTilted, QuaternionWide.Concatenate(toBody, orientation), orientation);
         var local = QuaternionWide.Conjugate(frame) * own;
+        Split(principal, tumbles, dt, ref local, out var order, out var inverse, out var rate, out var momentum);
+        var about = FromRotationVector((frame * order.FromCycle(momentum)) * dt);
+        var innerSteps = CountInnerSteps(Vector.SquareRoot(momentum.LengthSquared() * Vector.Abs(rate.X * rate.Y)));
+        Rotate(rate.X, rate.Y, innerSteps, momentum, out var change, out var spin);
+        angular = Vector3Wide.Select(tumbles, Join(order, inverse, about, own, local, change, spin, ref frame), angular);
+        if (tilts)
+            frame = QuaternionWide.Select(isTilted, Tidy(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame)), frame);
+        orientation = QuaternionWide.Select(tumbles, frame, turned);
+    }
 
-        // Principal axes in cyclic order with the middle one last: a cyclic change of names keeps the frame right-handed.
-        var middleX = IsBetween(principal.X, principal.Y, principal.Z);
-        var middleY = Vector.AndNot(IsBetween(principal.Y, principal.Z, principal.X), middleX);
-        principal = Cycle(principal, middleX, middleY);
-        local = Cycle(local, middleX, middleY);
+    // Which of a body's principal axes has the middle moment: axes in cyclic order with that one last, as a cyclic change of names keeps a frame right-handed.
+    struct AxisOrder
+    {
+        public Vector<int> MiddleX, MiddleY;
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly Vector3Wide ToCycle(in Vector3Wide v) => Cycle(v, MiddleX, MiddleY);
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly Vector3Wide FromCycle(in Vector3Wide v) => Cycle(v, MiddleY, MiddleX);
+    }
+
+    // Rates: how far the momentum turns about u and v within the time, for what it is about them.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Split(Vector3Wide principal, Vector<int> tumbles, Vector<float> dt, ref Vector3Wide local, out AxisOrder order, out Vector2Wide inverse,
+        out Vector2Wide rate, out Vector3Wide momentum)
+    {
+        order.MiddleX = IsBetween(principal.X, principal.Y, principal.Z);
+        order.MiddleY = Vector.AndNot(IsBetween(principal.Y, principal.Z, principal.X), order.MiddleX);
+        principal = order.ToCycle(principal);
+        local = order.ToCycle(local);
 
         // Lanes that do not tumble compute with unit inertia, so that nothing is divided by zero in them. All moments are in units of the middle one.
         var one = Vector<float>.One;
         principal = Vector3Wide.Select(tumbles, principal, new(one, one, one));
-        var inverseU = principal.X / principal.Z;
-        var inverseV = principal.Y / principal.Z;
-        Vector3Wide momentum = new(local.X / inverseU, local.Y / inverseV, local.Z);
-        var about = FromRotationVector((frame * Cycle(momentum, middleY, middleX)) * dt);
+        inverse.X = principal.X / principal.Z;
+        inverse.Y = principal.Y / principal.Z;
+        momentum = new(local.X / inverse.X, local.Y / inverse.Y, local.Z);
+        rate.X = (inverse.X - one) * dt;
+        rate.Y = (inverse.Y - one) * dt;
+    }
 
-        var rateU = (inverseU - one) * dt;
-        var rateV = (inverseV - one) * dt;
-        var innerSteps = CountInnerSteps(Vector.SquareRoot(momentum.LengthSquared() * Vector.Abs(rateU * rateV)));
-        Rotate(rateU, rateV, innerSteps, momentum, out var change, out var spin);
-
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide Join(in AxisOrder order, in Vector2Wide inverse, in QuaternionWide about, in Vector3Wide own, in Vector3Wide local,
+        in Vector3Wide change, in QuaternionWide spin, ref QuaternionWide frame)
+    {
         // What changes is added to what there is: to take the velocity itself to another frame and back would cost it a rounding in each step, always the same
         // one, and a thousandth in a minute.
-        Vector3Wide localChange = new(change.X * inverseU, change.Y * inverseV, change.Z);
+        Vector3Wide localChange = new(change.X * inverse.X, change.Y * inverse.Y, change.Z);
         localChange += QuaternionWide.Displacement(spin, local + localChange);
-        var turn = Cycle(new Vector3Wide(spin.X, spin.Y, spin.Z), middleY, middleX);
-        var before = frame;
+        var turn = order.FromCycle(new(spin.X, spin.Y, spin.Z));
+        var angular = about * (own + frame * order.FromCycle(localChange));
         frame = Tidy(QuaternionWide.Concatenate(QuaternionWide.Concatenate(new(turn.X, turn.Y, turn.Z, spin.W), frame), about));
-        angular = Vector3Wide.Select(tumbles, about * (own + before * Cycle(localChange, middleY, middleX)), angular);
-        if (tilts)
-            frame = QuaternionWide.Select(isTilted, Tidy(QuaternionWide.Concatenate(QuaternionWide.Conjugate(toBody), frame)), frame);
-        orientation = QuaternionWide.Select(tumbles, frame, turned);
+        return angular;
     }
 
     // Turns the momentum within the body by u / 2, v, u / 2, as often as there are inner steps. Half-steps in the middle join to whole ones.
@@ -166,20 +252,40 @@ static class FreeRotation
             rateV /= innerSteps;
         }
         change = Vector3Wide.Zero;
-        RotateU(rateU * half, momentum, ref change, out var s, out var c);
+        RotateU<AnyTurn>(rateU * half, momentum, ref change, out var s, out var c);
         spin = new(s, Vector<float>.Zero, Vector<float>.Zero, c);
         for (var i = one; !single && Vector.LessThanAny(i, innerSteps); i += one)
         {
             var active = Vector.LessThan(i, innerSteps);
             var nextChange = change;
             var nextSpin = spin;
-            AppendV(rateV, momentum, ref nextChange, ref nextSpin);
-            AppendU(rateU, momentum, ref nextChange, ref nextSpin);
+            AppendV<AnyTurn>(rateV, momentum, ref nextChange, ref nextSpin);
+            AppendU<AnyTurn>(rateU, momentum, ref nextChange, ref nextSpin);
             change = Vector3Wide.Select(active, nextChange, change);
             spin = QuaternionWide.Select(active, nextSpin, spin);
         }
-        AppendV(rateV, momentum, ref change, ref spin);
-        AppendU(rateU * half, momentum, ref change, ref spin);
+        AppendV<AnyTurn>(rateV, momentum, ref change, ref spin);
+        AppendU<AnyTurn>(rateU * half, momentum, ref change, ref spin);
+    }
+
+    // The same in one step, without calls. Bodies with an axis of symmetry turn about one axis of the two alone.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void RotateSlowly(Vector<float> rateU, Vector<float> rateV, in Vector3Wide momentum, out Vector3Wide change, out QuaternionWide spin)
+    {
+        var halfRate = rateU * new Vector<float>(0.5f);
+        change = Vector3Wide.Zero;
+        RotateU<SmallTurn>(halfRate, momentum, ref change, out var s, out var c);
+        spin = new(s, Vector<float>.Zero, Vector<float>.Zero, c);
+        if (Vector.EqualsAll(rateV, Vector<float>.Zero))
+        {
+            // The momentum about u is what it was, and so is the angle.
+            Turn(s, c, momentum.Y + change.Y, momentum.Z + change.Z, ref change.Y, ref change.Z);
+            spin.X = c * s + s * c;
+            spin.W = c * c - s * s;
+            return;
+        }
+        AppendV<SmallTurn>(rateV, momentum, ref change, ref spin);
+        AppendU<SmallTurn>(halfRate, momentum, ref change, ref spin);
     }
 
     // Nothing to conserve for bodies that turn the same way about every axis, or that cannot turn about some.
@@ -187,10 +293,20 @@ static class FreeRotation
     static Vector<int> CanTumble(in Symmetric3x3Wide m)
     {
         var zero = Vector<float>.Zero;
-        var diagonal = Vector.Equals(m.YX, zero) & Vector.Equals(m.ZX, zero) & Vector.Equals(m.ZY, zero);
-        var isotropic = diagonal & Vector.Equals(m.XX, m.YY) & Vector.Equals(m.YY, m.ZZ);
+        var isotropic = IsDiagonal(m) & Vector.Equals(m.XX, m.YY) & Vector.Equals(m.YY, m.ZZ);
         var turns = Vector.GreaterThan(m.XX, zero) & Vector.GreaterThan(m.YY, zero) & Vector.GreaterThan(m.ZZ, zero);
         return Vector.AndNot(turns, isotropic);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> Tumbles(in Symmetric3x3Wide inverseInertia, in Vector3Wide angular) =>
+        CanTumble(inverseInertia) & ~Vector.Equals(angular.LengthSquared(), Vector<float>.Zero);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsDiagonal(in Symmetric3x3Wide m)
+    {
+        var zero = Vector<float>.Zero;
+        return Vector.Equals(m.YX, zero) & Vector.Equals(m.ZX, zero) & Vector.Equals(m.ZY, zero);
     }
 
     // Number of inner steps as a float: a whole number from 1 to the maximum.
@@ -205,31 +321,54 @@ static class FreeRotation
 
     // The body turns about its axis u by rate times L_u; L, fixed in the world, turns the other way in the body. Sine and cosine of half the angle.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void RotateU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
+    static void RotateU<TTurn>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, out Vector<float> s, out Vector<float> c)
+        where TTurn : struct, ITurn
     {
-        Halve(rate * (start.X + change.X), out s, out c);
+        Halve<TTurn>(rate * (start.X + change.X), out s, out c);
         Turn(s, c, start.Y + change.Y, start.Z + change.Z, ref change.Y, ref change.Z);
     }
 
     // The product of quaternions, of which the first is a turn about one axis.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AppendU(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
+    static void AppendU<TTurn>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin) where TTurn : struct, ITurn
     {
-        RotateU(rate, start, ref change, out var s, out var c);
+        RotateU<TTurn>(rate, start, ref change, out var s, out var c);
         spin = new(c * spin.X + s * spin.W, c * spin.Y + s * spin.Z, c * spin.Z - s * spin.Y, c * spin.W - s * spin.X);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AppendV(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin)
+    static void AppendV<TTurn>(Vector<float> rate, in Vector3Wide start, ref Vector3Wide change, ref QuaternionWide spin) where TTurn : struct, ITurn
     {
-        Halve(rate * (start.Y + change.Y), out var s, out var c);
+        Halve<TTurn>(rate * (start.Y + change.Y), out var s, out var c);
         Turn(s, c, start.Z + change.Z, start.X + change.X, ref change.Z, ref change.X);
         spin = new(c * spin.X - s * spin.Z, c * spin.Y + s * spin.W, c * spin.Z + s * spin.X, c * spin.W - s * spin.Y);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Halve(Vector<float> angle, out Vector<float> sin, out Vector<float> cos) =>
-        Wide.SinCos(WithoutDust(angle * new Vector<float>(0.5f), LeastPrecession), out sin, out cos);
+    static void Halve<TTurn>(Vector<float> angle, out Vector<float> sin, out Vector<float> cos) where TTurn : struct, ITurn =>
+        TTurn.SinCos(WithoutDust(angle * new Vector<float>(0.5f), LeastPrecession), out sin, out cos);
+
+    // Sine and cosine of half of an angle by which a body turns; both give the same bits for what is small.
+    interface ITurn
+    {
+        static abstract void SinCos(Vector<float> half, out Vector<float> sin, out Vector<float> cos);
+    }
+
+    struct AnyTurn : ITurn
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void SinCos(Vector<float> half, out Vector<float> sin, out Vector<float> cos) => Wide.SinCos(half, out sin, out cos);
+    }
+
+    struct SmallTurn : ITurn
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void SinCos(Vector<float> half, out Vector<float> sin, out Vector<float> cos)
+        {
+            Wide.SinOverAngle(half * half, out sin, out cos);
+            sin *= half;
+        }
+    }
 
     // Adds what a vector changes by when it turns: 1 - cos a is 2 sin^2 (a / 2), and loses nothing for small angles.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -314,7 +314,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
         var origin = Transpose.Gather(origins, FloatsPerRow, rows);
         pose.Position = new Vector3Wide(origin.R0, origin.R1, origin.R2) + translation;
-        var inverseInertia = localInertia.InverseInertiaTensor;
+        ref readonly var inverseInertia = ref localInertia.InverseInertiaTensor;
         switch (Callbacks.AngularIntegrationMode)
         {
             case AngularIntegrationMode.ConserveMomentum:

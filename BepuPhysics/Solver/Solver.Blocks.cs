@@ -82,7 +82,7 @@ public sealed unsafe partial class Solver
 
     static int StartOfBlock(int block, int blockCount, int bundles) => (int)((long)bundles * block / blockCount);
 
-    void AddSweep(ref SolveWork work, StageKind kind, in Substep substep)
+    void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
         if (!work.ShufflesOrder)
         {
@@ -105,7 +105,7 @@ public sealed unsafe partial class Solver
         }
     }
 
-    void AddBatch(ref SolveWork work, StageKind kind, in Substep substep, int batch, int firstBlock, int blockCount)
+    void AddBatch(ref SolveWork work, StageKind kind, int substep, int batch, int firstBlock, int blockCount)
     {
         if (blockCount == 0)
             return;

@@ -70,7 +70,8 @@ public sealed unsafe partial class Solver
         public int BlocksInRow;
         public SolverPoint Point;
         public int Optional;
-        public Substep Substep;
+        // Index in the list of substeps: to copy one for each stage would take longer than to list the stage.
+        public int Substep;
     }
 
     // Whether the last step changed velocities in an optional stage after its substeps.
@@ -164,6 +165,8 @@ public sealed unsafe partial class Solver
             work.BlocksOfBatch.Dispose(pool);
         if (work.Stages.Span.Allocated)
             work.Stages.Dispose(pool);
+        if (work.Substeps.Span.Allocated)
+            work.Substeps.Dispose(pool);
         if (work.Order.Span.Allocated)
             work.Order.Dispose(pool);
         work.Split.Dispose(pool);
@@ -174,12 +177,13 @@ public sealed unsafe partial class Solver
     {
         BuildOrder(ref work);
         work.Stages = new QuickList<Stage>(64, pool);
+        var relaxes = relaxationIterationCount > 0;
+        work.Substeps = new QuickList<Substep>(relaxes ? 2 * LastSubstepCount : LastSubstepCount, pool);
         Span<int> optional = stackalloc int[OptionalStages.Count * SolverPoints.Count];
         if (!CountOptional(optional))
             optional = default;
         BeginSubstep(ref work, 0);
         AddOptional(ref work, optional, SolverPoint.BeforeSubsteps);
-        var relaxes = relaxationIterationCount > 0;
         for (int substep = 0; substep < LastSubstepCount; ++substep)
         {
             if (substep > 0)
@@ -205,7 +209,7 @@ public sealed unsafe partial class Solver
             if (relaxes)
             {
                 AddIntegration(ref work, IntegrationStage.Poses);
-                var relaxation = SubstepOf(work, substep, isRelaxation: true);
+                var relaxation = AddSubstep(ref work, substep, isRelaxation: true);
                 for (int i = relaxationIterationCount; i > 0; --i)
                     AddSweep(ref work, StageKind.Relax, relaxation);
             }
@@ -231,11 +235,16 @@ public sealed unsafe partial class Solver
     void BeginSubstep(ref SolveWork work, int substep)
     {
         work.Iterations = IterationsOf(substep);
-        work.Substep = SubstepOf(work, substep, isRelaxation: false);
+        work.Substep = AddSubstep(ref work, substep, isRelaxation: false);
     }
 
-    Substep SubstepOf(in SolveWork work, int substep, bool isRelaxation) => new(
-        substep, work.SubstepDt, substep == 0 ? work.FirstWarmStartScale : 1, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt);
+    int AddSubstep(ref SolveWork work, int substep, bool isRelaxation)
+    {
+        var scale = substep == 0 ? work.FirstWarmStartScale : 1;
+        work.Substeps.Add(
+            new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt), pool);
+        return work.Substeps.Count - 1;
+    }
 
     void AddIntegration(ref SolveWork work, IntegrationStage stage)
     {
@@ -302,13 +311,14 @@ public sealed unsafe partial class Solver
         public IPoseIntegrator Integrator;
         public float SubstepDt;
         // The substep for which stages are being listed, and its sweeps.
-        public Substep Substep;
+        public int Substep;
         public int Iterations;
         public float FirstWarmStartScale;
         public SolverBodies Bodies;
         public FreeBodies FreeBodies;
         public FallbackParts Split;
         public QuickList<Stage> Stages;
+        public QuickList<Substep> Substeps;
         public QuickList<Block> Blocks;
         public QuickList<BlockRange> BlocksOfBatch;
         // Batches with joints, in the order in which the present substep sweeps over them if it is random.
@@ -359,13 +369,13 @@ public sealed unsafe partial class Solver
                     Split.Join(ref Solver.bodies.Awake, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
                     break;
                 case StageKind.Optional:
-                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, stage.Substep, blockIndex, WorkerPools?[workerIndex] ?? Solver.pool);
+                    Solver.OptionalStages[stage.Optional].Execute(stage.Point, Substeps[stage.Substep], blockIndex, WorkerPools?[workerIndex] ?? Solver.pool);
                     break;
                 case StageKind.SubstepStarted:
-                    Solver.Raise(Solver.SubstepStarted!, stage.Substep.Index);
+                    Solver.Raise(Solver.SubstepStarted!, Substeps[stage.Substep].Index);
                     break;
                 case StageKind.SubstepEnded:
-                    Solver.Raise(Solver.SubstepEnded!, stage.Substep.Index);
+                    Solver.Raise(Solver.SubstepEnded!, Substeps[stage.Substep].Index);
                     break;
             }
         }
@@ -390,7 +400,7 @@ public sealed unsafe partial class Solver
         readonly void RunConstraints(in Stage stage, BatchKind kind, int index, ref TypeBatch batch, int start, int end)
         {
             var processor = Solver.Processor(batch.TypeId);
-            ref readonly var substep = ref stage.Substep;
+            ref readonly var substep = ref Substeps[stage.Substep];
             if (kind == BatchKind.Fallback)
             {
                 var split = Split.For(index);

@@ -34,6 +34,11 @@ public readonly struct Substep
     /// <summary>How stiff contacts may be.</summary>
     public readonly SubstepStiffness Contacts;
 
+    /// <summary>What joints are that a game gave no frequency.</summary>
+    internal readonly RigidSoftness RigidJoints;
+    /// <summary>What servos are that a game gave no frequency.</summary>
+    internal readonly RigidSoftness RigidServos;
+
     /// <summary>Describes a substep.</summary>
     /// <param name="index">Index within the step, from 0.</param>
     /// <param name="dt">Length, s.</param>
@@ -65,6 +70,8 @@ public readonly struct Substep
         InverseDt = 1 / dt;
         WarmStartScale = warmStartScale;
         IsRelaxation = isRelaxation;
+        RigidJoints = new(this, Joints);
+        RigidServos = new(this, Servos);
     }
 
     Substep(in Substep swept, in SubstepStiffness joints, in SubstepStiffness servos)
@@ -73,6 +80,8 @@ public readonly struct Substep
         Joints = joints;
         Servos = servos;
         Hubs = SubstepStiffness.Direct;
+        RigidJoints = new(this, Joints);
+        RigidServos = new(this, Servos);
     }
 
     /// <summary>The same for joints that are solved all at once: what no sweep could hold.</summary>
