@@ -29,8 +29,9 @@ readonly unsafe struct SupportFinder(
     // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
     // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
     const float RestingSteps = 1;
-    // The same where a body leans, as part of what is quiet: it takes the sweeps some substeps to know the load of an arch, and meanwhile it falls.
-    const float LeaningShare = 0.5f;
+    // How much faster than what is quiet a body that leans may be, and the surfaces of its contacts: some steps of acceleration. An arch that is put down falls
+    // until it knows its load, and where a stone of it is pushed all others move; let go then it would stand on soft contacts, on which a thin one falls.
+    const float LeaningShare = 2;
 
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
     const float SlidingShare = 0.99f;
@@ -100,7 +101,7 @@ readonly unsafe struct SupportFinder(
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
         }
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
-        var quiet = new Vector<float>(quietSteps) * fastest;
+        var quiet = Wide.Select(flat, new Vector<float>(quietSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
         var slides = Vector<int>.Zero;
         var sliding = new Vector<float>(SlidingSteps) * fastest;
         var extent = new Vector<float>(float.MaxValue);
