@@ -3,6 +3,8 @@ using Benchmarks.Compare;
 using Benchmarks.Joints;
 using Benchmarks.Pairs;
 using Benchmarks.Pairs.Shared;
+using Benchmarks.Queries;
+using Benchmarks.Queries.Shared;
 using Benchmarks.Smoke;
 using Benchmarks.Sweeps;
 using Benchmarks.Sweeps.Shared;
@@ -15,6 +17,8 @@ return args switch
     [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
     ["sweeps", ..] => SweepCommand.Run(args[1..]),
     [SweepTimesCommand.Word, string results] => SweepTimesCommand.Run(results),
+    ["queries", ..] => QueryCommand.Run(args[1..]),
+    [QueryTimesCommand.Word, string results] => QueryTimesCommand.Run(results),
     ["smoke"] => SmokeCommand.Run(),
     _ => Measure(args),
 };

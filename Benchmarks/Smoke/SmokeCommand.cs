@@ -1,5 +1,10 @@
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
+using System.IO;
+using System.Linq;
+using Benchmarks.Queries.Shared;
+using Benchmarks.Sweeps.Shared;
 
 namespace Benchmarks.Smoke;
 
@@ -9,17 +14,26 @@ namespace Benchmarks.Smoke;
 /// </summary>
 static class SmokeCommand
 {
+    // What is timed beside a peer, with few cases.
+    static readonly (string Name, Action Run)[] timers =
+    [
+        ("sweeps", () => SweepTimesCommand.Write(TextWriter.Null, 10)),
+        ("queries", () => QueryTimesCommand.Write(TextWriter.Null, 10)),
+    ];
+
     /// <summary>Runs all benchmarks and returns the exit status.</summary>
     public static int Run()
     {
         int passed = 0, failed = 0;
-        foreach (SmokeCase subject in SmokeCase.FindAll(typeof(SmokeCommand).Assembly))
+        IEnumerable<(string Name, Action Run)> subjects =
+            SmokeCase.FindAll(typeof(SmokeCommand).Assembly).Select(subject => (subject.Name, (Action)subject.Run));
+        foreach ((string name, Action run) in subjects.Concat(timers))
         {
             long start = Stopwatch.GetTimestamp();
             string verdict;
             try
             {
-                subject.Run();
+                run();
                 ++passed;
                 verdict = "passed";
             }
@@ -31,7 +45,7 @@ static class SmokeCommand
                 ++failed;
                 verdict = $"FAILED {error}";
             }
-            Console.WriteLine($"{subject.Name}: {verdict}, {Stopwatch.GetElapsedTime(start).TotalMilliseconds:F0} ms");
+            Console.WriteLine($"{name}: {verdict}, {Stopwatch.GetElapsedTime(start).TotalMilliseconds:F0} ms");
         }
         Console.WriteLine($"{passed} passed, {failed} failed");
         return failed == 0 && passed > 0 ? 0 : 1;

@@ -6,16 +6,17 @@ using Demos.Terminal;
 namespace Benchmarks.Sweeps;
 
 /// <summary>Writes outcomes as a table for people and as CSV for the Results folder.</summary>
-static class SweepReport
+/// <param name="outcomes">What came of it.</param>
+/// <param name="headings">What the three names of an outcome are.</param>
+sealed class SweepReport(IReadOnlyList<SweepOutcome> outcomes, string[] headings)
 {
-    public static void Write(TextWriter writer, IReadOnlyList<SweepOutcome> outcomes) => Table(outcomes).Write(writer);
+    public void Write(TextWriter writer) => Table().Write(writer);
 
-    public static void WriteCsv(string path, IReadOnlyList<SweepOutcome> outcomes) => Table(outcomes).WriteCsv(path);
+    public void WriteCsv(string path) => Table().WriteCsv(path);
 
-    static TextTable Table(IReadOnlyList<SweepOutcome> outcomes)
+    TextTable Table()
     {
-        var table = new TextTable("world", "shape", "motion", ">ours thousands/s", ">peer thousands/s",
-            ">peer/ours", ">least", ">greatest", ">ours hit", ">peer hit");
+        var table = new TextTable([.. headings, ">ours thousands/s", ">peer thousands/s", ">peer/ours", ">least", ">greatest", ">ours hit", ">peer hit"]);
         foreach (SweepOutcome outcome in outcomes)
         {
             double[] ratios = outcome.Ratios;
@@ -27,5 +28,6 @@ static class SweepReport
         return table;
     }
 
-    static string Text(double value, string format) => value.ToString(format, CultureInfo.InvariantCulture);
+    // A peer that cannot be asked has no time.
+    static string Text(double value, string format) => double.IsNaN(value) ? "-" : value.ToString(format, CultureInfo.InvariantCulture);
 }

@@ -40,6 +40,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         /// <summary>Pairs until the worker tells how many it has found.</summary>
         public int PairsLeft;
         public int SkippedPairCount;
+        public int RefusedPairCount;
         /// <summary>Manifold of the pair that is expanded which comes next, in the order of children.</summary>
         public int NextManifold;
     }
@@ -107,7 +108,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
 
     internal override void DisposeCallbacks() => Callbacks.Dispose();
 
-    void TestPair(int workerIndex, CollidablePair pair, int cacheIndex)
+    // The margin is negative where the game was not asked yet.
+    void TestPair(int workerIndex, CollidablePair pair, int cacheIndex, float askedMargin)
     {
         var a = pair.A;
         var b = pair.B;
@@ -138,13 +140,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             mode |= setB.Collidables[locationB.Index].Continuity.Mode;
             margin += setB.Collidables[locationB.Index].SpeculativeMargin;
             poseB = ref setB.MotionStates[locationB.Index].Pose;
-            if (Simulation.Solver.HasApart && Simulation.Solver.KeepsApart(pair.A.BodyHandle, pair.B.BodyHandle))
-                return;
         }
-        var ownMargin = margin;
-        if (!Callbacks.AllowContactGeneration(workerIndex, a, b, ref margin))
+        if (askedMargin >= 0)
+            margin = askedMargin;
+        else if (!IsAllowed(workerIndex, pair, ref margin))
             return;
-        CallbackChecks.Margin(ref margin, ownMargin, a, b);
         if (isSensor)
             margin = 0;
         var offsetB = poseB.Position - poseA.Position;

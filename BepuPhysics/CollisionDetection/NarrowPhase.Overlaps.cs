@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.TaskScheduling;
@@ -8,7 +9,15 @@ namespace BepuPhysics.CollisionDetection;
 // From overlapping bounds to pairs that are tested.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
+    /// <summary>Active leaves up to which the game is asked about a pair as soon as it is found.</summary>
+    // So many bodies' margins stay in the second cache, so that a pair need not wait for them.
+    const int LeavesToAskFirst = 4096;
+    const float NotAsked = -1;
+
     Crowd crowd;
+    bool asksFirst;
+    // Pairs that were refused in the last step: nothing of a step depends on it but the time that it takes.
+    long refusedPairCount;
 
     // Receives overlapping pairs of the broad phase.
     readonly struct Overlaps(NarrowPhase<TCallbacks> narrowPhase, BroadPhase broadPhase) : IBroadPhaseOverlapHandler
@@ -49,10 +58,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 TryTestPairs(count, dt, dispatcher);
             }
             AgreeAtSeams(count, dispatcher);
-            var skipped = 0L;
+            long skipped = 0, refused = 0;
             for (int i = 0; i < count; ++i)
+            {
                 skipped += workers[i].SkippedPairCount;
+                refused += workers[i].RefusedPairCount;
+            }
             SkippedPairCount = skipped;
+            refusedPairCount = refused;
         }
         catch
         {
@@ -72,6 +85,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     bool TryTestPairs(int workerCount, float dt, IThreadDispatcher? dispatcher)
     {
         Pairs.BeginStep();
+        asksFirst = IsWorthAskingFirst(Simulation.BroadPhase.ActiveTree.LeafCount);
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
         var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
@@ -123,7 +137,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // What is remembered waits again, with whichever worker finds it.
         worker.Statics.Room = Math.Max(room, Math.Min(AgreedPairs.Pairs.Length, 2 * AgreedPairs.Pairs.Length / workerCount));
         worker.PairsLeft = Crowd.PairsPerReport;
-        worker.SkippedPairCount = 0;
+        worker.SkippedPairCount = worker.RefusedPairCount = 0;
     }
 
     // Tests what is left in the batchers of all workers.
@@ -138,8 +152,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public readonly void Execute(int stage, int block, int workerIndex)
         {
             NarrowPhase.World.MarkWorker();
-            while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair))
-                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair));
+            while (NarrowPhase.workers[block].Queue.TryTakeLast(out var pair, out var margin))
+                NarrowPhase.TestPair(block, pair, NarrowPhase.Pairs.Pairs.IndexOf(pair), margin);
             NarrowPhase.workers[block].Batcher.Flush();
             NarrowPhase.workers[block].Contacts.Flush(NarrowPhase.Simulation.Solver);
         }
@@ -159,9 +173,48 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var worker = ref workers[workerIndex];
         if (leafB >= 0 && !Admits(ref worker, leafA, leafB))
             return;
-        worker.Queue.Add(Pairs, Simulation.Bodies, Simulation.Statics, new(a, b));
-        if (worker.Queue.TryTake(out var pair, out var guess))
-            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess));
+        var found = new CollidablePair(a, b);
+        var margin = NotAsked;
+        if (asksFirst && !AskFirst(workerIndex, found, ref margin))
+            return;
+        worker.Queue.Add(Pairs, Simulation.Bodies, Simulation.Statics, found, margin);
+        if (worker.Queue.TryTake(out var pair, out var guess, out margin))
+            TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess), margin);
+    }
+
+    // Only where many were refused in the last step. Of a pair with a sensor the game is asked only if somebody listens.
+    bool IsWorthAskingFirst(int leafCount) =>
+        leafCount <= LeavesToAskFirst && refusedPairCount > leafCount / 2 && !Simulation.Events.UsesSensors;
+
+    // A pair that is refused here is spared the queue: parts of one character are most of the pairs that it has.
+    bool AskFirst(int workerIndex, in CollidablePair pair, ref float margin)
+    {
+        margin = MarginOf(pair.A);
+        if (pair.B.Mobility != CollidableMobility.Static)
+            margin += MarginOf(pair.B);
+        return IsAllowed(workerIndex, pair, ref margin);
+    }
+
+    float MarginOf(CollidableReference body)
+    {
+        ref var location = ref Simulation.Bodies.Locations[body.Slot];
+        return Simulation.Bodies.SetOf(location).Collidables[location.Index].SpeculativeMargin;
+    }
+
+    /// <summary>Whether contacts of a pair are looked for, and within which margin.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    bool IsAllowed(int workerIndex, in CollidablePair pair, ref float margin)
+    {
+        var ownMargin = margin;
+        if ((pair.B.Mobility != CollidableMobility.Static && Simulation.Solver.HasApart
+            && Simulation.Solver.KeepsApart(pair.A.BodyHandle, pair.B.BodyHandle))
+            || !Callbacks.AllowContactGeneration(workerIndex, pair.A, pair.B, ref margin))
+        {
+            ++workers[workerIndex].RefusedPairCount;
+            return false;
+        }
+        CallbackChecks.Margin(ref margin, ownMargin, pair.A, pair.B);
+        return true;
     }
 
     bool Admits(ref Worker worker, int leafA, int leafB)

@@ -27,7 +27,14 @@ unsafe struct PairQueue
         int first;
     }
 
+    [InlineArray(Length)]
+    struct Margins
+    {
+        float first;
+    }
+
     Ring pairs;
+    Margins margins;
     // Index in the cache that a pair most likely has.
     Elements elements;
     // Unsigned, so that a place in the ring is a mask.
@@ -41,9 +48,10 @@ unsafe struct PairQueue
     public void Clear() => added = taken = 0;
 
     /// <summary>Adds a pair. There must be room: <see cref="TryTake"/> after each.</summary>
-    public void Add(in PairCache cache, Bodies bodies, Statics statics, CollidablePair pair)
+    public void Add(in PairCache cache, Bodies bodies, Statics statics, CollidablePair pair, float margin)
     {
         pairs[Place(added)] = pair;
+        margins[Place(added)] = margin;
         cache.Pairs.PrefetchSlot(pair);
         if (added - taken >= StageLength)
         {
@@ -92,9 +100,11 @@ unsafe struct PairQueue
     /// <summary>Takes the oldest pair when its turn has come.</summary>
     /// <param name="pair">The pair.</param>
     /// <param name="guess">Its index in the cache, or that of another; negative where it is in none.</param>
-    public bool TryTake(out CollidablePair pair, out int guess)
+    /// <param name="margin">What was added with it.</param>
+    public bool TryTake(out CollidablePair pair, out int guess, out float margin)
     {
         pair = pairs[Place(taken)];
+        margin = margins[Place(taken)];
         guess = elements[Place(taken)];
         if (added - taken < 3 * StageLength)
             return false;
@@ -103,9 +113,10 @@ unsafe struct PairQueue
     }
 
     /// <summary>Takes the oldest pair whether its turn has come or not; false when there is none.</summary>
-    public bool TryTakeLast(out CollidablePair pair)
+    public bool TryTakeLast(out CollidablePair pair, out float margin)
     {
         pair = pairs[Place(taken)];
+        margin = margins[Place(taken)];
         if (added == taken)
             return false;
         ++taken;

@@ -118,35 +118,59 @@ public unsafe partial struct Tree
     readonly void Traverse<TTest, TVisitor>(in TTest test, ref float maximumT, ref TVisitor visitor)
         where TTest : struct, IBoxTest where TVisitor : ILeafVisitor, allows ref struct
     {
-        if (LeafCount == 0)
+        // One query goes through two trees: the first may have ended it.
+        if (LeafCount == 0 || maximumT < 0)
             return;
         var children = Children;
         var stack = stackalloc PendingVisit[TraversalStackSize];
-        var count = 1;
-        stack[0] = default;
-        while (count > 0)
+        var count = 0;
+        var index = 0;
+        while (true)
         {
-            var visit = stack[--count];
-            // The callback may have shortened the query since this was put here.
-            if (visit.T > maximumT)
-                continue;
-            if (visit.Index < 0)
+            if (index < 0)
             {
-                visitor.Visit(~visit.Index, ref maximumT);
-                continue;
+                visitor.Visit(~index, ref maximumT);
             }
-            var a = children + 2 * visit.Index;
-            var b = a + 1;
-            var meetsA = test.Meets(a, maximumT, out var tA);
-            var meetsB = test.Meets(b, maximumT, out var tB);
-            var nearIsA = tA <= tB;
-            var far = nearIsA ? new PendingVisit { Index = b->Index, T = tB } : new PendingVisit { Index = a->Index, T = tA };
-            var near = nearIsA ? new PendingVisit { Index = a->Index, T = tA } : new PendingVisit { Index = b->Index, T = tB };
-            // Written in any case, counted when met: no branch on a coin toss.
-            stack[count] = far;
-            count += (nearIsA ? meetsB : meetsA) ? 1 : 0;
-            stack[count] = near;
-            count += (nearIsA ? meetsA : meetsB) ? 1 : 0;
+            else
+            {
+                // Branches, though they are coin tosses: without any, each node would wait for the one before, which is three times as long as
+                // a guess costs in the mean.
+                var a = children + 2 * index;
+                var b = a + 1;
+                var meetsA = test.Meets(a, maximumT, out var tA);
+                var meetsB = test.Meets(b, maximumT, out var tB);
+                if (meetsA)
+                {
+                    index = a->Index;
+                    if (meetsB)
+                    {
+                        if (tA <= tB)
+                        {
+                            stack[count++] = new() { Index = b->Index, T = tB };
+                        }
+                        else
+                        {
+                            stack[count++] = new() { Index = index, T = tA };
+                            index = b->Index;
+                        }
+                    }
+                    continue;
+                }
+                if (meetsB)
+                {
+                    index = b->Index;
+                    continue;
+                }
+            }
+            // A callback may have shortened the query since these were put here.
+            do
+            {
+                if (count == 0)
+                    return;
+                --count;
+            }
+            while (stack[count].T > maximumT);
+            index = stack[count].Index;
         }
     }
 }

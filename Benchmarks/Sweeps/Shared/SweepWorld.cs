@@ -28,20 +28,18 @@ sealed class SweepWorld : IDisposable
     /// <summary>Length of a sweep that goes on for a second, m.</summary>
     const float Length = 10;
 
-    readonly BufferPool pool = new();
-    readonly Simulation simulation;
     readonly Random random = new(11);
-    readonly ConvexHull sweptHull;
+    readonly bool isTerrain;
 
     public SweepWorld(string name)
     {
-        simulation = Simulation.Create(pool, new NoContacts(), new NoMotion(), new SolveDescription(1, 1));
-        var isTerrain = name == Names[1];
+        Simulation = Simulation.Create(Pool, new NoContacts(), new NoMotion(), new SolveDescription(1, 1));
+        isTerrain = name == Names[1];
         if (isTerrain)
             AddTerrain();
         else
             AddShapes();
-        sweptHull = CreateHull(.25f);
+        Hull = CreateHull(.25f);
         Reach = isTerrain ? CellCount * .4f : Extent;
         Floor = isTerrain ? 0 : -Extent;
         Ceiling = isTerrain ? 8 : Extent;
@@ -50,9 +48,24 @@ sealed class SweepWorld : IDisposable
     /// <summary>Ends the world with all its memory, that of its shapes included.</summary>
     public void Dispose()
     {
-        simulation.Dispose();
-        pool.Clear();
+        Simulation.Dispose();
+        Pool.Clear();
     }
+
+    /// <summary>Memory of the world, and of its queries.</summary>
+    public BufferPool Pool { get; } = new();
+
+    /// <summary>The world itself.</summary>
+    public Simulation Simulation { get; }
+
+    /// <summary>The sphere that goes through the world.</summary>
+    public static Sphere Sphere => new(.25f);
+
+    /// <summary>The box that goes through the world.</summary>
+    public static Box Box => new(.5f, .3f, .4f);
+
+    /// <summary>The hull that goes through the world.</summary>
+    public ConvexHull Hull { get; }
 
     float Reach { get; }
 
@@ -67,19 +80,19 @@ sealed class SweepWorld : IDisposable
         {
             boxes[i] = (i % 4) switch
             {
-                0 => simulation.Shapes.Add(new Sphere(Size())),
-                1 => simulation.Shapes.Add(new Capsule(Size() * .5f, Size())),
-                2 => simulation.Shapes.Add(new Cylinder(Size(), Size())),
-                _ => simulation.Shapes.Add(new Box(2 * Size(), 2 * Size(), 2 * Size())),
+                0 => Simulation.Shapes.Add(new Sphere(Size())),
+                1 => Simulation.Shapes.Add(new Capsule(Size() * .5f, Size())),
+                2 => Simulation.Shapes.Add(new Cylinder(Size(), Size())),
+                _ => Simulation.Shapes.Add(new Box(2 * Size(), 2 * Size(), 2 * Size())),
             };
         }
         for (int i = 0; i < StaticCount; ++i)
-            simulation.Statics.Add(new StaticDescription(new RigidPose(Place(Extent, -Extent, Extent), Turn()), boxes[i % boxes.Length]));
+            Simulation.Statics.Add(new StaticDescription(new RigidPose(Place(Extent, -Extent, Extent), Turn()), boxes[i % boxes.Length]));
     }
 
     void AddTerrain()
     {
-        pool.Take<Triangle>(2 * CellCount * CellCount, out var triangles);
+        Pool.Take<Triangle>(2 * CellCount * CellCount, out var triangles);
         for (int i = 0; i < CellCount * CellCount; ++i)
         {
             int x = i / CellCount, z = i % CellCount;
@@ -88,8 +101,8 @@ sealed class SweepWorld : IDisposable
             triangles[2 * i] = new Triangle(a, c, b);
             triangles[2 * i + 1] = new Triangle(b, c, d);
         }
-        var mesh = new Mesh(triangles, Vector3.One, pool);
-        simulation.Statics.Add(new StaticDescription(RigidPose.Identity, simulation.Shapes.Add(mesh)));
+        var mesh = new Mesh(triangles, Vector3.One, Pool);
+        Simulation.Statics.Add(new StaticDescription(RigidPose.Identity, Simulation.Shapes.Add(mesh)));
     }
 
     static Vector3 Hill(int row, int column)
@@ -103,7 +116,7 @@ sealed class SweepWorld : IDisposable
         var points = new Vector3[14];
         for (int i = 0; i < points.Length; ++i)
             points[i] = Direction() * size;
-        return new ConvexHull(points, pool, out _);
+        return new ConvexHull(points, Pool, out _);
     }
 
     float Size() => .25f + .5f * random.NextSingle();
@@ -141,20 +154,37 @@ sealed class SweepWorld : IDisposable
         return cases;
     }
 
+    /// <summary>Makes places that may be in something: in the terrain they are up to half a metre above it.</summary>
+    public Case[] CreatePlaces(int count)
+    {
+        var cases = new Case[count];
+        foreach (ref var place in cases.AsSpan())
+        {
+            var position = Place(Reach, Floor, Ceiling);
+            if (isTerrain)
+            {
+                int x = (int)MathF.Floor(position.X), z = (int)MathF.Floor(position.Z);
+                position = Hill(x + CellCount / 2, z + CellCount / 2) + new Vector3(0, .5f * random.NextSingle(), 0);
+            }
+            place = new(new RigidPose(position, Turn()), Direction() * Length);
+        }
+        return cases;
+    }
+
     /// <summary>Does one sweep.</summary>
     public NearestHit Sweep(string shape, in Case sweep, float maximumT = 1)
     {
         var hit = new NearestHit();
         if (shape == Shapes[0])
-            simulation.Sweep(new Sphere(.25f), sweep.Pose, sweep.Velocity, maximumT, pool, ref hit);
+            Simulation.Sweep(Sphere, sweep.Pose, sweep.Velocity, maximumT, Pool, ref hit);
         else if (shape == Shapes[1])
-            simulation.Sweep(new Box(.5f, .3f, .4f), sweep.Pose, sweep.Velocity, maximumT, pool, ref hit);
+            Simulation.Sweep(Box, sweep.Pose, sweep.Velocity, maximumT, Pool, ref hit);
         else if (shape == Shapes[2])
-            simulation.Sweep(new Capsule(.2f, .5f), sweep.Pose, sweep.Velocity, maximumT, pool, ref hit);
+            Simulation.Sweep(new Capsule(.2f, .5f), sweep.Pose, sweep.Velocity, maximumT, Pool, ref hit);
         else if (shape == Shapes[3])
-            simulation.Sweep(new Cylinder(.25f, .4f), sweep.Pose, sweep.Velocity, maximumT, pool, ref hit);
+            Simulation.Sweep(new Cylinder(.25f, .4f), sweep.Pose, sweep.Velocity, maximumT, Pool, ref hit);
         else
-            simulation.Sweep(sweptHull, sweep.Pose, sweep.Velocity, maximumT, pool, ref hit);
+            Simulation.Sweep(Hull, sweep.Pose, sweep.Velocity, maximumT, Pool, ref hit);
         return hit;
     }
 }
