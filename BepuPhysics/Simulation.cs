@@ -162,6 +162,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
             Shapes.MakeRoomFor(sizes.ShapesPerType);
     }
 
+    internal bool IsDisposed => world.HasEnded;
+
     /// <summary>Returns all memory to the pool. From then on everything but a second call is refused.</summary>
     /// <exception cref="InvalidOperationException">A step or a query is in progress, or another simulation uses the shapes; nothing was changed.</exception>
     public void Dispose()

@@ -37,24 +37,28 @@ static class QueryEngine
 
     static QuickestTime.Question? Create<TShape>(SweepWorld world, string query, TShape shape) where TShape : unmanaged, IConvexShape => query switch
     {
-        QueryNames.Bounds => (in SweepWorld.Case place) =>
-        {
-            var counter = new Counter();
-            var half = new Vector3(QueryNames.HalfWidth);
-            world.Simulation.BroadPhase.GetOverlaps(place.Pose.Position - half, place.Pose.Position + half, world.Pool, ref counter);
-            return counter.Count;
-        },
+        QueryNames.Bounds => (in SweepWorld.Case place) => CountBounds(world, place),
         QueryNames.Overlap => (in SweepWorld.Case place) => world.Simulation.OverlapsAny(shape, place.Pose, world.Pool) ? 1 : 0,
-        QueryNames.Contacts => (in SweepWorld.Case place) =>
-        {
-            var counter = new Counter();
-            world.Simulation.FindContacts(shape, place.Pose, 0, world.Pool, ref counter);
-            return counter.Count;
-        },
+        QueryNames.Contacts => (in SweepWorld.Case place) => CountContacts(world, shape, place),
         QueryNames.Nearest => (in SweepWorld.Case place) =>
             world.Simulation.FindNearest(shape, place.Pose, QueryNames.Reach, world.Pool, out _) ? 1 : 0,
         _ => null,
     };
+
+    static int CountBounds(SweepWorld world, in SweepWorld.Case place)
+    {
+        var counter = new Counter();
+        var half = new Vector3(QueryNames.HalfWidth);
+        world.Simulation.BroadPhase.GetOverlaps(place.Pose.Position - half, place.Pose.Position + half, world.Pool, ref counter);
+        return counter.Count;
+    }
+
+    static int CountContacts<TShape>(SweepWorld world, in TShape shape, in SweepWorld.Case place) where TShape : unmanaged, IConvexShape
+    {
+        var counter = new Counter();
+        world.Simulation.FindContacts(shape, place.Pose, 0, world.Pool, ref counter);
+        return counter.Count;
+    }
 
     struct Counter : IBreakableForEach<CollidableReference>, IShapeContactHandler
     {

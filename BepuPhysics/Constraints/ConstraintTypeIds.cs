@@ -42,6 +42,9 @@ public static class ConstraintTypeIds
     internal const int Gear = 57;
     internal const int Rack = 58;
     internal const int Pulley = 59;
+    // Registered by character controllers alone.
+    internal const int StaticCharacterMotion = 60;
+    internal const int DynamicCharacterMotion = 61;
 
     /// <summary>Type id of a convex contact constraint.</summary>
     /// <param name="contactCount">Number of contacts, 1 to 4.</param>

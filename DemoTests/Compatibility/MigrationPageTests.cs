@@ -34,7 +34,7 @@ public partial class MigrationPageTests
         ["Bodies.ActiveSet.Constraints"] = "BodyConstraintsTests.Constraints_are_listed_in_the_order_in_which_they_were_added",
         ["a body of Solver.Constrained"] = "MigrationTests.Kinematic_bodies_with_constraints_are_found",
         ["batcher.CacheShapeB"] = "SmallNamesTests.A_cached_shape_is_added_directly",
-        ["the constraints of the character"] = "CharacterMotionTests.It_is_made_of_the_public_interface_alone",
+        ["the constraints of the character"] = "CharacterWalkTests.It_goes_round_with_a_turning_platform",
         ["rays of a"] = "SmallNamesTests.Batched_rays_hit_what_single_ones_hit",
         ["default(SpringSettings)"] = "MigrationTests.Springs_without_a_frequency_are_rigid",
         ["a frequency above"] = "MigrationTests.Frequencies_are_capped",

@@ -1,17 +1,15 @@
 using System;
-using System.Linq;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics;
+using BepuPhysics.Characters;
 using BepuPhysics.Collidables;
 using Demos.Accuracy;
-using Demos.Characters;
 using DemoTests.Scenes;
 using Xunit;
 
 namespace DemoTests.Constraints;
 
-/// <summary>A constraint type that a game makes for its characters, with forces capped and a surface that changes in each step.</summary>
+/// <summary>The constraint that moves characters, with forces capped and a surface that changes in each step.</summary>
 public class CharacterMotionTests
 {
     const float Mass = 4;
@@ -27,15 +25,6 @@ public class CharacterMotionTests
         MaximumVerticalForce = 100,
         TargetVelocity = velocity,
     };
-
-    /// <summary>What Demos can use is what a game can use.</summary>
-    [Fact]
-    public void It_is_made_of_the_public_interface_alone()
-    {
-        var friends = typeof(Simulation).Assembly.GetCustomAttributes(typeof(InternalsVisibleToAttribute), false).Cast<InternalsVisibleToAttribute>();
-        var demos = typeof(StaticCharacterMotion).Assembly.GetName().Name;
-        Assert.DoesNotContain(friends, friend => friend.AssemblyName.Split(',')[0] == demos);
-    }
 
     [Theory, InlineData(0), InlineData(1)]
     public void It_speeds_up_by_its_force_and_keeps_its_speed(int relaxations)

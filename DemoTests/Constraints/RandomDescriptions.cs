@@ -23,6 +23,7 @@ static class RandomDescriptions
 
     /// <summary>Descriptions that the library has, by id, registered or not; contacts have none.</summary>
     public static IReadOnlyDictionary<int, Type> Descriptions { get; } = typeof(Solver).Assembly.GetTypes()
+        .Where(type => type.Namespace == typeof(ConstraintTypeIds).Namespace)
         .Where(type => type.IsValueType && type.GetInterfaces().Any(i => i.IsGenericType && i.GetGenericTypeDefinition() == typeof(IConstraintDescription<>)))
         .ToDictionary(type => (int)type.GetProperty(nameof(BallSocket.ConstraintTypeId))!.GetValue(null)!);
 

@@ -18,8 +18,8 @@ public sealed class DocSamplesTests : IDisposable
 {
     static readonly string[] sampleFiles =
     [
-        "DemoTests/Quality/DocSamples.cs", "DemoTests/Quality/DocSamples.Events.cs", "DemoTests/Quality/DocSamples.FastThings.cs",
-        "DemoTests/Quality/DocSamples.Nearby.cs", "DemoTests/Quality/DocSamples.Rays.cs", "DemoTests/Quality/DocSamples.Rollback.cs", "DemoTests/Quality/DocSamples.Sweeps.cs",
+        "DemoTests/Quality/DocSamples.cs",
+        .. new[] { "Characters", "Events", "FastThings", "Nearby", "Rays", "Rollback", "Sweeps" }.Select(name => $"DemoTests/Quality/DocSamples.{name}.cs"),
     ];
 
     const float Dt = 1 / 60f;

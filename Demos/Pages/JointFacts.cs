@@ -19,7 +19,9 @@ sealed record JointFacts(Type Description, int TypeId, int BodyCount, int RowCou
     public static IReadOnlyList<JointFacts> All { get; } =
     [
         .. typeof(Solver).Assembly.GetTypes()
-            .Where(type => type.IsValueType && type.GetInterfaces().Any(IsDescription)).OrderBy(type => type.Name, StringComparer.Ordinal).Select(Of),
+            // What characters register for themselves is no joint.
+            .Where(type => type.IsValueType && type.Namespace == typeof(Hinge).Namespace && type.GetInterfaces().Any(IsDescription))
+            .OrderBy(type => type.Name, StringComparer.Ordinal).Select(Of),
     ];
 
     /// <summary>Name of the type.</summary>

@@ -1,10 +1,11 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 
-namespace Demos.Characters;
+namespace BepuPhysics.Characters;
 
-/// <summary>What both descriptions begin with, widened.</summary>
+/// <summary>What both descriptions begin with, widened: the same fields in the same order.</summary>
 struct CharacterGoalWide
 {
     public QuaternionWide SurfaceBasis;
@@ -12,6 +13,8 @@ struct CharacterGoalWide
     public Vector<float> MaximumVerticalForce;
     public Vector2Wide TargetVelocity;
     public Vector<float> Depth;
+    public Vector<float> RisingVelocity;
+    public Vector<float> MaximumRisingForce;
     public Vector3Wide OffsetFromCharacter;
 }
 
@@ -21,23 +24,38 @@ interface ICharacterMotionWide<TSelf> where TSelf : unmanaged, ICharacterMotionW
     static abstract void Read(in TSelf wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport);
 }
 
-/// <summary>A bundle of <see cref="StaticCharacterMotion"/>.</summary>
+/// <summary>A bundle of <see cref="StaticCharacterMotion"/>: the goal, field by field.</summary>
 struct StaticCharacterMotionWide : IWide<StaticCharacterMotion>, ICharacterMotionWide<StaticCharacterMotionWide>
 {
-    public CharacterGoalWide Goal;
+    public QuaternionWide SurfaceBasis;
+    public Vector<float> MaximumHorizontalForce;
+    public Vector<float> MaximumVerticalForce;
+    public Vector2Wide TargetVelocity;
+    public Vector<float> Depth;
+    public Vector<float> RisingVelocity;
+    public Vector<float> MaximumRisingForce;
+    public Vector3Wide OffsetFromCharacterToSupportPoint;
 
     public static void Read(in StaticCharacterMotionWide wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport) =>
-        (goal, offsetFromSupport) = (wide.Goal, default);
+        (goal, offsetFromSupport) = (Unsafe.As<StaticCharacterMotionWide, CharacterGoalWide>(ref Unsafe.AsRef(in wide)), default);
 }
 
-/// <summary>A bundle of <see cref="DynamicCharacterMotion"/>.</summary>
+/// <summary>A bundle of <see cref="DynamicCharacterMotion"/>: the goal, field by field, and where the support is.</summary>
 struct DynamicCharacterMotionWide : IWide<DynamicCharacterMotion>, ICharacterMotionWide<DynamicCharacterMotionWide>
 {
-    public CharacterGoalWide Goal;
-    public Vector3Wide OffsetFromSupport;
+    public QuaternionWide SurfaceBasis;
+    public Vector<float> MaximumHorizontalForce;
+    public Vector<float> MaximumVerticalForce;
+    public Vector2Wide TargetVelocity;
+    public Vector<float> Depth;
+    public Vector<float> RisingVelocity;
+    public Vector<float> MaximumRisingForce;
+    public Vector3Wide OffsetFromCharacterToSupportPoint;
+    public Vector3Wide OffsetFromSupportToSupportPoint;
 
     public static void Read(in DynamicCharacterMotionWide wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport) =>
-        (goal, offsetFromSupport) = (wide.Goal, wide.OffsetFromSupport);
+        (goal, offsetFromSupport) =
+            (Unsafe.As<DynamicCharacterMotionWide, CharacterGoalWide>(ref Unsafe.AsRef(in wide)), wide.OffsetFromSupportToSupportPoint);
 }
 
 /// <summary>Impulses on the character: along the surface's X and Z, and along its Y.</summary>
@@ -50,7 +68,8 @@ struct CharacterMotionImpulses
 /// <summary>The mathematics of both, one body or two.</summary>
 // u = vA + wA x rA - vB - wB x rB, the velocity of the character's supporting point against the support's; x, y, z the axes of the surface
 // Horizontal: [ x u ; z u ] = [ target.X ; -target.Y ], its impulse no longer than the greatest horizontal force times the substep
-// Vertical: y u <= depth / substep, its impulse from minus the greatest vertical force times the substep to 0: it never pushes
+// Vertical: y u <= depth / substep, its impulse from minus the greatest vertical force times the substep to 0: it never pushes.
+// Where the character rises, y u = rising velocity, its impulse up to the greatest rising force times the substep.
 // Each row d has J = [ d, rA x d, -d, -(rB x d) ] and K between rows d and e = (1/mA + 1/mB) d e + (rA x d) IA^-1 (rA x e) + (rB x d) IB^-1 (rB x e).
 readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodies, TPrestep, CharacterMotionImpulses>
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged, ICharacterMotionWide<TPrestep>
@@ -165,11 +184,12 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
     {
         // What is left of the depth may be used up within the substep.
         var depth = Wide.Max(goal.Depth - up.Moved(bodies), Vector<float>.Zero);
-        var missing = depth * substep.InverseDt - up.Velocity(bodies);
+        var rises = Vector.GreaterThan(goal.MaximumRisingForce, Vector<float>.Zero);
+        var missing = Vector.ConditionalSelect(rises, goal.RisingVelocity, depth * substep.InverseDt) - up.Velocity(bodies);
         var inverseMass = up.InverseMass(bodies, up);
         var change = Vector.ConditionalSelect(Vector.GreaterThan(inverseMass, Vector<float>.Zero), missing / inverseMass, Vector<float>.Zero);
         var previous = impulse;
-        impulse = Wide.Min(Wide.Max(impulse + change, goal.MaximumVerticalForce * -substep.Dt), Vector<float>.Zero);
+        impulse = Wide.Min(Wide.Max(impulse + change, goal.MaximumVerticalForce * -substep.Dt), goal.MaximumRisingForce * substep.Dt);
         up.Apply(ref bodies, impulse - previous);
     }
 }

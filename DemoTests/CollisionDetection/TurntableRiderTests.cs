@@ -9,7 +9,7 @@ using Xunit;
 namespace DemoTests.CollisionDetection;
 
 /// <summary>What lies on a turntable stays where it lies, as long as friction holds it.</summary>
-public class TurntableTests
+public class TurntableRiderTests
 {
     const float Speed = .8f;
 

@@ -1,0 +1,143 @@
+using System;
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.Characters;
+
+// When collisions have been detected: what each stands on, and how it moves over that. In the order of characters, on one thread: constraints come and go.
+public sealed partial class CharacterControllers
+{
+    void MoveCharacters(float dt, IThreadDispatcher? threadDispatcher)
+    {
+        for (int i = 0; i < stepCount; ++i)
+        {
+            ref var character = ref characters[i];
+            var body = BodyOf(character);
+            // What sleeps has no contacts in this step, and keeps what it stands on.
+            if (!body.Awake)
+                continue;
+            var found = candidates[i];
+            for (int worker = 1; worker < workerCount; ++worker)
+                found.Improve(candidates[worker * stepCount + i], steps[i].Direction);
+            var surface = new Surface { Contact = found.Support };
+            if (steps[i].WantsSteps && (found.Obstacle.Exists || character.Rises || !found.Support.Exists))
+                FindStep(character, body, steps[i], found, dt, ref surface);
+            Move(ref character, body, steps[i], surface);
+        }
+    }
+
+    /// <summary>What a character stands on in this step.</summary>
+    struct Surface
+    {
+        /// <summary>The contact, found or foreseen.</summary>
+        public SupportCandidate Contact;
+        /// <summary>Whether the character rises to it, and how fast, m/s.</summary>
+        public bool Rises;
+        public float RisingVelocity;
+    }
+
+    void Move(ref CharacterController character, BodyReference body, in CharacterStep step, in Surface surface)
+    {
+        var jumps = character.TryJump && surface.Contact.Exists;
+        character.TryJump = false;
+        character.Rises = surface.Rises && !jumps;
+        if (jumps)
+            Jump(character, body, step.Up, surface.Contact);
+        if (jumps || !surface.Contact.Exists)
+        {
+            Release(ref character);
+            return;
+        }
+        if (IsBody(surface.Contact.Other))
+            MoveOnBody(ref character, body, surface);
+        else
+            MoveOnStatic(ref character, body, surface);
+        character.Supported = true;
+        character.Support = surface.Contact.Other;
+    }
+
+    static bool IsBody(CollidableReference collidable) => collidable.Mobility != CollidableMobility.Static;
+
+    void MoveOnStatic(ref CharacterController character, BodyReference body, in Surface surface)
+    {
+        var motion = new StaticCharacterMotion
+        {
+            SurfaceBasis = Basis(surface.Contact.Normal, character.ViewDirection),
+            MaximumHorizontalForce = character.MaximumHorizontalForce,
+            MaximumVerticalForce = character.MaximumVerticalForce,
+            TargetVelocity = character.TargetVelocity,
+            Depth = surface.Contact.Depth,
+            RisingVelocity = surface.RisingVelocity,
+            MaximumRisingForce = RisingForce(surface, body),
+            OffsetFromCharacterToSupportPoint = surface.Contact.Offset,
+        };
+        var solver = Simulation.Solver;
+        if (character.Supported && !IsBody(character.Support) && solver.ConstraintExists(character.MotionConstraintHandle))
+        {
+            solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motion);
+            return;
+        }
+        Release(ref character);
+        character.MotionConstraintHandle = solver.Add(character.BodyHandle, motion);
+    }
+
+    void MoveOnBody(ref CharacterController character, BodyReference body, in Surface surface)
+    {
+        var support = surface.Contact.Other.BodyHandle;
+        var motion = new DynamicCharacterMotion
+        {
+            SurfaceBasis = Basis(surface.Contact.Normal, character.ViewDirection),
+            MaximumHorizontalForce = character.MaximumHorizontalForce,
+            MaximumVerticalForce = character.MaximumVerticalForce,
+            TargetVelocity = character.TargetVelocity,
+            Depth = surface.Contact.Depth,
+            RisingVelocity = surface.RisingVelocity,
+            MaximumRisingForce = RisingForce(surface, body),
+            OffsetFromCharacterToSupportPoint = surface.Contact.Offset,
+            OffsetFromSupportToSupportPoint = OffsetFromSupport(body, surface.Contact),
+        };
+        var solver = Simulation.Solver;
+        if (character.Supported && IsBody(character.Support) && character.Support.BodyHandle == support &&
+            solver.ConstraintExists(character.MotionConstraintHandle))
+        {
+            solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motion);
+            return;
+        }
+        Release(ref character);
+        character.MotionConstraintHandle = solver.Add(character.BodyHandle, support, motion);
+    }
+
+    // Whatever it takes, to any speed that a step asks for.
+    static float RisingForce(in Surface surface, BodyReference body) => surface.Rises ? 1e4f / body.LocalInertia.InverseMass : 0;
+
+    Vector3 OffsetFromSupport(BodyReference body, in SupportCandidate contact) =>
+        body.Pose.Position + contact.Offset - Simulation.Bodies[contact.Other.BodyHandle].Pose.Position;
+
+    // X to the right, Y along the normal, Z backwards.
+    static Quaternion Basis(Vector3 normal, Vector3 view)
+    {
+        var (right, forwards) = Ground(normal, view);
+        Matrix3x3 basis;
+        basis.X = right;
+        basis.Y = normal;
+        basis.Z = -forwards;
+        return QuaternionEx.CreateFromRotationMatrix(basis);
+    }
+
+    /// <summary>Leaves the ground at the speed of a jump, relative to it; what it stands on gets the opposite impulse.</summary>
+    void Jump(in CharacterController character, BodyReference body, Vector3 up, in SupportCandidate contact)
+    {
+        var ground = Vector3.Zero;
+        var offset = Vector3.Zero;
+        if (IsBody(contact.Other))
+        {
+            offset = OffsetFromSupport(body, contact);
+            Simulation.Bodies[contact.Other.BodyHandle].GetVelocityForOffset(offset, out ground);
+        }
+        var gain = Math.Max(0, character.JumpVelocity - Exact.Dot(body.Velocity.Linear - ground, up));
+        body.Velocity.Linear += up * gain;
+        if (contact.Other.Mobility == CollidableMobility.Dynamic)
+            Simulation.Bodies[contact.Other.BodyHandle].ApplyImpulse(up * (-gain / body.LocalInertia.InverseMass), offset);
+    }
+}

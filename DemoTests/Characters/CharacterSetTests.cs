@@ -1,0 +1,159 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using Xunit;
+
+namespace DemoTests.Characters;
+
+/// <summary>Characters as a set: they come and go, are saved, and depend on nothing but their world.</summary>
+public class CharacterSetTests
+{
+    [Fact]
+    public void Threads_do_not_change_a_bit()
+    {
+        Assert.Equal(Hashes(1), Hashes(2));
+        Assert.Equal(Hashes(1), Hashes(5));
+
+        static List<ulong> Hashes(int threads)
+        {
+            using var world = new CharacterWorld(threads);
+            var bodies = world.AddCrowd(1);
+            var hashes = new List<ulong>();
+            for (int i = 0; i < 120; ++i)
+            {
+                world.StepCrowd(bodies, i);
+                hashes.Add(world.Simulation.StateHash());
+            }
+            return hashes;
+        }
+    }
+
+    [Fact]
+    public void A_restored_crowd_goes_on_as_the_saved_one()
+    {
+        using var world = new CharacterWorld();
+        var bodies = world.AddCrowd(2);
+        for (int i = 0; i < 60; ++i)
+            world.StepCrowd(bodies, i);
+        using var snapshot = new SimulationSnapshot(world.Pool);
+        world.Simulation.Save(snapshot);
+        var saved = new byte[world.Characters.SerializedByteCount];
+        world.Characters.WriteTo(saved);
+        var first = GoOn();
+        // Meanwhile one has gone.
+        world.Characters.RemoveCharacterByBodyHandle(bodies[3]);
+        world.Simulation.Restore(snapshot);
+        world.Characters.ReadFrom(saved);
+        Assert.Equal(first, GoOn());
+
+        List<ulong> GoOn()
+        {
+            var hashes = new List<ulong>();
+            for (int i = 60; i < 120; ++i)
+            {
+                world.StepCrowd(bodies, i);
+                hashes.Add(world.Simulation.StateHash());
+            }
+            return hashes;
+        }
+    }
+
+    [Fact]
+    public void Bytes_that_are_none_of_characters_are_refused()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var body = world.Add(default);
+        world.Step(5);
+        var saved = new byte[world.Characters.SerializedByteCount];
+        Assert.Throws<ArgumentException>(() => world.Characters.WriteTo(saved.AsSpan(1)));
+        world.Characters.WriteTo(saved);
+        Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(saved.AsSpan(0, saved.Length - 1)));
+        Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(default));
+        saved[0] ^= 1;
+        Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(saved));
+        Assert.True(world.Characters.IsCharacter(body));
+    }
+
+    [Fact]
+    public void Steps_leave_no_garbage()
+    {
+        using var world = new CharacterWorld();
+        var bodies = world.AddCrowd(3);
+        for (int i = 0; i < 240; ++i)
+            world.StepCrowd(bodies, i);
+        foreach (var body in bodies)
+            world[body].TargetVelocity = new(2, 3);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        world.Step(60);
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+
+    [Fact]
+    public void Characters_come_and_go()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var bodies = new List<BodyHandle>();
+        for (int i = 0; i < 100; ++i)
+            bodies.Add(world.Add(new(i % 10 * 2, 0, i / 10 * 2)));
+        world.Step(10);
+        Assert.Equal(100, world.Simulation.Solver.CountConstraints() - ContactCount(world));
+        for (int i = 0; i < 100; i += 2)
+        {
+            world.Characters.RemoveCharacterByBodyHandle(bodies[i]);
+            world.Simulation.Bodies.Remove(bodies[i]);
+        }
+        Assert.Equal(50, world.Characters.CharacterCount);
+        for (int i = 0; i < 100; ++i)
+            Assert.Equal(i % 2 == 1, world.Characters.IsCharacter(bodies[i]));
+        for (int i = 0; i < 50; ++i)
+            Assert.Equal(i, world.Characters.GetCharacterIndexForBodyHandle(world.Characters.GetCharacterByIndex(i).BodyHandle.Value));
+        world.Step(10);
+        Assert.Equal(50, world.Simulation.Solver.CountConstraints() - ContactCount(world));
+        world.Simulation.Validate();
+    }
+
+    // Each stands on the floor alone.
+    static int ContactCount(CharacterWorld world) => world.Characters.CharacterCount;
+
+    [Fact]
+    public void What_a_game_does_wrong_is_said()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var body = world.Add(default);
+        var kinematic = world.Simulation.Bodies.Add(
+            BodyDescription.CreateKinematic(new RigidPose(new Vector3(5, 5, 5)), world.Simulation.Shapes.Add(new Sphere(1)), -1));
+        Assert.Throws<ArgumentException>(() => world.Characters.AllocateCharacter(body));
+        Assert.Throws<ArgumentException>(() => world.Characters.AllocateCharacter(kinematic));
+        Assert.Throws<ArgumentException>(() => world.Characters.GetCharacterByBodyHandle(kinematic));
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.Characters.GetCharacterByIndex(1));
+        world[body].TargetVelocity = new(float.NaN, 0);
+        Assert.Contains("TargetVelocity", Assert.Throws<InvalidOperationException>(() => world.Step()).Message, StringComparison.Ordinal);
+        world[body].TargetVelocity = default;
+        world[body].MaximumStepHeight = -1;
+        Assert.Contains("MaximumStepHeight", Assert.Throws<InvalidOperationException>(() => world.Step()).Message, StringComparison.Ordinal);
+        world[body].MaximumStepHeight = 0;
+        world.Step();
+        world.Simulation.Bodies.Remove(body);
+        Assert.Contains("RemoveCharacter", Assert.Throws<InvalidOperationException>(() => world.Step()).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void What_is_left_of_characters_is_bodies()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var body = world.Add(default);
+        world[body].TargetVelocity = new(3, 0);
+        world.Step(30);
+        world.Characters.Dispose();
+        Assert.Equal(1, world.Simulation.Solver.CountConstraints());
+        // Friction is the floor's again: 9.81 m/s2.
+        world.Step(30);
+        Assert.True(world.Velocity(body).Length() < 1e-3f, $"{world.Velocity(body)}");
+    }
+}
