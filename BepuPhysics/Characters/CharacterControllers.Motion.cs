@@ -49,64 +49,50 @@ public sealed partial class CharacterControllers
             Release(ref character);
             return;
         }
-        if (IsBody(surface.Contact.Other))
-            MoveOnBody(ref character, body, surface);
+        var support = surface.Contact.Other;
+        var isKept = IsMovedOver(character, support);
+        if (!isKept)
+            Release(ref character);
+        var solver = Simulation.Solver;
+        var motion = MotionOver(surface, character, body);
+        if (!IsBody(support))
+        {
+            if (isKept)
+                solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motion);
+            else
+                character.MotionConstraintHandle = solver.Add(character.BodyHandle, motion);
+        }
         else
-            MoveOnStatic(ref character, body, surface);
+        {
+            var motionOfBoth = new DynamicCharacterMotion(motion, OffsetFromSupport(body, surface.Contact));
+            if (isKept)
+                solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motionOfBoth);
+            else
+                character.MotionConstraintHandle = solver.Add(character.BodyHandle, support.BodyHandle, motionOfBoth);
+        }
         character.Supported = true;
-        character.Support = surface.Contact.Other;
+        character.Support = support;
     }
 
     static bool IsBody(CollidableReference collidable) => collidable.Mobility != CollidableMobility.Static;
 
-    void MoveOnStatic(ref CharacterController character, BodyReference body, in Surface surface)
-    {
-        var motion = new StaticCharacterMotion
-        {
-            SurfaceBasis = Basis(surface.Contact.Normal, character.ViewDirection),
-            MaximumHorizontalForce = character.MaximumHorizontalForce,
-            MaximumVerticalForce = character.MaximumVerticalForce,
-            TargetVelocity = character.TargetVelocity,
-            Depth = surface.Contact.Depth,
-            RisingVelocity = surface.RisingVelocity,
-            MaximumRisingForce = RisingForce(surface, body),
-            OffsetFromCharacterToSupportPoint = surface.Contact.Offset,
-        };
-        var solver = Simulation.Solver;
-        if (character.Supported && !IsBody(character.Support) && solver.ConstraintExists(character.MotionConstraintHandle))
-        {
-            solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motion);
-            return;
-        }
-        Release(ref character);
-        character.MotionConstraintHandle = solver.Add(character.BodyHandle, motion);
-    }
+    // Whether the constraint of the last step will do: all statics are one to it, and of bodies it knows its own.
+    bool IsMovedOver(in CharacterController character, CollidableReference support) =>
+        character.Supported && IsBody(character.Support) == IsBody(support) &&
+        (!IsBody(support) || character.Support.BodyHandle == support.BodyHandle) &&
+        Simulation.Solver.ConstraintExists(character.MotionConstraintHandle);
 
-    void MoveOnBody(ref CharacterController character, BodyReference body, in Surface surface)
+    static StaticCharacterMotion MotionOver(in Surface surface, in CharacterController character, BodyReference body) => new()
     {
-        var support = surface.Contact.Other.BodyHandle;
-        var motion = new DynamicCharacterMotion
-        {
-            SurfaceBasis = Basis(surface.Contact.Normal, character.ViewDirection),
-            MaximumHorizontalForce = character.MaximumHorizontalForce,
-            MaximumVerticalForce = character.MaximumVerticalForce,
-            TargetVelocity = character.TargetVelocity,
-            Depth = surface.Contact.Depth,
-            RisingVelocity = surface.RisingVelocity,
-            MaximumRisingForce = RisingForce(surface, body),
-            OffsetFromCharacterToSupportPoint = surface.Contact.Offset,
-            OffsetFromSupportToSupportPoint = OffsetFromSupport(body, surface.Contact),
-        };
-        var solver = Simulation.Solver;
-        if (character.Supported && IsBody(character.Support) && character.Support.BodyHandle == support &&
-            solver.ConstraintExists(character.MotionConstraintHandle))
-        {
-            solver.ApplyDescriptionWithoutWaking(character.MotionConstraintHandle, motion);
-            return;
-        }
-        Release(ref character);
-        character.MotionConstraintHandle = solver.Add(character.BodyHandle, support, motion);
-    }
+        SurfaceBasis = Basis(surface.Contact.Normal, character.ViewDirection),
+        MaximumHorizontalForce = character.MaximumHorizontalForce,
+        MaximumVerticalForce = character.MaximumVerticalForce,
+        TargetVelocity = character.TargetVelocity,
+        Depth = surface.Contact.Depth,
+        RisingVelocity = surface.RisingVelocity,
+        MaximumRisingForce = RisingForce(surface, body),
+        OffsetFromCharacterToSupportPoint = surface.Contact.Offset,
+    };
 
     // Whatever it takes, to any speed that a step asks for.
     static float RisingForce(in Surface surface, BodyReference body) => surface.Rises ? 1e4f / body.LocalInertia.InverseMass : 0;

@@ -5,26 +5,13 @@ using BepuUtilities;
 
 namespace BepuPhysics.Characters;
 
-/// <summary>What both descriptions begin with, widened: the same fields in the same order.</summary>
-struct CharacterGoalWide
-{
-    public QuaternionWide SurfaceBasis;
-    public Vector<float> MaximumHorizontalForce;
-    public Vector<float> MaximumVerticalForce;
-    public Vector2Wide TargetVelocity;
-    public Vector<float> Depth;
-    public Vector<float> RisingVelocity;
-    public Vector<float> MaximumRisingForce;
-    public Vector3Wide OffsetFromCharacter;
-}
-
 /// <summary>What the constraint reads of either description.</summary>
 interface ICharacterMotionWide<TSelf> where TSelf : unmanaged, ICharacterMotionWide<TSelf>
 {
-    static abstract void Read(in TSelf wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport);
+    static abstract void Read(in TSelf wide, out StaticCharacterMotionWide goal, out Vector3Wide offsetFromSupport);
 }
 
-/// <summary>A bundle of <see cref="StaticCharacterMotion"/>: the goal, field by field.</summary>
+/// <summary>A bundle of <see cref="StaticCharacterMotion"/>, and what <see cref="DynamicCharacterMotion"/> begins with.</summary>
 struct StaticCharacterMotionWide : IWide<StaticCharacterMotion>, ICharacterMotionWide<StaticCharacterMotionWide>
 {
     public QuaternionWide SurfaceBasis;
@@ -36,11 +23,11 @@ struct StaticCharacterMotionWide : IWide<StaticCharacterMotion>, ICharacterMotio
     public Vector<float> MaximumRisingForce;
     public Vector3Wide OffsetFromCharacterToSupportPoint;
 
-    public static void Read(in StaticCharacterMotionWide wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport) =>
-        (goal, offsetFromSupport) = (Unsafe.As<StaticCharacterMotionWide, CharacterGoalWide>(ref Unsafe.AsRef(in wide)), default);
+    public static void Read(in StaticCharacterMotionWide wide, out StaticCharacterMotionWide goal, out Vector3Wide offsetFromSupport) =>
+        (goal, offsetFromSupport) = (wide, default);
 }
 
-/// <summary>A bundle of <see cref="DynamicCharacterMotion"/>: the goal, field by field, and where the support is.</summary>
+/// <summary>A bundle of <see cref="DynamicCharacterMotion"/>: the fields of the other, and where the support is.</summary>
 struct DynamicCharacterMotionWide : IWide<DynamicCharacterMotion>, ICharacterMotionWide<DynamicCharacterMotionWide>
 {
     public QuaternionWide SurfaceBasis;
@@ -53,9 +40,9 @@ struct DynamicCharacterMotionWide : IWide<DynamicCharacterMotion>, ICharacterMot
     public Vector3Wide OffsetFromCharacterToSupportPoint;
     public Vector3Wide OffsetFromSupportToSupportPoint;
 
-    public static void Read(in DynamicCharacterMotionWide wide, out CharacterGoalWide goal, out Vector3Wide offsetFromSupport) =>
+    public static void Read(in DynamicCharacterMotionWide wide, out StaticCharacterMotionWide goal, out Vector3Wide offsetFromSupport) =>
         (goal, offsetFromSupport) =
-            (Unsafe.As<DynamicCharacterMotionWide, CharacterGoalWide>(ref Unsafe.AsRef(in wide)), wide.OffsetFromSupportToSupportPoint);
+            (Unsafe.As<DynamicCharacterMotionWide, StaticCharacterMotionWide>(ref Unsafe.AsRef(in wide)), wide.OffsetFromSupportToSupportPoint);
 }
 
 /// <summary>Impulses on the character: along the surface's X and Z, and along its Y.</summary>
@@ -131,12 +118,12 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         }
     }
 
-    static void Prepare(in TPrestep prestep, out CharacterGoalWide goal, out Row right, out Row up, out Row back)
+    static void Prepare(in TPrestep prestep, out StaticCharacterMotionWide goal, out Row right, out Row up, out Row back)
     {
         TPrestep.Read(prestep, out goal, out var offsetB);
-        right = new(QuaternionWide.TransformUnitX(goal.SurfaceBasis), goal.OffsetFromCharacter, offsetB);
-        up = new(QuaternionWide.TransformUnitY(goal.SurfaceBasis), goal.OffsetFromCharacter, offsetB);
-        back = new(QuaternionWide.TransformUnitZ(goal.SurfaceBasis), goal.OffsetFromCharacter, offsetB);
+        right = new(QuaternionWide.TransformUnitX(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
+        up = new(QuaternionWide.TransformUnitY(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
+        back = new(QuaternionWide.TransformUnitZ(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
     }
 
     public static void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref CharacterMotionImpulses impulses)
@@ -162,7 +149,7 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
     }
 
     static void SolveHorizontal(
-        ref TBodies bodies, in Substep substep, in CharacterGoalWide goal, in Row right, in Row back, ref Vector2Wide impulses)
+        ref TBodies bodies, in Substep substep, in StaticCharacterMotionWide goal, in Row right, in Row back, ref Vector2Wide impulses)
     {
         Symmetric2x2Wide inverseMass;
         inverseMass.XX = right.InverseMass(bodies, right);
@@ -180,7 +167,7 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         back.Apply(ref bodies, impulses.Y - previous.Y);
     }
 
-    static void SolveVertical(ref TBodies bodies, in Substep substep, in CharacterGoalWide goal, in Row up, ref Vector<float> impulse)
+    static void SolveVertical(ref TBodies bodies, in Substep substep, in StaticCharacterMotionWide goal, in Row up, ref Vector<float> impulse)
     {
         // What is left of the depth may be used up within the substep.
         var depth = Wide.Max(goal.Depth - up.Moved(bodies), Vector<float>.Zero);

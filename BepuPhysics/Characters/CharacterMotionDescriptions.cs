@@ -67,6 +67,19 @@ public struct DynamicCharacterMotion : ITwoBodyConstraintDescription<DynamicChar
     /// <summary>From the centre of the support to the supporting point, world axes, m.</summary>
     public Vector3 OffsetFromSupportToSupportPoint;
 
+    internal DynamicCharacterMotion(in StaticCharacterMotion motion, Vector3 offsetFromSupport)
+    {
+        SurfaceBasis = motion.SurfaceBasis;
+        MaximumHorizontalForce = motion.MaximumHorizontalForce;
+        MaximumVerticalForce = motion.MaximumVerticalForce;
+        TargetVelocity = motion.TargetVelocity;
+        Depth = motion.Depth;
+        RisingVelocity = motion.RisingVelocity;
+        MaximumRisingForce = motion.MaximumRisingForce;
+        OffsetFromCharacterToSupportPoint = motion.OffsetFromCharacterToSupportPoint;
+        OffsetFromSupportToSupportPoint = offsetFromSupport;
+    }
+
     /// <inheritdoc/>
     public static int ConstraintTypeId => ConstraintTypeIds.DynamicCharacterMotion;
 
