@@ -87,6 +87,44 @@ public class BesideEdgeTests(ITestOutputHelper output)
         Assert.InRange(worstPlace, 0, 10);
     }
 
+    /// <summary>
+    /// A box 40 to 150 times as large has coordinates whose rounding turns a way of some millimetres so far that its other end overlaps.
+    /// </summary>
+    [Fact]
+    public void Short_ways_to_large_boxes_separate_them_as_well_as_any_axis()
+    {
+        using var library = new ConvexPairLibrary();
+        var random = new ConvexRandom(20261126, 0);
+        var pairs = new List<(ConvexPairShape A, ConvexPairShape B, ConvexPose Pose, float Margin)>();
+        for (int i = 0; i < 200; ++i)
+        {
+            var small = library.Create(Create(ConvexKind.Box, random));
+            var large = library.Create(ConvexGenerator.Create(ConvexKind.Box, ConvexForm.Fat, random.Next(40, 60), random));
+            for (int j = 0; j < 100; ++j)
+                pairs.Add((small, large, Beside(small.Shape, large.Shape, random, .005), Margin));
+        }
+        var manifolds = library.Run(pairs);
+        int near = 0;
+        double worst = 0;
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            var (reference, pose, offset, found) = ConvexPoses.Measure(pairs[i].A.Shape, pairs[i].B.Shape, pairs[i].Pose);
+            // Rounding of the larger box, as everywhere in these tests, alone may hide what is nearer.
+            if (found.Depth > -2e-6 * reference.LargerSize)
+                continue;
+            ++near;
+            ref var manifold = ref manifolds[i];
+            Assert.NotEqual(0, manifold.Count);
+            var normal = ConvexRotation.From(pose.OrientationA).RotateBack(manifold.Normal);
+            worst = Math.Max(worst, reference.DepthAlong(normal, offset) - found.AxisDepth);
+        }
+        output.WriteLine($"{near} near; the normal separates by up to {worst * 1000:f3} mm less than the best axis");
+        Assert.True(near > 1000);
+        // What an axis is kept for: 5e-4 of the half extents of the smaller box and 2e-6 of those of the larger one, each a box of an outer
+        // radius of at most 1 and 60; and rounding at 60 m.
+        Assert.InRange(worst, 0, (5e-4 * 1 + 2e-6 * 60) * Math.Sqrt(3) + 5e-5);
+    }
+
     [Theory]
     [InlineData(1.02f, 1.02f, 0, .0282843f, 2)]
     [InlineData(1.02f, 1.02f, 1.02f, .0346410f, 1)]
@@ -162,12 +200,12 @@ public class BesideEdgeTests(ITestOutputHelper output)
         ConvexGenerator.Create(kind, ConvexForm.Fat, random.Next(.4, 1), random);
 
     /// <summary>A vertex, or a point of an edge, beside one of the other; half of the shapes with edges that are parallel.</summary>
-    static ConvexPose Beside(ConvexShape a, ConvexShape b, ConvexRandom random)
+    static ConvexPose Beside(ConvexShape a, ConvexShape b, ConvexRandom random, double farthest = 1.3 * Margin)
     {
         var orientationA = random.Next(2) == 0 ? Quaternion.Identity : random.NextOrientation();
         // Turned by whole eighths from a frame that is A's.
         var orientationB = random.Next(2) == 0 ? Quaternion.Normalize(orientationA * random.NextAligned()) : random.NextOrientation();
-        var distance = random.Next(.001, 1.3 * Margin) + a.Rounding + b.Rounding;
+        var distance = random.Next(.001, farthest) + a.Rounding + b.Rounding;
         var offset = ConvexRotation.From(orientationA).Rotate(PointOf(a, random)) + random.NextDirection() * distance -
             ConvexRotation.From(orientationB).Rotate(PointOf(b, random));
         return new(ConvexGenerator.ToVector(offset), orientationA, orientationB);

@@ -6,7 +6,12 @@ namespace DemoTests.Support;
 /// <summary>Distances of points, segments and triangles in double precision.</summary>
 static class ConvexFeatures
 {
-    /// <summary>Distance of a point from a triangle where the nearest point is within it; infinite where that is on its border.</summary>
+    // Parts of an edge. The triangles of a face share borders that are no edges of the shape: what is nearest to one of these must not be
+    // outside of both. A point beyond the border by this is farther than its height over the plane by a part of 1e-18 of a height as
+    // large as the triangle.
+    const double BorderTolerance = 1e-9;
+
+    /// <summary>Distance of a point from a triangle where the nearest point is within it; infinite where that is beyond its border.</summary>
     public static double PointTriangle(Double3 p, Double3 a, Double3 b, Double3 c, out Double3 nearest)
     {
         var u = b - a;
@@ -19,7 +24,7 @@ static class ConvexFeatures
             return double.PositiveInfinity;
         var s = Double3.Dot(Double3.Cross(q, v), normal) / squared;
         var t = Double3.Dot(Double3.Cross(u, q), normal) / squared;
-        if (s < 0 || t < 0 || s + t > 1)
+        if (s < -BorderTolerance || t < -BorderTolerance || s + t > 1 + BorderTolerance)
             return double.PositiveInfinity;
         nearest = a + u * s + v * t;
         return Math.Abs(Double3.Dot(q, normal)) / Math.Sqrt(squared);

@@ -30,6 +30,25 @@ public class ConvexReferenceTests(ITestOutputHelper output)
     static IEnumerable<(ConvexKind A, ConvexKind B)> Pairs =>
         from a in Enum.GetValues<ConvexKind>() from b in Enum.GetValues<ConvexKind>() where a <= b select (a, b);
 
+    /// <summary>The middle of a face is on the border of the two triangles that it consists of, which is no edge of the box.</summary>
+    [Fact]
+    public void A_ball_over_the_middle_of_a_boxs_face_is_as_far_as_the_face()
+    {
+        var random = new ConvexRandom(20261126, 0);
+        for (int i = 0; i < 2000; ++i)
+        {
+            var ball = ConvexShape.Sphere((float)random.Next(.1, 200));
+            var box = ConvexShape.Box((float)random.Next(.1, 200), (float)random.Next(.1, 200), (float)random.Next(.1, 200));
+            var rotation = ConvexRotation.From(random.Next(2) == 0 ? random.NextAligned() : random.NextOrientation());
+            var gap = random.Next(.001, 10);
+            var height = new[] { box.Vertices.Max(v => v.X), box.Vertices.Max(v => v.Y), box.Vertices.Max(v => v.Z) };
+            var face = random.Next(3);
+            Double3[] axes = [new(1, 0, 0), new(0, 1, 0), new(0, 0, 1)];
+            var offset = rotation.Rotate(axes[face]) * (height[face] + ball.OuterRadius + gap);
+            Assert.Equal(-gap, new ConvexReference(ball, box, rotation).Find(offset).Depth, 1e-10);
+        }
+    }
+
     [Fact]
     public void Samples_of_all_directions_find_nothing_less_and_come_ever_closer()
     {

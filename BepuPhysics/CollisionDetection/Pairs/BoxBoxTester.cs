@@ -71,8 +71,12 @@ public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<
         ref var faces = ref scratch.Faces;
         BoxNearest.Find(a, b, faces.AxesB, faces.OffsetB, out var nearest);
         var distance = Vector.SquareRoot(nearest.DistanceSquared);
-        var hasWay = Vector.GreaterThan(distance, tolerance);
-        faces.Normal = Vector3Wide.Select(hasWay, nearest.Way * (-Vector<float>.One / distance), faces.Normal);
+        var way = nearest.Way * (-Vector<float>.One / distance);
+        // No axis separates by more than the distance, and the way by all of it. Short ways of long boxes are turned by rounding so far that
+        // it is less than by the axis, or not at all; these keep the axis, and see the distance along it.
+        var depthAlongWay = Vector3Wide.Dot(way, faces.OffsetB) + HalfExtent(a, way) + HalfExtent(b, faces.AxesB * way);
+        var hasWay = Vector.GreaterThan(distance, tolerance) & Vector.LessThanOrEqual(depthAlongWay, faces.PairDepth);
+        faces.Normal = Vector3Wide.Select(hasWay, way, faces.Normal);
         faces.PairDepth = -distance;
         var near = apart & Vector.GreaterThanOrEqual(faces.PairDepth, -speculativeMargin);
         Unsafe.SkipInit(out ConvexManifoldWide<Few4<ContactWide>> found);
@@ -98,4 +102,8 @@ public readonly unsafe struct BoxBoxTester : IPairTester<BoxWide, BoxWide, Few4<
             to.Exists = Wide.Select(apart, from.Exists, to.Exists);
         }
     }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> HalfExtent(in BoxWide box, in Vector3Wide localDirection) =>
+        Vector3Wide.Dot(Vector3Wide.Abs(localDirection), new(box.HalfWidth, box.HalfHeight, box.HalfLength));
 }
