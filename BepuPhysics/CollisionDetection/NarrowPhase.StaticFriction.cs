@@ -12,7 +12,6 @@ namespace BepuPhysics.CollisionDetection;
 // is bounded by the coefficient times the sum; so do twists, whose levers are distances from that point.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
-    // On statics and on kinematic bodies that move alike and do not turn. What turns has an arm, for which a constraint has one place, and that is taken.
     void JoinFriction(ref StaticPairs statics, in AgreeingBody body, BufferPool pool)
     {
         var wasHeld = false;
@@ -21,10 +20,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = body.First; i < body.End; ++i)
         {
             ref var pair = ref Waiting(i);
-            for (int j = pair.Start; j < pair.End && SharesFriction(pair); ++j)
+            for (int j = pair.Start; j < pair.End; ++j)
             {
                 ref var result = ref ResultOf(i, j);
-                if (result.Manifold.Count > 0 && statics.FindFrictionCenter(pair.Tested.Pair, result.Children) == default)
+                if (result.Manifold.Count > 0 && !statics.HasFrictionCenter(pair.Tested.Pair, result.Children))
                     JoinFriction(ref statics, i, j, body.End, wasHeld, pool);
             }
         }
@@ -38,8 +37,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     static int GroupOfFriction(in StaticPair pair) => pair.Tested.Pair.B.Mobility == CollidableMobility.Static ? 0 : pair.Group;
 
-    static bool SharesFriction(in StaticPair pair) => pair.Tested.Pair.B.Mobility == CollidableMobility.Static || !pair.IsTurning;
-
     ContactConstraint Column(in OldPatch old) => new(Simulation.Solver, old.Constraint, old.ContactCount);
 
     // All manifolds that have the normal of one, and come after it.
@@ -48,22 +45,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var normal = ResultOf(place, index).Manifold.Normal;
         var group = GroupOfFriction(Waiting(place));
         Vector3 all = default, touching = default;
+        var squares = 0f;
         var (count, touchCount) = (0, 0);
         var before = statics.FrictionCenters.Count;
         for (int i = place; i < end; ++i)
         {
             ref var pair = ref Waiting(i);
-            for (int j = i == place ? index : pair.Start; j < pair.End && SharesFriction(pair) && GroupOfFriction(pair) == group; ++j)
+            for (int j = i == place ? index : pair.Start; j < pair.End && GroupOfFriction(pair) == group; ++j)
             {
                 ref var result = ref ResultOf(i, j);
                 ref var manifold = ref result.Manifold;
                 if (manifold.Count == 0 || Exact.Dot(manifold.Normal, normal) < PatchSet.SameNormal ||
-                    statics.FindFrictionCenter(pair.Tested.Pair, result.Children) != default)
+                    statics.HasFrictionCenter(pair.Tested.Pair, result.Children))
                     continue;
                 for (int k = 0; k < manifold.Count; ++k)
                 {
                     var contact = ConvexContactManifold.GetConvexContactReference(ref manifold, k);
                     all += contact.Offset;
+                    squares += Exact.LengthSquared(contact.Offset);
                     ++count;
                     var band = wasHeld ? ContactMaterialWide.BandPerExtent * MathF.Abs(Exact.Dot(contact.Offset, normal)) : 0;
                     if (contact.Depth < -band)
@@ -71,7 +70,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                     touching += contact.Offset;
                     ++touchCount;
                 }
-                statics.FrictionCenters.Add(new() { Pair = pair.Tested.Pair, Children = result.Children }, pool);
+                statics.FrictionCenters.Add(new() { Pair = pair.Tested.Pair, Children = result.Children, Center = manifold.OffsetB }, pool);
             }
         }
         // A patch on one static has its own.
@@ -81,7 +80,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         }
         var center = touchCount > 0 ? touching * (1f / touchCount) : all * (1f / count);
+        if (group > 0 && Waiting(place).IsTurning)
+        {
+            if (IsFootAmongContacts(all * (1f / count), squares * (1f / count), normal))
+                return;
+            center = default;
+        }
         for (int i = before; i < statics.FrictionCenters.Count; ++i)
             statics.FrictionCenters[i].Center = center;
+    }
+
+    // What turns has an arm, which takes the only place that a constraint has for a point. But there is one that all parts of a patch know: the foot of the
+    // centre of the body. Of what slides on a plane the load is ahead of the foot in the direction in which it slides, so that its friction acts along a line
+    // through the foot. What leans on something or hangs has its load elsewhere: its foot has to be as near to the middle of the contacts as these are
+    // themselves (root of mean squares), or friction is left to each part.
+    static bool IsFootAmongContacts(Vector3 middle, float meanSquare, Vector3 normal)
+    {
+        var height = Exact.Dot(middle, normal);
+        var toMiddle = Exact.LengthSquared(middle);
+        return toMiddle - height * height <= meanSquare - toMiddle;
     }
 }

@@ -7,6 +7,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Collidables;
@@ -16,7 +17,7 @@ public sealed unsafe class HeightFieldTests : IDisposable
 {
     readonly BufferPool pool = new();
     readonly List<HeightField> fields = [];
-    readonly Random random = new(12);
+    readonly Random random = new(LevelSeeds.Of(12));
 
     public void Dispose()
     {

@@ -30,7 +30,7 @@ public class CompoundSimulationTests
     {
         var world = new CompoundWorld(threads);
         world.AddStatic(isBig, floor);
-        var random = new Random(3);
+        var random = new Random(LevelSeeds.Of(3));
         for (int i = 0; i < 24; ++i)
         {
             var turn = Quaternion.Normalize(new(random.NextSingle(), random.NextSingle(), random.NextSingle(), 1));

@@ -6,6 +6,7 @@ using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
+using DemoTests.Support;
 
 namespace DemoTests.Compounds;
 
@@ -22,7 +23,7 @@ sealed class CompoundWorkshop : IDisposable
 {
     public CompoundWorkshop(int seed)
     {
-        Random = new Random(seed);
+        Random = new Random(LevelSeeds.Of(seed));
         Shapes = new Shapes(Pool, 2);
     }
 

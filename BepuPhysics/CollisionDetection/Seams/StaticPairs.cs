@@ -60,8 +60,15 @@ struct SharedFriction
     public CollidablePair Pair;
     /// <summary>Which of its manifolds it is.</summary>
     public ChildIds Children;
-    /// <summary>Middle of all contacts that touch, relative to the centre of the body, m.</summary>
+    /// <summary>
+    /// Relative to the centre of the body, m: the middle of all contacts that touch; on bodies that turn the position of B, as friction acts at the foot of
+    /// the body's centre there; zero where each manifold has its own.
+    /// </summary>
     public Vector3 Center;
+
+    /// <summary>Whether it is of a manifold.</summary>
+    public readonly bool IsOf(in CollidablePair pair, ChildIds children) =>
+        Pair.A.Packed == pair.A.Packed && Pair.B.Packed == pair.B.Packed && Children == children;
 }
 
 /// <summary>A constraint that a body had in the last step with something that does not give way.</summary>
@@ -247,16 +254,24 @@ struct StaticPairs
         return Nothing;
     }
 
-    /// <summary>Where the friction of a manifold acts; zero where it shares none.</summary>
+    /// <summary>What is written of the place of a manifold's friction; zero where it shares none. See <see cref="SharedFriction.Center"/>.</summary>
     public readonly Vector3 FindFrictionCenter(in CollidablePair pair, ChildIds children)
+    {
+        var index = IndexOfFriction(pair, children);
+        return index >= 0 ? FrictionCenters[index].Center : default;
+    }
+
+    /// <summary>Whether it is known whether a manifold shares friction.</summary>
+    public readonly bool HasFrictionCenter(in CollidablePair pair, ChildIds children) => IndexOfFriction(pair, children) >= 0;
+
+    readonly int IndexOfFriction(in CollidablePair pair, ChildIds children)
     {
         for (int i = 0; i < FrictionCenters.Count; ++i)
         {
-            ref var shared = ref FrictionCenters[i];
-            if (shared.Pair.A.Packed == pair.A.Packed && shared.Pair.B.Packed == pair.B.Packed && shared.Children == children)
-                return shared.Center;
+            if (FrictionCenters[i].IsOf(pair, children))
+                return i;
         }
-        return default;
+        return Nothing;
     }
 
     public void Release(BufferPool pool)

@@ -40,8 +40,8 @@ struct ContactMaterialWide
     internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
 
     /// <summary>
-    /// Of two bodies: patches that are a part of one that several bodies bear which nothing moves and which do not turn. Their coefficient is negative; what
-    /// a game gives is not. With one body the place of friction says so.
+    /// Of two bodies: patches that are a part of one that several bodies bear which nothing moves. Their coefficient is negative; what a game gives is not.
+    /// With one body the place of friction says so.
     /// </summary>
     internal readonly Vector<int> SharesFriction => Vector.LessThan(Vector.AsVectorInt32(FrictionCoefficient), Vector<int>.Zero);
 
@@ -94,8 +94,8 @@ struct ConvexContactPrestepWide<TContacts> where TContacts : unmanaged, IFew<Con
     public TContacts Contacts;
     /// <summary>
     /// Position of B relative to A. With one body: where friction acts, relative to the centre of A, if the patch is a part of one that several statics
-    /// bear; zero where it is not. So it is with two bodies that <see cref="ContactMaterialWide.SharesFriction"/>: what B neither turns nor is turned by
-    /// has no arm.
+    /// bear; zero where it is not. So it is with two bodies that <see cref="ContactMaterialWide.SharesFriction"/>, if B does not turn: what B neither turns
+    /// nor is turned by has no arm.
     /// </summary>
     public Vector3Wide OffsetB;
     /// <summary>Unit normal from B to A.</summary>

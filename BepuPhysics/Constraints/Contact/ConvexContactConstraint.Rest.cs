@@ -62,7 +62,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     {
         if (Vector.EqualsAll(impulses.Twist, Vector<float>.Zero))
             return new(-1);
-        var center = PatchCenter(ref prestep);
+        var center = CenterOnStatics(ref prestep);
         var moment = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)
             moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();

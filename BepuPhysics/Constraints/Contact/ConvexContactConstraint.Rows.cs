@@ -47,7 +47,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         var patch = prestep;
         var accumulated = impulses;
         var n = patch.Normal;
-        var center = PatchCenter(ref patch);
+        var center = PatchCenter(bodies, ref patch);
         var load = Vector<float>.Zero;
         var moment = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)

@@ -10,8 +10,8 @@ namespace BepuPhysics.Constraints.Contact;
 // Friction rows   at the patch centre c, along two tangents                                  |f| <= mu sum(lambda_i)   (Coulomb, for the patch)
 // Twist row       J = [ 0, n, 0, -n ]                                                       |t| <= mu sum(lambda_i |c - c_i|)
 // A patch that lies on several statics side by side has a constraint for each. All of them have friction at the centre of the whole, so that theirs add up to
-// that of one patch on one static; there a single contact has a lever, and twist, too. So has one on kinematic bodies that do not turn: these have an arm that
-// makes no difference, in whose place the centre is written.
+// that of one patch on one static; there a single contact has a lever, and twist, too. So has one on kinematic bodies. Of those that do not turn the arm
+// makes no difference, and the centre is written in its place; those that turn need it, and let friction act at the foot of A's centre.
 // Friction is bounded by the sum of the normal impulses, so it does not depend on how many contacts represent the patch, and it is
 // solved after them, so that it knows the load of this very sweep.
 //
@@ -48,7 +48,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             arm += prestep.Contacts[i].OffsetA * impulses.Normals[i];
         }
         var linear = prestep.Normal * load + impulses.Friction;
-        var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(ref prestep), impulses.Friction);
+        var angularA = Vector3Wide.Cross(arm, prestep.Normal) + Vector3Wide.Cross(PatchCenter(bodies, ref prestep), impulses.Friction);
         if (TContacts.Count > 1)
             angularA += prestep.Normal * impulses.Twist;
         else
@@ -98,7 +98,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             SolveNormal(ref bodies, substep, ref prestep, prestep.Contacts[i], softness, anyHeld, band, inverseDt, ref impulses.Normals[i]);
             load += impulses.Normals[i];
         }
-        var center = PatchCenter(ref prestep);
+        var center = PatchCenter(bodies, ref prestep);
         var coefficient = Coefficient(ref prestep);
         SolveFriction(ref bodies, prestep.Normal, center, prestep.OffsetB, coefficient * load, ref impulses.Friction);
         if (TContacts.Count > 1)
@@ -308,11 +308,27 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     // Friction acts where the surfaces touch: at the mean of the contacts that touched at detection, or of all if none did; of a patch on several statics,
     // at that of the whole. Two bodies rarely have one.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide PatchCenter(ref ConvexContactPrestepWide<TContacts> prestep)
+    static Vector3Wide PatchCenter(in TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep)
     {
+        if (TBodies.Count == 1)
+            return CenterOnStatics(ref prestep);
         var own = OwnCenter(ref prestep);
         var joins = JoinsFriction(ref prestep);
-        return TBodies.Count > 1 && joins == Vector<int>.Zero ? own : Vector3Wide.Select(joins, prestep.OffsetB, own);
+        return joins == Vector<int>.Zero ? own : Vector3Wide.Select(joins, SharedCenter(bodies, ref prestep, own), own);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector3Wide CenterOnStatics(ref ConvexContactPrestepWide<TContacts> prestep) =>
+        Vector3Wide.Select(JoinsFriction(ref prestep), prestep.OffsetB, OwnCenter(ref prestep));
+
+    // What B turns has an arm, and its place is needed for that. The parts of a patch on several such bodies have one more place in common, which takes no
+    // room: the foot of the first body's centre.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector3Wide SharedCenter(in TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in Vector3Wide own)
+    {
+        var slots = bodies;
+        var rests = IsZero(BodySlots.At(ref slots, 1).Angular);
+        return Vector3Wide.Select(rests, prestep.OffsetB, prestep.Normal * Vector3Wide.Dot(own, prestep.Normal));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -4,6 +4,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Collidables.Meshes;
@@ -12,7 +13,7 @@ namespace DemoTests.Collidables.Meshes;
 public sealed class MeshRayTests : IDisposable
 {
     readonly BufferPool pool = new();
-    readonly Random random = new(29);
+    readonly Random random = new(LevelSeeds.Of(29));
 
     public void Dispose()
     {

@@ -5,6 +5,7 @@ using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 using Demos.References;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Collidables.Meshes;
@@ -69,7 +70,7 @@ public sealed class MeshSolidTests : IDisposable
     public void The_way_out_is_the_shortest_and_only_for_what_is_inside(string name)
     {
         var sample = Samples[name];
-        var random = new Random(41);
+        var random = new Random(LevelSeeds.Of(41));
         foreach (var scale in (ReadOnlySpan<Vector3>)[Vector3.One, new(1.5f, -.3f, 2), new(-.01f, -.02f, .01f)])
         {
             IContainer mesh = new Mesh(sample.Vertices, sample.Indices, scale, pool) { Solid = true };

@@ -7,6 +7,7 @@ using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
@@ -19,7 +20,7 @@ public sealed class MeshContactTests : IDisposable
     readonly BufferPool pool = new();
     readonly Shapes shapes;
     readonly CollisionTaskRegistry registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
-    readonly Random random = new(41);
+    readonly Random random = new(LevelSeeds.Of(41));
 
     public MeshContactTests() => shapes = new Shapes(pool, 1);
 

@@ -59,7 +59,7 @@ public sealed class MeshDepthTests(ITestOutputHelper output) : IDisposable
     public void Contacts_of_two_meshes_take_them_apart_by_the_least_way(string name)
     {
         var sample = Create(name);
-        var random = new ConvexRandom(2301, (ulong)name.Length);
+        var random = new ConvexRandom((ulong)LevelSeeds.Of(2301), (ulong)name.Length);
         var shapes = new Shapes(pool, 4);
         var mesh = shapes.Add(new Mesh(sample.Vertices, sample.Indices, Vector3.One, pool));
         var registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();

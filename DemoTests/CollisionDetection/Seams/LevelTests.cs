@@ -5,6 +5,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Seams;
@@ -33,7 +34,7 @@ public class LevelTests
     // A plane through a point, turned at random about its normal and shifted along itself.
     internal static void AddPlane(ClusterWorld world, LevelGround ground, Quaternion turn, Vector3 place, int seed)
     {
-        var random = new Random(seed);
+        var random = new Random(LevelSeeds.Of(seed));
         turn *= Quaternion.CreateFromAxisAngle(Vector3.UnitY, random.NextSingle() * 6);
         place += Vector3.Transform(new Vector3(random.NextSingle(), 0, random.NextSingle()), turn);
         var (shapes, pool) = (world.Simulation.Shapes, world.Simulation.BufferPool);
@@ -205,7 +206,7 @@ public class LevelTests
     [Theory, InlineData(1), InlineData(-1)]
     public void What_comes_to_a_plate_of_two_sides_stays_on_its_side(int side)
     {
-        var random = new Random(2008 + side);
+        var random = new Random(LevelSeeds.Of(2008 + side));
         for (int i = 0; i < 40; ++i)
         {
             using var world = new ClusterWorld(isCluster: true);

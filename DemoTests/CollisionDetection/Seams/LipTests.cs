@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -30,7 +31,7 @@ public class LipTests(ITestOutputHelper output)
         using var world = new ClusterWorld(isCluster: true);
         world.Behaviour.Friction = 0;
         var body = SeamMovers.Add(world, mover, Speed);
-        SeparateFloors.Add(world, floor, 1003, lip);
+        SeparateFloors.Add(world, floor, LevelSeeds.Of(1003), lip);
         ref var position = ref world.Simulation.Bodies[body].Pose.Position;
         position.Y += lip;
         var start = position.Y;

@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.Collidables.Meshes;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -69,7 +70,7 @@ public class MeshSlideTests(ITestOutputHelper output)
         using var actual = new ClusterWorld(isCluster: true);
         expected.Behaviour.Friction = actual.Behaviour.Friction = friction;
         expected.Simulation.Statics.Add(new StaticDescription(new Vector3(0, -.5f, 0), expected.Simulation.Shapes.Add(new Box(80, 1, 80))));
-        SeparateFloors.Add(actual, floor, 1001);
+        SeparateFloors.Add(actual, floor, LevelSeeds.Of(1001));
         var (one, other) = (Add(expected, mover, speed), Add(actual, mover, speed));
         float along = 0, across = 0, height = float.MinValue, up = 0;
         for (int i = 0; i < (int)(Math.Min(15 / speed, 1.5f) * 60); ++i)

@@ -5,6 +5,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -30,7 +31,7 @@ public class PlateTests(ITestOutputHelper output)
     // Boxes that fly at an upright plate from one side, from the place of a step before they touch to that of the next.
     int CountCrossed(float fastest, float slowest, int side, int count)
     {
-        var random = new Random(2100 + side);
+        var random = new Random(LevelSeeds.Of(2100 + side));
         using var world = CreatePlate(Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2), 200);
         List<(BodyHandle Body, float Speed)> bodies = [];
         for (int i = 0; i < count; ++i)
@@ -57,7 +58,7 @@ public class PlateTests(ITestOutputHelper output)
     public void What_rests_on_a_plate_of_two_sides_stays_on_its_side(int side)
     {
         using var world = CreatePlate(side > 0 ? Quaternion.Identity : Quaternion.CreateFromAxisAngle(Vector3.UnitX, MathF.PI), 4);
-        var random = new Random(2102);
+        var random = new Random(LevelSeeds.Of(2102));
         var bodies = new List<BodyHandle>();
         for (int i = 0; i < 9; ++i)
         {

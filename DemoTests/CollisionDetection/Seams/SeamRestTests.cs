@@ -6,6 +6,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Seams;
@@ -100,7 +101,7 @@ public class SeamRestTests
         using var world = new ClusterWorld(isCluster: true);
         world.Behaviour.Friction = 0;
         var body = SeamMovers.Add(world, mover, 5);
-        SeparateFloors.Add(world, SeparateFloor.Boxes, 1003, lip);
+        SeparateFloors.Add(world, SeparateFloor.Boxes, LevelSeeds.Of(1003), lip);
         world.Simulation.Bodies[body].Pose.Position.Y += lip;
         var (least, most) = (5f, 0f);
         for (int i = 0; i < 120; ++i)
@@ -118,7 +119,7 @@ public class SeamRestTests
     static ClusterWorld CreateTraffic(int threads)
     {
         var world = new ClusterWorld(isCluster: true, threads);
-        SeparateFloors.Add(world, SeparateFloor.Boxes, 1004);
+        SeparateFloors.Add(world, SeparateFloor.Boxes, LevelSeeds.Of(1004));
         var movers = Enum.GetValues<SeamMover>().Where(mover => mover != SeamMover.TwoBoxes && mover != SeamMover.LargeSphere).ToArray();
         for (int i = 0; i < 30; ++i)
         {

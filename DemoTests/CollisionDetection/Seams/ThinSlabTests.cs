@@ -6,6 +6,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Seams;
@@ -115,7 +116,7 @@ public class ThinSlabTests
     {
         using var world = new ClusterWorld(isCluster: true);
         world.Simulation.Solver.RelaxationIterationCount = relaxations;
-        var random = new Random(seed);
+        var random = new Random(LevelSeeds.Of(seed));
         AddGround(world, ground);
         List<(BodyHandle Body, string Name)> slabs = [];
         for (int i = 0; i < 9 * Thicknesses.Length * Speeds.Length; ++i)
@@ -212,7 +213,7 @@ public class ThinSlabTests
     public void Small_balls_do_not_fall_through(SlabGround ground)
     {
         using var world = new ClusterWorld(isCluster: true);
-        var random = new Random(2851);
+        var random = new Random(LevelSeeds.Of(2851));
         AddGround(world, ground);
         List<BodyHandle> bodies = [];
         for (int i = 0; i < 160; ++i)
@@ -236,7 +237,7 @@ public class ThinSlabTests
         int[] Run(int threads)
         {
             using var world = new ClusterWorld(isCluster: true, threads);
-            var random = new Random(2850);
+            var random = new Random(LevelSeeds.Of(2850));
             AddGround(world, SlabGround.Waves);
             for (int i = 0; i < 90; ++i)
             {

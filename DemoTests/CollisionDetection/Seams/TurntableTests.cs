@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
 using DemoTests.CollisionDetection.Children;
 using Xunit;
 using Xunit.Abstractions;
@@ -12,7 +13,9 @@ namespace DemoTests.CollisionDetection.Seams;
 /// <summary>Kinematic tiles that turn as one are one floor, as those are that rest.</summary>
 public class TurntableTests(ITestOutputHelper output)
 {
-    const float Speed = 5, StepLength = 1 / 60f;
+    const float Speed = 5, StepLength = 1 / 60f, Friction = .5f;
+    // That of the callbacks of the world.
+    const float Gravity = 9.81f;
     static readonly Vector3 Center = new(3, 0, 0);
 
     /// <summary>
@@ -75,6 +78,126 @@ public class TurntableTests(ITestOutputHelper output)
             fastest = Math.Max(fastest, world.Simulation.Bodies[cube].Velocity.Linear.Length());
         }
         Assert.InRange(fastest, 1, 6);
+    }
+
+    /// <summary>With friction what lies flat slides, turns and is carried along as it is by one floor that turns.</summary>
+    [Theory]
+    [InlineData(SeamMover.Box), InlineData(SeamMover.TurnedBox), InlineData(SeamMover.StandingCylinder), InlineData(SeamMover.Hull)]
+    public void Friction_of_a_turntable_of_tiles_is_that_of_one_floor(SeamMover mover)
+    {
+        foreach (var turn in new[] { .1f, .3f, 2 })
+        {
+            foreach (var spin in new[] { 0, 5 })
+            {
+                using var expected = new ClusterWorld(isCluster: true);
+                using var actual = new ClusterWorld(isCluster: true);
+                var table = AddTiles(expected, 24, 1);
+                var tiles = AddTiles(actual, 1, 14);
+                var (one, other) = (SeamMovers.Add(expected, mover, 3), SeamMovers.Add(actual, mover, 3));
+                expected.Simulation.Bodies[one].Velocity.Angular.Y = actual.Simulation.Bodies[other].Velocity.Angular.Y = spin;
+                float velocityError = 0, spinError = 0;
+                for (int i = 0; i < 60; ++i)
+                {
+                    Turn(expected, table, turn, i, takesChord: false);
+                    Turn(actual, tiles, turn, i, takesChord: false);
+                    expected.Step(validate: false);
+                    actual.Step(validate: i % 16 == 0);
+                    var (a, b) = (expected.Simulation.Bodies[one].Velocity, actual.Simulation.Bodies[other].Velocity);
+                    velocityError = Math.Max(velocityError, (a.Linear - b.Linear).Length());
+                    spinError = Math.Max(spinError, Math.Abs(a.Angular.Y - b.Angular.Y));
+                }
+                output.WriteLine($"{turn} rad/s, spin {spin}: off by {velocityError} m/s, {spinError} rad/s");
+                // A fifth of what friction takes in a step, as on tiles that rest: of a disc of .3 m, m g mu r of a spin, which has m r^2 / 2.
+                Assert.InRange(velocityError, 0, .2f * Friction * Gravity * StepLength);
+                Assert.InRange(spinError, 0, .2f * Friction * Gravity / .15f * StepLength);
+            }
+        }
+    }
+
+    /// <summary>
+    /// A table that hardly turns stops a box within v^2 / (2 mu g), less half of what it goes in a substep, as velocities change before positions.
+    /// </summary>
+    [Theory]
+    [InlineData(2), InlineData(3), InlineData(4)]
+    public void A_box_slides_as_far_over_turning_tiles_as_friction_says(float speed)
+    {
+        using var world = new ClusterWorld(isCluster: true);
+        var tiles = AddTiles(world, 1, 14);
+        var box = world.AddBody(new Box(.5f, .1f, .5f), new RigidPose(new Vector3(0, .05f, 0)), new BodyVelocity(new Vector3(speed, 0, 0)));
+        for (int i = 0; i < 75; ++i)
+        {
+            Turn(world, tiles, .01f, i, takesChord: false);
+            world.Step(validate: false);
+        }
+        var way = world.Simulation.Bodies[box].Pose.Position.X;
+        var expected = speed * speed / (2 * Friction * Gravity) - .5f * speed * StepLength / 4;
+        // The load is there when the contacts have given way.
+        Assert.InRange(way, expected - .01f * expected, expected + .01f * expected);
+    }
+
+    /// <summary>One corner on each of four tiles: friction takes mu m g r from the spin, with r the way from the middle to a corner.</summary>
+    [Fact]
+    public void A_box_that_spins_on_turning_tiles_stops_as_friction_says()
+    {
+        const float turn = .3f, width = .5f, relative = 10;
+        using var world = new ClusterWorld(isCluster: true);
+        var tiles = AddTiles(world, 1, 14);
+        var corner = new Vector3(.03f, 0, -.09f);
+        var angular = new Vector3(0, turn, 0);
+        var box = world.AddBody(new Box(width, .1f, width), new RigidPose(Center + corner with { Y = .05f }),
+            new BodyVelocity(Vector3.Cross(angular, corner), angular + new Vector3(0, relative, 0)));
+        var deceleration = Friction * Gravity * (width / MathF.Sqrt(2)) / (width * width / 6);
+        for (int i = 1; i <= 60; ++i)
+        {
+            Turn(world, tiles, turn, i - 1, takesChord: false);
+            world.Step();
+            var expected = turn + Math.Max(0, relative - deceleration * i / 60);
+            Assert.InRange(world.Simulation.Bodies[box].Velocity.Angular.Y, expected - .05f * deceleration / 60, expected + deceleration / 60);
+        }
+        Assert.InRange(world.Simulation.Bodies[box].Velocity.Angular.Y, turn - 1e-3f, turn + 1e-3f);
+    }
+
+    /// <summary>
+    /// An arm that turns about its end, which stands on four tiles: its foot is beside them. Friction of the end has a lever of .07 m, that of something that
+    /// slid at the foot would have .5 m.
+    /// </summary>
+    [Fact]
+    public void What_is_held_at_its_end_has_friction_where_it_touches()
+    {
+        const float turn = .3f;
+        var spins = new List<float>();
+        foreach (var (size, count) in new[] { (24f, 1), (1f, 14) })
+        {
+            using var world = new ClusterWorld(isCluster: true);
+            var simulation = world.Simulation;
+            var tiles = AddTiles(world, size, count);
+            var corner = Center + new Vector3(.03f, 0, -.09f);
+            simulation.BufferPool.Take<CompoundChild>(1, out var children);
+            children[0] = new(new Vector3(-.5f, 0, 0), simulation.Shapes.Add(new Box(.1f, .4f, .1f)));
+            var compound = new Compound(children);
+            world.Own(compound);
+            var arm = simulation.Bodies.Add(BodyDescription.CreateDynamic(new RigidPose(corner + new Vector3(.5f, .1999f, 0)),
+                new BodyVelocity(new Vector3(0, 0, -.5f * 3), new Vector3(0, 3, 0)), new Sphere(.5f).ComputeInertia(1), simulation.Shapes.Add(compound), -1f));
+            var anchor = simulation.Bodies.Add(BodyDescription.CreateKinematic(corner + new Vector3(0, 3, 0), simulation.Shapes.Add(new Sphere(.1f)), -1f));
+            var spring = new SpringSettings(30, 1);
+            simulation.Solver.Add(anchor, arm, new AngularHinge { LocalHingeAxisA = Vector3.UnitY, LocalHingeAxisB = Vector3.UnitY, SpringSettings = spring });
+            simulation.Solver.Add(anchor, arm, new PointOnLineServo
+            {
+                LocalDirection = Vector3.UnitY,
+                LocalOffsetB = new Vector3(-.5f, 0, 0),
+                ServoSettings = ServoSettings.Default,
+                SpringSettings = spring,
+            });
+            for (int i = 0; i < 30; ++i)
+            {
+                Turn(world, tiles, turn, i, takesChord: false);
+                world.Step(validate: false);
+            }
+            spins.Add(simulation.Bodies[arm].Velocity.Angular.Y);
+        }
+        // A moment of mu m g .07 m for .5 s, where I = .4 m .25 + m .25; the other would be seven times that.
+        var loss = Friction * Gravity * .0708f / .35f * .5f;
+        Assert.All(spins, spin => Assert.InRange(spin, 3 - 1.5f * loss, 3 - .5f * loss));
     }
 
     // Tiles of a table that turns about Y, and where they are when it has not turned yet.
