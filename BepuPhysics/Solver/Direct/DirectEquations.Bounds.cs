@@ -73,6 +73,8 @@ readonly unsafe partial struct DirectEquations
             if (!node.IsHeld)
                 continue;
             Ask(node);
+            if (IsIdle(node) && !MayLean(node))
+                continue;
             SolveForward(node);
             SolveBack(node);
             var length = LengthOf(node);
@@ -92,6 +94,23 @@ readonly unsafe partial struct DirectEquations
             change = change == Change.None ? Change.Impulses : change;
         }
         return HoldWhatIsBeyond(island) ? Change.WhoIsHeld : change;
+    }
+
+    // A limit that nothing leans on. Most are: all that is worked out of them is whether something begins to.
+    static bool IsIdle(in DirectNode node) => node.IsHeld && node.Limit == RowLimit.Positive;
+
+    // Whether a limit asks for an impulse; what it takes to say how large is worked out then.
+    bool MayLean(in DirectNode node)
+    {
+        if (!(rows[node.FirstRow].X > 0))
+        {
+            ClearChange(node);
+            return false;
+        }
+        Weigh(node);
+        AddDiagonal(node);
+        FactorDiagonal(node);
+        return true;
     }
 
     bool HoldWhatIsBeyond(in DirectIsland island)

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.Constraints;
@@ -31,12 +32,13 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
                 rows[nodes[k].FirstRow + i].Impulse *= scale;
             if (nodes[k].HasBounds)
                 Foresee(ref nodes[k]);
-            Weigh(nodes[k]);
+            if (!IsIdle(nodes[k]))
+                Weigh(nodes[k]);
         }
         Factor(island);
         for (int k = island.FirstNode; k < island.EndNode; ++k)
         {
-            for (int i = 0; i < nodes[k].RowCount; ++i)
+            for (int i = 0; i < nodes[k].RowCount && !IsIdle(nodes[k]); ++i)
                 Apply(nodes[k], i, rows[nodes[k].FirstRow + i].Impulse);
         }
     }
@@ -44,10 +46,12 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
     // Of a joint that is held there is its own block alone.
     void Factor(in DirectIsland island)
     {
-        for (int i = island.FirstNumber; i < island.EndNumber; ++i)
-            numbers[i] = 0;
+        new Span<double>(numbers + island.FirstNumber, island.EndNumber - island.FirstNumber).Clear();
         for (int k = island.FirstNode; k < island.EndNode; ++k)
-            AddDiagonal(nodes[k]);
+        {
+            if (!IsIdle(nodes[k]))
+                AddDiagonal(nodes[k]);
+        }
         for (int i = island.FirstCoupling; i < island.EndCoupling; ++i)
         {
             if (!nodes[couplings[i].Later].IsHeld && !nodes[couplings[i].Earlier].IsHeld)
@@ -55,7 +59,8 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
         }
         for (int k = island.FirstNode; k < island.EndNode; ++k)
         {
-            FactorDiagonal(nodes[k]);
+            if (!IsIdle(nodes[k]))
+                FactorDiagonal(nodes[k]);
             if (!nodes[k].IsHeld)
                 Eliminate(nodes[k]);
         }
@@ -227,7 +232,7 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
         for (int slot = 0; slot < node.BodyCount; ++slot)
         {
             velocities[slot] = bodies[node.Bodies[slot]].Velocity;
-            for (int row = 0; row < node.RowCount && softness > 0; ++row)
+            for (int row = 0; row < node.RowCount && softness > 0 && !IsIdle(node); ++row)
                 velocities[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], softness * rows[node.FirstRow + row].Impulse);
         }
         for (int row = 0; row < node.RowCount; ++row)

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -137,7 +138,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
                     if (solver.ChoosesDirectJoints)
                         Ease(node, processor, rowsOfBundle, lane, set.LocalInertias, substep.Dt, corrects);
                     if (corrects && node.Limit != RowLimit.Length)
-                        Limit(node, processor, set.LocalInertias, substep.Dt);
+                        Limit(node, processor, set, substep.Dt);
                 }
             }
             first += batch.BundleCount;
@@ -190,10 +191,15 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         return error > 0 && target > 0.99 * 0.99 * whole * whole * error;
     }
 
-    void Limit(in DirectNode node, TypeProcessor processor, Buffer<BodyInertia> inertias, float dt) =>
-        Correction.Limit(node, processor, jacobians.Memory + node.Jacobian, rows.Memory + node.FirstRow, plan.Bodies, inertias, dt);
+    void Limit(in DirectNode node, TypeProcessor processor, in BodySet set, float dt) => Correction.Limit(
+        node, processor, jacobians.Memory + node.Jacobian, rows.Memory + node.FirstRow, plan.Bodies, set.LocalInertias, set.MotionStates, dt);
 
-    static Vector256<double> ReadLane(in Vector3Wide wide, int lane) => Vector256.Create(wide.X[lane], wide.Y[lane], wide.Z[lane], 0d);
+    // By address: an element of a vector is a copy of it otherwise.
+    static Vector256<double> ReadLane(in Vector3Wide wide, int lane)
+    {
+        ref var x = ref Unsafe.Add(ref Unsafe.As<Vector3Wide, float>(ref Unsafe.AsRef(in wide)), lane);
+        return Vector256.Create(x, Unsafe.Add(ref x, Vector<float>.Count), Unsafe.Add(ref x, 2 * Vector<float>.Count), 0d);
+    }
 
     bool HasLoops(in DirectNode node) => plan.Islands[node.Island].HasLoops;
 
