@@ -60,15 +60,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         var dt = workers[workerIndex].Batcher.Dt;
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
-        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
-        float innerA = batchA.InnerRadius(shapeA.Index), innerB = batchB.InnerRadius(shapeB.Index);
-        float radiusA = batchA.MaximumRadius(shapeA.Index), radiusB = batchB.MaximumRadius(shapeB.Index);
-        var inner = innerA > 0 && innerB > 0 ? MathHelper.Min(innerA, innerB) : MathHelper.Max(innerA, innerB);
-        if (!(inner > 0))
-            inner = MathHelper.Min(radiusA, radiusB) * (FastPartOfRadius / FastPart);
-        var speed = Exact.Length(velocityA.Linear - velocityB.Linear) +
-            SurfaceSpeed(velocityA.Angular, radiusA, innerA) + SurfaceSpeed(velocityB.Angular, radiusB, innerB);
-        if (!(speed * dt > FastPart * inner))
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed))
             return false;
         // A sensor is passed: nothing is foreseen of it.
         tested.IsExact = !tested.IsSensor;
@@ -101,6 +93,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed), ImpactAccuracy.Default.MaximumRoundCount),
         };
         var filter = new ChildFilter(this, workerIndex, tested.Pair);
+        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
         SweepPairs.Test(motion, shapeA.Type, batchA.GetPointer(shapeA.Index), shapeB.Type, batchB.GetPointer(shapeB.Index), ref filter,
             Simulation.Shapes, workers[workerIndex].Pool, out var hit);
         if (hit.Overlaps)
@@ -116,6 +109,44 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         placed.A = new(default, BodyTurn.Turn(poseA.Orientation, motion.AngularA, hit.T));
         placed.B = new((motion.OffsetB + (motion.LinearB - motion.LinearA) * hit.T).ToSingle(), BodyTurn.Turn(poseB.Orientation, motion.AngularB, hit.T));
         return true;
+    }
+
+    bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner, out float speed)
+    {
+        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
+        float innerA = batchA.InnerRadius(shapeA.Index), innerB = batchB.InnerRadius(shapeB.Index);
+        float radiusA = batchA.MaximumRadius(shapeA.Index), radiusB = batchB.MaximumRadius(shapeB.Index);
+        inner = innerA > 0 && innerB > 0 ? MathHelper.Min(innerA, innerB) : MathHelper.Max(innerA, innerB);
+        if (!(inner > 0))
+            inner = MathHelper.Min(radiusA, radiusB) * (FastPartOfRadius / FastPart);
+        speed = Exact.Length(velocityA.Linear - velocityB.Linear) +
+            SurfaceSpeed(velocityA.Angular, radiusA, innerA) + SurfaceSpeed(velocityB.Angular, radiusB, innerB);
+        return speed * dt > FastPart * inner;
+    }
+
+    internal override (float Inner, float Radius) RadiiOf(TypedIndex shape)
+    {
+        var batch = Simulation.Shapes.GetBatch(shape.Type);
+        float inner = batch.InnerRadius(shape.Index), radius = batch.MaximumRadius(shape.Index);
+        return (inner > 0 ? inner : radius * (FastPartOfRadius / FastPart), radius);
+    }
+
+    // What the broad phase and TestPair ask of a pair that they find. Sensors are left out: nobody could be told any more that their pair is watched.
+    internal override bool WatchesLate(in CollidablePair pair, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner)
+    {
+        inner = 0;
+        if (pair.A.Mobility != CollidableMobility.Dynamic || (ContinuityOf(pair.A).Mode != ContinuousDetectionMode.Continuous &&
+            ContinuityOf(pair.B).Mode != ContinuousDetectionMode.Continuous))
+            return false;
+        Simulation.GetPoseAndShape(pair.A, out _, out var shapeA);
+        Simulation.GetPoseAndShape(pair.B, out _, out var shapeB);
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out inner, out _) || !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+            return false;
+        if ((Simulation.Layers.IsUsed && !CollisionLayers.MayMeet(Simulation.Layers.Of(pair.A), Simulation.Layers.Of(pair.B))) ||
+            (Simulation.Events.UsesSensors && Simulation.Events.CountSensors(pair.A, pair.B) > 0))
+            return false;
+        var margin = MarginOf(pair.A) + (pair.B.Mobility == CollidableMobility.Static ? 0 : MarginOf(pair.B));
+        return IsAllowed(0, pair, ref margin);
     }
 
     // By which its turn moves the surface of a shape that is not a ball.
@@ -160,7 +191,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void WatchFastPairs()
     {
-        FastPairs.BeginStep();
+        FastPairs.BeginStep(workers[0].Batcher.Dt);
         order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Fast, i);
@@ -170,6 +201,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var note = ref workers[order[i].Worker].Fast[order[i].Index];
             FastPairs.Watch(note.Pair, note.Inner, note.IsSensor);
         }
+        FastPairs.Share();
     }
 
     // Nobody else calls back while the solver runs, so that any worker's number will do.

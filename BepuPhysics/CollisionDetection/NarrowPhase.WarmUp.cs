@@ -34,19 +34,16 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(QuickList<NoteKey>));
         Precompilation.Compile(typeof(RadixSort<NoteKey, ByKey>));
         OverlapFinder.Compile<Overlaps>();
-        var expands = false;
         foreach (var a in shapeTypes)
         {
             foreach (var b in shapeTypes)
             {
                 if (a > b || !CollisionTaskRegistry.TryGetTask(a, b, out var task))
                     continue;
-                expands |= task.Expands;
                 Precompilation.Compile(task.GetType(), nameof(CollisionTask.Execute), typeof(Completion));
             }
         }
-        // Made on first use, which is in a step otherwise.
-        if (expands)
-            GC.KeepAlive(DirectedTasks.Registry);
+        // Made on first use, which is in a step otherwise: what touches several statics asks for it as well as children do.
+        GC.KeepAlive(DirectedTasks.Registry);
     }
 }

@@ -34,6 +34,21 @@ struct EarliestTime(BufferPool pool)
             nodes[i] = EarlierBelow(i);
     }
 
+    /// <summary>Adds the next number.</summary>
+    public void Add(int number, double time, BufferPool pool)
+    {
+        if (number >= LeafCount)
+        {
+            var old = LeafCount;
+            nodes.EnsureCapacity(4 * old, pool);
+            nodes.Count = 4 * old;
+            nodes.AsSpan().Slice(old, old).CopyTo(nodes.AsSpan()[(2 * old)..]);
+            nodes.AsSpan()[(3 * old)..].Fill(FastPair.Never);
+            Arrange();
+        }
+        Change(number, time);
+    }
+
     /// <summary>Changes a time.</summary>
     public void Change(int number, double time)
     {

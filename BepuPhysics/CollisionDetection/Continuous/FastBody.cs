@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuUtilities;
 
@@ -26,6 +27,16 @@ struct FastBody
     public BodyVelocity Velocity;
     /// <summary>Inverse inertia in the frame of the body.</summary>
     public BodyInertia Inertia;
+    /// <summary>Radius around the centre that its shape does not leave, m; that of the shape's farthest turning point, 0 for a ball.</summary>
+    public double Radius, TurningRadius;
+    /// <summary>Velocity that its bounds contain, m/s, and how fast it may turn about any axis, rad/s.</summary>
+    public DoubleVector3 ForeseenLinear;
+    /// <summary>See <see cref="ForeseenLinear"/>.</summary>
+    public double ForeseenSpin;
+    /// <summary>By which the velocity changes in a substep where nothing is met, m/s.</summary>
+    public DoubleVector3 FreeChange;
+    /// <summary>Greatest speed by which it may move otherwise than its bounds have foreseen, m/s.</summary>
+    public double UnforeseenSpeed;
     /// <summary>Whether an impact has changed its way.</summary>
     public bool HasChanged;
 
@@ -42,6 +53,10 @@ struct FastBody
         HasChanged = false;
         (CheckedPosition, CheckedOrientation) = (end.Pose.Position, end.Pose.Orientation);
     }
+
+    /// <summary>Whether it may come to what is not in its bounds.</summary>
+    public readonly bool IsUnforeseen =>
+        (Linear - ForeseenLinear).Length + Math.Max(0, Angular.Length - ForeseenSpin) * TurningRadius > UnforeseenSpeed;
 
     /// <summary>Where the body is at a time.</summary>
     public readonly DoubleVector3 PositionAt(double time) => Position + Linear * (time - Time);

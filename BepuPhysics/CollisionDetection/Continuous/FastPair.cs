@@ -14,6 +14,8 @@ struct FastPair
     public int A, B;
     /// <summary>Inner radius of the thinner shape, m.</summary>
     public float Inner;
+    /// <summary>Inner radius of the shape that reaches less far from its centre, m.</summary>
+    public float SmallerInner;
     /// <summary>Whether one of them is a sensor, which is seen to be met and passed.</summary>
     public bool IsSensor;
     /// <summary>Whether it has been met in this step.</summary>

@@ -11,17 +11,19 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Keeps fast pairs from passing each other: the ways that their bodies have gone in a substep are swept.</summary>
 // Contacts know what is hit first. What was turned by a hit comes with another edge within the same step, or goes where no contact was foreseen. So when
-// the bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, so that
-// what merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of two bodies at one point, with the friction and
-// restitution of the pair; from there both go on for the rest of the substep with the velocities that this leaves. Impacts are made in the order of their
-// times, and after each the pairs of its bodies are swept anew. So no time is lost; and whatever moved the bodies, none is where it cannot have come to.
+// the bodies of a substep have moved, the cores of the shapes are swept along their ways: shapes that are thinner by a tenth of their inner radius, or of that
+// of the smaller one of the two if that is less, so that what merely touches, or is pressed together, is none of this. Where cores meet an impact is made, of
+// two bodies at one point, with the friction and restitution of the pair; from there both go on for the rest of the substep with the velocities that this
+// leaves. Impacts are made in the order of their times, and after each the pairs of its bodies are swept anew. So no time is lost; and whatever moved the
+// bodies, none is where it cannot have come to.
 //
 // Where there are many pairs, the ways of bodies and the first sweep of each pair are what takes time. They do not depend on each other, and FastPairsShare
 // has them done by all threads; what is left for one are the impacts.
-sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
+sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
 {
-    // Parts of the inner radius by which cores are thinner: the first at which they are apart.
-    static ReadOnlySpan<double> SkinParts => [.1, .3, .6, .9];
+    // Parts of the inner radius by which cores are thinner: the first at which they are apart. Who is pushed again and again, by others, comes deeper by one
+    // of these in a substep at most: so their steps are small.
+    static ReadOnlySpan<double> SkinParts => [.1, .15, .2, .25, .3, .35, .4, .5, .6, .7, .8, .9];
     // Part of the inner radius at which cores count as touching: they may come back to half of that some times, and still be apart for all that rounding tells.
     const double TouchingPart = .01;
     // Impacts of one pair in a substep from which on it does not turn any more, from which on it is stopped, and from which on it is left alone: something
@@ -35,7 +37,7 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
     const int PairsPerBlock = 8;
 
     QuickList<FastPair> pairs = new(16, pool);
-    QuickList<FastBody> movers = new(16, pool);
+    QuickList<FastBody> movers = new(8, pool);
     // Pairs of each mover that come first.
     QuickList<int> firstPairs = new(16, pool);
     // Movers of the active set's bodies; -1 for the others.
@@ -55,9 +57,11 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
     internal int StopCount { get; private set; }
 
     /// <summary>Begins a step: nothing is watched.</summary>
-    internal void BeginStep()
+    /// <param name="dt">Length of the step, s.</param>
+    internal void BeginStep(float dt = 0)
     {
-        pairs.Count = 0;
+        stepDt = dt;
+        pairs.Count = SharedBlockCount = 0;
         ImpactCount = StopCount = 0;
     }
 
@@ -92,6 +96,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         firstPairs.Dispose(pool);
         moverOf.Dispose(pool);
         changed.Dispose(pool);
+        if (near.Span.Allocated)
+            near.Dispose(pool);
         times.Dispose(pool);
     }
 
@@ -102,6 +108,7 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         firstPairs = default;
         moverOf = default;
         changed = default;
+        near = default;
         times = default;
     }
 
@@ -115,14 +122,19 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         if (point == SolverPoint.BeforeSubsteps)
             Link();
         else if (HasMoved(point, substep))
-            Check(substep.Dt);
+            Check(substep.Dt, point == SolverPoint.AfterSubsteps ? substep.Dt : stepDt - (substep.Index - 1) * substep.Dt);
+        else
+            NoteFreeMotion();
     }
 
     /// <summary>Whether the bodies of a substep have moved before a point.</summary>
     internal static bool HasMoved(SolverPoint point, in Substep substep) => point == SolverPoint.AfterSubsteps || substep.Index > 0;
 
-    /// <summary>Blocks for other threads; 0 if there is too little for them to do.</summary>
-    internal int SharedBlockCount => pairs.Count < LeastForThreads ? 0 : (pairs.Count + PairsPerBlock - 1) / PairsPerBlock;
+    /// <summary>Blocks for other threads; 0 if there is too little for them to do. Those of a step: pairs that are found in it make blocks larger.</summary>
+    internal int SharedBlockCount { get; private set; }
+
+    /// <summary>Divides what is watched among threads.</summary>
+    internal void Share() => SharedBlockCount = pairs.Count < LeastForThreads ? 0 : (pairs.Count + PairsPerBlock - 1) / PairsPerBlock;
 
     /// <summary>Begins the ways of one block's bodies.</summary>
     internal void BeginWays(int block, int blockCount, double dt)
@@ -155,6 +167,8 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
                 !SweepPairs.IsKnown(pair.ShapeA.Type) || !SweepPairs.IsKnown(pair.ShapeB.Type);
             if (pair.Passes)
                 pair.A = pair.B = -1;
+            else
+                pair.SmallerInner = SmallerInner(pair);
             pair.NextOfA = Link(ref pair.A, i);
             pair.NextOfB = Link(ref pair.B, i);
         }
@@ -197,15 +211,7 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         if (mover < 0)
         {
             mover = movers.Count;
-            ref var pose = ref Bodies.ActiveSet.MotionStates[body].Pose;
-            var first = new FastBody
-            {
-                Index = body,
-                CheckedPosition = pose.Position,
-                CheckedOrientation = pose.Orientation,
-                Inertia = Bodies.ActiveSet.LocalInertias[body],
-            };
-            movers.Add(first, pool);
+            movers.Add(MoverOf(body), pool);
             firstPairs.Add(-1, pool);
         }
         body = mover;
@@ -214,8 +220,10 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
         return next;
     }
 
-    void Check(double dt)
+    // The way of a substep, which is that long, in a step that ends at a time from the substep's beginning.
+    void Check(double dt, double end)
     {
+        stepEnd = end;
         if (SharedBlockCount == 0)
         {
             BeginWays(0, 1, dt);
@@ -226,6 +234,7 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             times.Note(i, pairs[i].Time);
         times.Arrange();
         changed.Count = 0;
+        LookAroundTurnedAside(dt);
         for (int next; (next = times.First) >= 0;)
             MakeImpact(next, dt);
         for (int i = 0; i < changed.Count; ++i)
@@ -264,19 +273,35 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             pair.Time = hit.Overlaps ? from : hit.Exists ? from + hit.T : FastPair.Never;
             return;
         }
-        foreach (var part in SkinParts)
-        {
-            motion.ThinnerPart = part;
-            Sweep(pair, motion, temporary, out hit);
-            if (!hit.Overlaps)
-                break;
-        }
-        if (!hit.Exists || hit.Overlaps)
+        motion.MostThinnerOf = pair.SmallerInner;
+        motion.ThinnerPart = SkinParts[0];
+        Sweep(pair, motion, temporary, out hit);
+        if (hit.Overlaps && !TrySweepThinner(pair, motion, temporary, out hit))
+            return;
+        if (!hit.Exists)
             return;
         pair.Time = from + hit.T;
         pair.Normal = hit.Normal;
         pair.ArmA = hit.Place - motion.LinearA * hit.T;
         pair.ArmB = hit.Place - motion.OffsetB - motion.LinearB * hit.T;
+    }
+
+    // Whether shapes are apart at all is told without a way.
+    bool TrySweepThinner(in FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
+    {
+        var way = motion.MaximumT;
+        hit = default;
+        foreach (var part in SkinParts[1..])
+        {
+            (motion.ThinnerPart, motion.MaximumT) = (part, 0);
+            Sweep(pair, motion, temporary, out hit);
+            if (hit.Overlaps)
+                continue;
+            motion.MaximumT = way;
+            Sweep(pair, motion, temporary, out hit);
+            return !hit.Overlaps;
+        }
+        return false;
     }
 
     void Place(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 angular, out DoubleMatrix3x3 axes,
@@ -347,10 +372,14 @@ sealed unsafe class FastPairs(NarrowPhase narrowPhase, Simulation simulation, Bu
             Stop(pair, ref a, ref b);
         else
             Bounce(ref pair, ref a, ref b);
-        GoOn(pair.A, dt);
-        GoOn(pair.B, dt);
-        SweepAgain(pair.A, time, dt);
-        SweepAgain(pair.B, time, dt);
+        var (bodyA, bodyB) = (pair.A, pair.B);
+        GoOn(bodyA, dt);
+        GoOn(bodyB, dt);
+        // These may find more pairs, which moves all of them in memory.
+        LookAround(bodyA, time, dt);
+        LookAround(bodyB, time, dt);
+        SweepAgain(bodyA, time, dt);
+        SweepAgain(bodyB, time, dt);
     }
 
     void GoOn(int body, double dt)

@@ -118,22 +118,24 @@ unsafe struct ImpactCore
     }
 
     /// <summary>Takes a part of its inner radius off the shape, all around; a hull is made smaller by that part, which takes no less off.</summary>
+    /// <param name="part">The part.</param>
+    /// <param name="most">Inner radius that counts where that of the shape is larger, m.</param>
     // A ball of the inner radius is in a hull, and so is what a hull that is smaller by a part sweeps with a ball of that part of the radius.
-    public void Thin(double part)
+    public void Thin(double part, double most)
     {
         switch (kind)
         {
             case Kind.Point or Kind.Segment:
-                Margin *= 1 - part;
+                Margin -= part * Math.Min(Margin, most);
                 Size = Reach + Margin;
                 break;
             case Kind.Box or Kind.Cylinder:
-                var skin = part * Math.Min(a.X, kind == Kind.Box ? Math.Min(a.Y, a.Z) : a.Y);
+                var skin = part * Math.Min(most, Math.Min(a.X, kind == Kind.Box ? Math.Min(a.Y, a.Z) : a.Y));
                 a = kind == Kind.Box ? new(a.X - skin, a.Y - skin, a.Z - skin) : new(a.X - skin, a.Y - skin, 0);
                 Size = Reach = a.Length;
                 break;
             case Kind.Hull:
-                hullScale = 1 - part;
+                hullScale = 1 - part * Math.Min(1, most / hull->InnerRadius);
                 Reach *= hullScale;
                 Size *= hullScale;
                 break;

@@ -3,7 +3,7 @@ using BepuPhysics.Collidables;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>The tasks that look at pairs along directions, for all pairs of the shapes that the library comes with.</summary>
-// Made when the first pair of children asks for them: a world of convex shapes has none.
+// Made when the first pair of children, or the first body on several statics, asks for them: other worlds have none.
 static class DirectedTasks
 {
     /// <summary>The tasks; each is an <see cref="IDirectedTask"/>.</summary>

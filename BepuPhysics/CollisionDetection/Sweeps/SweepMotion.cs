@@ -19,6 +19,8 @@ struct SweepMotion
     public ImpactAccuracy Accuracy;
     /// <summary>Part of its inner radius by which each convex part is thinner than its shape; of triangles and half-spaces nothing is taken.</summary>
     public double ThinnerPart;
+    /// <summary>Inner radius, m, of which that part is the most that is taken: nothing that is thick loses more than what is small has.</summary>
+    public double MostThinnerOf;
 
     /// <summary>A convex part.</summary>
     /// <param name="typeId">Type of its shape.</param>
@@ -28,7 +30,7 @@ struct SweepMotion
     {
         var core = ImpactCore.Of(typeId, shape);
         if (ThinnerPart > 0)
-            core.Thin(ThinnerPart);
+            core.Thin(ThinnerPart, MostThinnerOf);
         return core;
     }
 

@@ -1,0 +1,111 @@
+using System;
+using System.Collections.Generic;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using Demos.Accuracy;
+using DemoTests.Scenes;
+using Xunit;
+
+namespace DemoTests.FastBodies;
+
+/// <summary>What is marked leaves no closed room, also where others throw it against a wall within a step, that was not on its way.</summary>
+public class ClosedRoomTests
+{
+    static readonly bool isFull = Environment.GetEnvironmentVariable("PHYSICS_FULL_TESTS") is { Length: > 0 };
+    const float Speed = 150;
+
+    public static TheoryData<Flyer, RoomWalls, int> Cases
+    {
+        get
+        {
+            var data = new TheoryData<Flyer, RoomWalls, int>();
+            foreach (var flyer in Enum.GetValues<Flyer>())
+            {
+                foreach (var walls in Enum.GetValues<RoomWalls>())
+                {
+                    foreach (int rate in (int[])[60, 240])
+                        data.Add(flyer, walls, rate);
+                }
+            }
+            return data;
+        }
+    }
+
+    /// <summary>Nobody leaves, and energy is not made of collisions without restitution.</summary>
+    [Theory]
+    [MemberData(nameof(Cases))]
+    public void NobodyLeaves(Flyer flyer, RoomWalls walls, int rate)
+    {
+        var (count, size, seeds) = isFull ? (500, 10f, 5) : (125, 5f, flyer == Flyer.Ball ? 3 : 1);
+        for (int seed = 1; seed <= seeds; ++seed)
+        {
+            using var room = new ClosedRoom(flyer, walls, count, size, Speed, seed);
+            var before = room.Energy;
+            room.Step(isFull ? 60 : 20, 1f / rate);
+            Assert.Equal(0, room.OutsideCount);
+            Assert.InRange(room.Energy, 0, before);
+        }
+    }
+
+    /// <summary>A ball that rests, and is foreseen to meet no wall, is shot at one by another ball within the step.</summary>
+    [Theory]
+    [InlineData(.3f)]
+    [InlineData(1)]
+    [InlineData(2)]
+    public void ABallThatIsShotStopsAtTheNextWall(float distance)
+    {
+        const float radius = .1f;
+        var ball = new Sphere(radius);
+        using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
+        world.AddStatic(new Box(.02f, 10, 10), new RigidPose(new Vector3(.01f, 0, 0)));
+        var struck = Add(world, ball, new Vector3(-radius - distance, 0, 0), default);
+        var striking = Add(world, ball, new Vector3(-radius - distance - .5f, 0, 0), new Vector3(300, 0, 0));
+        world.Step(3);
+        // Without restitution both end at the wall, one behind the other, as nothing is left that comes back.
+        Assert.InRange(world.Bodies[struck].Pose.Position.X, -radius - .1f * radius, -radius + .1f * radius);
+        Assert.InRange(world.Bodies[striking].Pose.Position.X, -3 * radius - .2f * radius, -3 * radius + .2f * radius);
+    }
+
+    /// <summary>Two that are both thrown out of their ways meet, though neither has been foreseen where they do.</summary>
+    [Fact]
+    public void TwoThatAreThrownAsideMeet()
+    {
+        const float radius = .1f;
+        var ball = new Sphere(radius);
+        using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
+        // Two that rest, and two that strike them: each goes on at 300 m/s towards the other, 5 m in a step.
+        var left = Add(world, ball, new Vector3(-1, 0, 0), default);
+        var right = Add(world, ball, new Vector3(1, 0, 0), default);
+        Add(world, ball, new Vector3(-1.4f, 0, 0), new Vector3(600, 0, 0));
+        Add(world, ball, new Vector3(1.4f, 0, 0), new Vector3(-600, 0, 0));
+        world.Step(2);
+        var (a, b) = (world.Bodies[left].Pose.Position.X, world.Bodies[right].Pose.Position.X);
+        Assert.True(a < b, $"{a} and {b} have passed each other.");
+    }
+
+    static BodyHandle Add(TestWorld world, in Sphere ball, Vector3 position, Vector3 velocity) => world.Bodies.Add(BodyDescription.CreateDynamic(
+        position, new BodyVelocity(velocity), ball.ComputeInertia(1),
+        new CollidableDescription(world.Simulation.Shapes.Add(ball), ContinuousDetection.Continuous()), -1));
+
+    /// <summary>Pairs that are found within a step do not depend on threads.</summary>
+    [Fact]
+    public void ThreadsDoNotShow()
+    {
+        var expected = HashesOf(1);
+        foreach (int threads in (int[])[2, 3, 5])
+            Assert.Equal(expected, HashesOf(threads));
+    }
+
+    static List<ulong> HashesOf(int threads)
+    {
+        using var room = new ClosedRoom(Flyer.Box, RoomWalls.Boxes, 125, 5, Speed, 7, threads);
+        var hashes = new List<ulong>();
+        for (int i = 0; i < 8; ++i)
+        {
+            room.Step(1, TestWorld.Dt);
+            hashes.Add(room.Simulation.StateHash());
+        }
+        return hashes;
+    }
+}
