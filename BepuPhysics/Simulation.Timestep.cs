@@ -64,8 +64,11 @@ public sealed partial class Simulation
         using var timer = Profiler.Time(PoseIntegrator);
         Bodies.RipeCount = 0;
         Quarantine.EnsureCapacity();
-        PoseIntegrator.Prepare(dt);
-        var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = dt };
+        // What rests may be apart by a part of its size, which the margin of a usual step covers and that of a much shorter one does not: its
+        // contacts would go, and with them what they bear. See Docs/decisions/step-length.md.
+        var reach = MathHelper.Max(dt, Solver.UsualDt);
+        PoseIntegrator.Prepare(reach);
+        var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = reach };
         try
         {
             StagedWork.Run(ref work, Bodies.Awake.Count < BoundsPredictor.MinimumBodyCountForThreads ? null : threadDispatcher);

@@ -16,6 +16,7 @@ static class CharacterChecks
         RefuseNegative(character.JumpVelocity, character, nameof(character.JumpVelocity));
         RefuseNegative(character.MaximumHorizontalForce, character, nameof(character.MaximumHorizontalForce));
         RefuseNegative(character.MaximumVerticalForce, character, nameof(character.MaximumVerticalForce));
+        RefuseNegative(character.MaximumAirForce, character, nameof(character.MaximumAirForce));
         RefuseNegative(character.MaximumStepHeight, character, nameof(character.MaximumStepHeight));
         Refuse(!(character.CosMaximumSlope is > 0 and <= 1), character, "CosMaximumSlope must be above 0 and at most 1, not", character.CosMaximumSlope);
         Refuse(!float.IsFinite(character.MinimumSupportDepth), character, "MinimumSupportDepth must be finite, not", character.MinimumSupportDepth);

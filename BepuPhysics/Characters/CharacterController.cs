@@ -26,6 +26,11 @@ public struct CharacterController
     public float MaximumHorizontalForce;
     /// <summary>Greatest force that holds the character to the ground where this falls away, N. 100 m/s2 times the mass unless it is set.</summary>
     public float MaximumVerticalForce;
+    /// <summary>
+    /// Greatest force that steers the character in the air, N: towards its goal as seen from the world, and never against what it is faster by. Zero, so
+    /// that it keeps its velocity, unless it is set.
+    /// </summary>
+    public float MaximumAirForce;
     /// <summary>Cosine of the steepest slope on which the character can stand. That of 45 degrees unless it is set.</summary>
     public float CosMaximumSlope;
     /// <summary>Least depth of a contact with what the character comes to stand on, m; negative for a gap. -0.002 unless it is set.</summary>

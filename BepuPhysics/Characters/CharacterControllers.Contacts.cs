@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
@@ -126,9 +127,11 @@ public sealed partial class CharacterControllers
     BodyReference BodyOf(in CharacterController character)
     {
         var bodies = Simulation.Bodies;
-        return bodies.BodyExists(character.BodyHandle) ? bodies[character.BodyHandle] : throw new System.InvalidOperationException(
-            $"{character.BodyHandle} was removed and is still a character: call RemoveCharacterByBodyHandle before the body is removed.");
+        return bodies.BodyExists(character.BodyHandle) ? bodies[character.BodyHandle] : throw Removed(character);
     }
+
+    static InvalidOperationException Removed(in CharacterController character) => new(
+        $"{character.BodyHandle} was removed and is still a character: call RemoveCharacterByBodyHandle before the body is removed.");
 
     void ReturnStepMemory()
     {

@@ -23,7 +23,7 @@ public sealed partial class CharacterControllers
             var surface = new Surface { Contact = found.Support };
             if (steps[i].WantsSteps && (found.Obstacle.Exists || character.Rises || !found.Support.Exists))
                 FindStep(character, body, steps[i], found, dt, ref surface);
-            Move(ref character, body, steps[i], surface);
+            Move(ref character, body, steps[i], surface, dt);
         }
     }
 
@@ -37,7 +37,7 @@ public sealed partial class CharacterControllers
         public float RisingVelocity;
     }
 
-    void Move(ref CharacterController character, BodyReference body, in CharacterStep step, in Surface surface)
+    void Move(ref CharacterController character, BodyReference body, in CharacterStep step, in Surface surface, float dt)
     {
         var jumps = character.TryJump && surface.Contact.Exists;
         character.TryJump = false;
@@ -47,6 +47,7 @@ public sealed partial class CharacterControllers
         if (jumps || !surface.Contact.Exists)
         {
             Release(ref character);
+            SteerInAir(character, body, step, dt);
             return;
         }
         var support = surface.Contact.Other;
@@ -109,6 +110,14 @@ public sealed partial class CharacterControllers
         basis.Y = normal;
         basis.Z = -forwards;
         return QuaternionEx.CreateFromRotationMatrix(basis);
+    }
+
+    // Only towards where it wants to go, so that a fast jump is not braked by walking on.
+    static void SteerInAir(in CharacterController character, BodyReference body, in CharacterStep step, float dt)
+    {
+        var missing = MathF.Sqrt(Exact.Dot(character.TargetVelocity, character.TargetVelocity)) - Exact.Dot(body.Velocity.Linear, step.Direction);
+        if (missing > 0)
+            body.Velocity.Linear += step.Direction * Math.Min(missing, character.MaximumAirForce * body.LocalInertia.InverseMass * dt);
     }
 
     /// <summary>Leaves the ground at the speed of a jump, relative to it; what it stands on gets the opposite impulse.</summary>

@@ -32,7 +32,7 @@ public sealed partial class CharacterControllers
     /// <summary>Makes the characters those that were written, after the simulation has been restored to the same step.</summary>
     /// <param name="source">What <see cref="WriteTo"/> has written.</param>
     /// <exception cref="ArgumentException">
-    /// The bytes are not those of characters of this library, or of bodies that the simulation does not have; nothing was changed.
+    /// The bytes are not those of characters of this library, or two are of one body, or of one that the simulation does not have; nothing was changed.
     /// </exception>
     public void ReadFrom(ReadOnlySpan<byte> source)
     {
@@ -50,10 +50,26 @@ public sealed partial class CharacterControllers
             slotCount = Math.Max(slotCount, character.BodyHandle.Slot + 1);
         }
         EnsureCapacity(count, slotCount);
-        indexOfSlot.Clear(0, indexOfSlot.Length);
+        if (!TryIndex(saved))
+        {
+            TryIndex(characters.Span.AsSpan()[..characters.Count]);
+            throw new ArgumentException("The bytes have two characters of one body.", nameof(source));
+        }
         characters.Count = count;
         saved.CopyTo(characters.Span.AsSpan());
-        for (int i = 0; i < count; ++i)
-            indexOfSlot[characters[i].BodyHandle.Slot] = i + 1;
+    }
+
+    // Notes where each is; not all, where two are of one body.
+    bool TryIndex(ReadOnlySpan<CharacterController> list)
+    {
+        indexOfSlot.Clear(0, indexOfSlot.Length);
+        for (int i = 0; i < list.Length; ++i)
+        {
+            ref var index = ref indexOfSlot[list[i].BodyHandle.Slot];
+            if (index != 0)
+                return false;
+            index = i + 1;
+        }
+        return true;
     }
 }

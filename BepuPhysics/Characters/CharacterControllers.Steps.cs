@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
 using BepuUtilities;
 
 namespace BepuPhysics.Characters;
@@ -25,18 +26,9 @@ public sealed partial class CharacterControllers
             IsUpwards = found.Obstacle.Exists || character.Rises,
             IsDownwards = !found.Support.Exists,
         };
-        var index = body.Collidable.Shape;
-        var shapes = Simulation.Shapes;
-        if (index.Type == Sphere.TypeId)
-            reach.Find(this, shapes.GetShape<Sphere>(index.Index), character, body.Pose, step);
-        else if (index.Type == Capsule.TypeId)
-            reach.Find(this, shapes.GetShape<Capsule>(index.Index), character, body.Pose, step);
-        else if (index.Type == Box.TypeId)
-            reach.Find(this, shapes.GetShape<Box>(index.Index), character, body.Pose, step);
-        else if (index.Type == Cylinder.TypeId)
-            reach.Find(this, shapes.GetShape<Cylinder>(index.Index), character, body.Pose, step);
-        else if (index.Type == ConvexHull.TypeId)
-            reach.Find(this, shapes.GetShape<ConvexHull>(index.Index), character, body.Pose, step);
+        var search = new StepSearch { Characters = this, Character = character, Pose = body.Pose, Step = step, Reach = reach };
+        TryUse(body.Collidable.Shape, ref search);
+        reach = search.Reach;
         // On the step already.
         if (!reach.Exists || found.Support.Exists && reach.Rise < LeastPart * character.MaximumStepHeight)
             return;
@@ -53,6 +45,18 @@ public sealed partial class CharacterControllers
             return Math.Max(rise / dt, -speed);
         var stopping = MathF.Sqrt(2 * rise * character.MaximumVerticalForce * body.LocalInertia.InverseMass);
         return Math.Min(rise / dt, Math.Min(speed, stopping));
+    }
+
+    /// <summary>Looks for a step with the shape of a character.</summary>
+    struct StepSearch : IConvexUse
+    {
+        public CharacterControllers Characters;
+        public CharacterController Character;
+        public RigidPose Pose;
+        public CharacterStep Step;
+        public StepReach Reach;
+
+        public void Use<TShape>(in TShape shape) where TShape : unmanaged, IConvexShape => Reach.Find(Characters, shape, Character, Pose, Step);
     }
 
     /// <summary>Ground that a character can come to by a step up or down.</summary>
@@ -114,14 +118,6 @@ public sealed partial class CharacterControllers
             }
         }
 
-        // How far the shape reaches along a direction.
-        static float Reach<TShape>(in TShape shape, in RigidPose pose, Vector3 direction) where TShape : unmanaged, IConvexShape
-        {
-            shape.ComputeBounds(
-                Exact.Concatenate(pose.Orientation, QuaternionEx.GetQuaternionBetweenNormalizedVectors(direction, Vector3.UnitY)), out _, out var max);
-            return max.Y;
-        }
-
         // From a height above where it is to a step below that.
         void FindBelow<TShape>(CharacterControllers characters, in TShape shape, in CharacterController character, in RigidPose pose,
             Vector3 up, float height, float highest)
@@ -136,16 +132,18 @@ public sealed partial class CharacterControllers
         }
     }
 
-    NearestStepHit Sweep<TShape>(in TShape shape, in RigidPose pose, Vector3 way, in CharacterController character, bool ignoresOverlaps)
+    NearestHit Sweep<TShape>(
+        in TShape shape, in RigidPose pose, Vector3 way, in CharacterController character, bool ignoresOverlaps, bool meetsBodies = false)
         where TShape : unmanaged, IConvexShape
     {
-        var hit = new NearestStepHit { T = 1, IgnoresOverlaps = ignoresOverlaps };
+        var self = Simulation.Bodies[character.BodyHandle].CollidableReference;
+        var hit = new NearestHit { T = 1, IgnoresOverlaps = ignoresOverlaps, MeetsBodies = meetsBodies, Self = self, Events = Simulation.Events };
         Simulation.Sweep(shape, pose, new BodyVelocity(way), 1, Simulation.Layers[character.BodyHandle], pool, ref hit);
         return hit;
     }
 
-    /// <summary>The first thing that a character would meet and may stand on or be stopped by: bodies that can be pushed are neither.</summary>
-    struct NearestStepHit : ISweepHitHandler
+    /// <summary>The first thing that a character would meet: not sensors, nor, where it looks for steps, bodies that can be pushed.</summary>
+    struct NearestHit : ISweepHitHandler
     {
         public float T;
         public Vector3 Place;
@@ -153,8 +151,12 @@ public sealed partial class CharacterControllers
         public CollidableReference Other;
         public bool Exists;
         public bool IgnoresOverlaps;
+        public bool MeetsBodies;
+        public CollidableReference Self;
+        public CollisionEvents Events;
 
-        public readonly bool AllowTest(CollidableReference collidable) => collidable.Mobility != CollidableMobility.Dynamic;
+        public readonly bool AllowTest(CollidableReference collidable) =>
+            (MeetsBodies ? collidable != Self : collidable.Mobility != CollidableMobility.Dynamic) && !Events.IsSensor(collidable);
 
         public readonly bool AllowTest(CollidableReference collidable, int childIndex) => true;
 

@@ -92,6 +92,7 @@ public sealed partial class CharacterControllers : IDisposable, IBufferPoolUser
     /// chosen by its mass. The reference is valid until a character is added or removed.
     /// </remarks>
     /// <exception cref="ArgumentException">There is no such body, it is kinematic, or a character already; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A body was removed that is a character still, and this one has its slot; nothing was changed.</exception>
     public ref CharacterController AllocateCharacter(BodyHandle bodyHandle)
     {
         var bodies = Simulation.Bodies;
@@ -102,6 +103,9 @@ public sealed partial class CharacterControllers : IDisposable, IBufferPoolUser
             throw new ArgumentException($"{bodyHandle} is kinematic: forces do not move it.", nameof(bodyHandle));
         if (IsCharacter(bodyHandle))
             throw new ArgumentException($"{bodyHandle} is a character already.", nameof(bodyHandle));
+        // The slot may be that of a body which was removed and is a character still: both would be found at one place.
+        if (bodyHandle.Slot < indexOfSlot.Length && indexOfSlot[bodyHandle.Slot] > 0)
+            throw Removed(characters[indexOfSlot[bodyHandle.Slot] - 1]);
         EnsureCapacity(characters.Count + 1, bodyHandle.Slot + 1);
         indexOfSlot[bodyHandle.Slot] = characters.Count + 1;
         ref var character = ref characters.AllocateUnsafely();

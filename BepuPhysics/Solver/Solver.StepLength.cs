@@ -27,6 +27,10 @@ public sealed partial class Solver
     float usualDt;
     float usualSubstepDt;
     int stepsSeen;
+
+    /// <summary>The usual length of a step, s; 0 before the first.</summary>
+    internal float UsualDt => usualDt;
+
     bool hasFixedSubstepCount;
 
     /// <summary>

@@ -71,6 +71,7 @@ public class BadInputTests
         BadBodyInput.AddTo(all);
         BadShapeInput.AddTo(all);
         BadSolverInput.AddTo(all);
+        BadFieldInput.AddTo(all);
         return all;
     }
 }

@@ -1,8 +1,11 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
+using BepuPhysics.Characters;
 using BepuPhysics.Collidables;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Characters;
@@ -72,6 +75,12 @@ public class CharacterSetTests
         world.Characters.WriteTo(saved);
         Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(saved.AsSpan(0, saved.Length - 1)));
         Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(default));
+        world.Add(new(3, 0, 0));
+        var twice = new byte[world.Characters.SerializedByteCount];
+        world.Characters.WriteTo(twice);
+        saved.AsSpan(^(twice.Length - saved.Length)..).CopyTo(twice.AsSpan(saved.Length));
+        Assert.Contains("one body", Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(twice)).Message, StringComparison.Ordinal);
+        Assert.Equal(0, world.Characters.GetCharacterIndexForBodyHandle(body.Value));
         saved[0] ^= 1;
         Assert.Throws<ArgumentException>(() => world.Characters.ReadFrom(saved));
         Assert.True(world.Characters.IsCharacter(body));
@@ -140,6 +149,41 @@ public class CharacterSetTests
         world.Step();
         world.Simulation.Bodies.Remove(body);
         Assert.Contains("RemoveCharacter", Assert.Throws<InvalidOperationException>(() => world.Step()).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void A_body_in_the_slot_of_a_removed_character_is_no_character_before_that_is_none()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var first = world.Add(default);
+        world.Simulation.Bodies.Remove(first);
+        Assert.Contains(first.ToString(), Assert.Throws<InvalidOperationException>(() => world.Add(default)).Message, StringComparison.Ordinal);
+        var second = world.Simulation.Bodies.ActiveSet.IndexToHandle[0];
+        Assert.Equal(first.Slot, second.Slot);
+        world.Characters.RemoveCharacterByBodyHandle(first);
+        world.Characters.AllocateCharacter(second);
+        Assert.Equal((1, 0), (world.Characters.CharacterCount, world.Characters.GetCharacterIndexForBodyHandle(second.Value)));
+        world.Step();
+    }
+
+    public static TheoryData<string> NumbersOfACharacter => [.. FloatFields.Of(typeof(CharacterController)).Select(FloatFields.Name)];
+
+    [Theory, MemberData(nameof(NumbersOfACharacter))]
+    public void No_number_of_a_character_may_be_none(string name)
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        var body = world.Add(default);
+        world.Step(5);
+        var healthy = world[body];
+        var before = world.Simulation.StateHash();
+        var path = FloatFields.Of(typeof(CharacterController)).First(path => FloatFields.Name(path) == name);
+        world[body] = FloatFields.With(healthy, path, float.NaN);
+        Assert.Contains(path[0].Name, Assert.Throws<InvalidOperationException>(() => world.Step()).Message, StringComparison.Ordinal);
+        Assert.Equal(before, world.Simulation.StateHash());
+        world[body] = healthy;
+        world.Step();
     }
 
     [Fact]

@@ -182,6 +182,44 @@ public class CharacterWalkTests
         Assert.True(world.Feet(body).Y < 0.25f && world.Feet(body).Z > -2.1f, $"{world.Feet(body)}");
     }
 
+    // A sensor is no step, and nothing that stands inside of one has to stay there.
+    [Fact]
+    public void Sensors_do_not_keep_it_from_going_up_a_step()
+    {
+        using var world = new CharacterWorld();
+        world.AddFloor();
+        world.AddBox(new(0, 0.15f, -3), new(4, 0.3f, 2));
+        world.Simulation.Events.SetSensor(world.AddBox(new(0, 1, -3), new(8, 4, 8)), true);
+        var body = world.Add(default);
+        world[body].MaximumStepHeight = 0.4f;
+        world[body].TargetVelocity = new(0, 3);
+        world.Step(60);
+        Assert.Equal(0.3f, world.Feet(body).Y, 5e-3f);
+    }
+
+    [Fact]
+    public void In_the_air_it_is_steered_by_its_force_up_to_its_goal_and_never_braked()
+    {
+        using var world = new CharacterWorld();
+        var body = world.Add(default);
+        world[body].TargetVelocity = new(1, 0);
+        world.Step(30);
+        Assert.Equal(0, world.Velocity(body).X);
+        // 1 m/s2 for half a second.
+        world[body].MaximumAirForce = 70;
+        world.Step(30);
+        Assert.Equal(0.5f, world.Velocity(body).X, 1e-4f);
+        world.Step(60);
+        Assert.Equal(1, world.Velocity(body).X, 1e-5f);
+        world[body].TargetVelocity = new(0.2f, 0);
+        world.Step(10);
+        Assert.Equal(1, world.Velocity(body).X, 1e-5f);
+        world[body].TargetVelocity = default;
+        world.Step(10);
+        Assert.Equal(1, world.Velocity(body).X, 1e-5f);
+        Assert.Equal(-Gravity * 140 * Dt, world.Velocity(body).Y, 1e-2f);
+    }
+
     [Fact]
     public void It_goes_round_with_a_turning_platform()
     {

@@ -2,6 +2,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Characters;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
 
 namespace DemoTests.Quality;
@@ -31,5 +32,30 @@ static partial class DocSamples
         character.TargetVelocity = input * 4;
         character.TryJump = jump;
         simulation.Timestep(1 / 60f);
+    }
+
+    public static (bool IsDown, bool IsUp) Crouch(CharacterControllers characters, BodyHandle hero, TypedIndex crouching, TypedIndex standing)
+    {
+        var isDown = characters.TryChangeShape(hero, crouching);
+        var isUp = characters.TryChangeShape(hero, standing);
+        return (isDown, isUp);
+    }
+
+    public static (ConstraintHandle Ladder, OneBodyLinearMotor Motor) BeginLadder(Simulation simulation, BodyHandle hero, float climbing)
+    {
+        var motor = new OneBodyLinearMotor { TargetVelocity = new Vector3(0, climbing, 0), Settings = new(20_000, 0) };
+        var ladder = simulation.Solver.Add(hero, motor);
+        return (ladder, motor);
+    }
+
+    public static void Climb(Simulation simulation, ConstraintHandle ladder, OneBodyLinearMotor motor, float climbing)
+    {
+        motor.TargetVelocity = new Vector3(0, climbing, 0);
+        simulation.Solver.ApplyDescription(ladder, motor);
+    }
+
+    public static void EndLadder(Simulation simulation, ConstraintHandle ladder)
+    {
+        simulation.Solver.Remove(ladder);
     }
 }

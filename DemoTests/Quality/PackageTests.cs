@@ -103,24 +103,62 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         WriteSources(folder);
         File.WriteAllText(Path.Combine(folder, "IceCallbacks.cs"), blocks[true].Single());
         File.WriteAllText(Path.Combine(folder, "Program.cs"), string.Join('\n', blocks[false]));
-        // What dotnet new console writes.
-        File.WriteAllText(Path.Combine(folder, "guide.csproj"), $"""
-            <Project Sdk="Microsoft.NET.Sdk">
-              <PropertyGroup>
-                <OutputType>Exe</OutputType>
-                <TargetFramework>net10.0</TargetFramework>
-                <ImplicitUsings>enable</ImplicitUsings>
-                <Nullable>enable</Nullable>
-              </PropertyGroup>
-              <ItemGroup>
-                <PackageReference Include="Tootbird.BepuPhysics" Version="{packages.Version}" />
-              </ItemGroup>
-            </Project>
-            """);
+        WriteProject(folder, "guide");
         // In whatever way the machine writes numbers.
         var printed = Run(folder, "guide").Replace(',', '.').Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.TrimEnd());
         Assert.Equal(DocPages.PrintedLines(page).Select(line => line.Replace(',', '.')), printed);
     }
+
+    // In an assembly of its own, as that of a game, whatever is internal to the library is out of reach.
+    [Fact]
+    public void The_constraint_of_characters_could_be_a_games_own()
+    {
+        var folder = packages.CreateFolder("constraint");
+        WriteSources(folder);
+        WriteProject(folder, "constraint");
+        foreach (var file in RepositoryFiles.Find("BepuPhysics/Characters", "CharacterMotion*.cs"))
+            File.WriteAllText(Path.Combine(folder, Path.GetFileName(file)), RepositoryFiles.Read(file)
+                .Replace("namespace BepuPhysics.Characters", "namespace Game", StringComparison.Ordinal)
+                .Replace("ConstraintTypeIds.StaticCharacterMotion", "100", StringComparison.Ordinal)
+                .Replace("ConstraintTypeIds.DynamicCharacterMotion", "101", StringComparison.Ordinal));
+        File.WriteAllText(Path.Combine(folder, "Program.cs"), """
+            using System.Numerics;
+            using BepuPhysics;
+            using BepuPhysics.Collidables;
+            using BepuUtilities.Memory;
+
+            using var pool = new BufferPool();
+            using var simulation = Simulation.Create(
+                pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 4));
+            var body = simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(Vector3.Zero, 2, simulation.Shapes, new Sphere(1)));
+            simulation.Solver.Add(body, new Game.StaticCharacterMotion
+            {
+                SurfaceBasis = Quaternion.Identity,
+                MaximumHorizontalForce = 6,
+                TargetVelocity = new(0, 4),
+            });
+            for (int i = 0; i < 60; ++i)
+                simulation.Timestep(1 / 60f);
+            Console.WriteLine(MathF.Round(-1000 * simulation.Bodies[body].Velocity.Linear.Z));
+            """);
+        // 6 N on 2 kg for a second, in mm/s.
+        Assert.Equal("3000", Run(folder, "constraint").Trim());
+    }
+
+    // What dotnet new console writes.
+    void WriteProject(string folder, string name) => File.WriteAllText(Path.Combine(folder, name + ".csproj"), $"""
+        <Project Sdk="Microsoft.NET.Sdk">
+          <PropertyGroup>
+            <OutputType>Exe</OutputType>
+            <TargetFramework>net10.0</TargetFramework>
+            <ImplicitUsings>enable</ImplicitUsings>
+            <Nullable>enable</Nullable>
+          </PropertyGroup>
+          <ItemGroup>
+            <PackageReference Include="Tootbird.BepuPhysics" Version="{packages.Version}" />
+          </ItemGroup>
+        </Project>
+        """);
 
     // The folder of the packages is the only source, and nothing that an earlier build of this version left is taken for it.
     void WriteSources(string folder) => File.WriteAllText(Path.Combine(folder, "nuget.config"), $"""

@@ -362,6 +362,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         for (int i = 0; i < TNormals.Count; ++i)
             impulses.Normals[i] *= scale;
         impulses.Friction *= scale;
-        impulses.Twist *= scale;
+        // Nothing that rests loads its contacts with a twist: it is what stops a turn, which is no force, and grown with each longer substep it
+        // would turn a tower more and more.
+        impulses.Twist *= Wide.Min(scale, Vector<float>.One);
     }
 }
