@@ -2,6 +2,7 @@ using System.Numerics;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -14,33 +15,50 @@ public unsafe partial struct Mesh : IContainer
     // A leaf is opened together with its node: below a node there are nodes and triangles.
     readonly int IContainer.Open(int node, Shapes shapes, NodeChild* below)
     {
-        var nodes = Header->Nodes;
+        ref readonly var opened = ref Header->Nodes[node];
         var count = 0;
         for (int child = 0; child < MeshNode.Width; ++child)
         {
-            if ((nodes[node].NodeMask >> child & 1) != 0)
+            if ((opened.NodeMask >> child & 1) != 0)
             {
-                nodes[node].GetBounds(child, out var min, out var max);
+                opened.GetBounds(child, out var min, out var max);
                 ApplyScale(ref min, ref max);
-                var index = nodes[node].Node(child);
-                below[count++] = new() { Min = min, Max = max, Index = index, LeafCount = MeshTree.CountTriangles(nodes, index) };
+                below[count++] = new() { Min = min, Max = max, Index = opened.Node(child) };
                 continue;
             }
-            var place = nodes[node].Place(child);
-            for (int i = 0; i < nodes[node].TriangleCount(child); ++i)
+            var place = opened.Place(child);
+            for (int i = 0; i < opened.TriangleCount(child); ++i)
             {
-                var triangle = Header->Triangles.GetNumber(place + i);
-                GetChild(triangle, out var corners);
+                GetChildAt(place + i, out var corners);
                 below[count++] = new()
                 {
                     Min = Exact.Min(Exact.Min(corners.A, corners.B), corners.C),
                     Max = Exact.Max(Exact.Max(corners.A, corners.B), corners.C),
-                    Index = ~triangle,
+                    Index = ~Header->Triangles.GetNumber(place + i),
                     LeafCount = 1,
                 };
             }
         }
+        if (opened.NodeMask != 0)
+            CountBelow(below, count);
         return count;
+    }
+
+    // What is below a node begins where that below the one before it ends.
+    readonly void CountBelow(NodeChild* below, int count)
+    {
+        var nodes = Header->Nodes;
+        var end = -1;
+        for (int i = count - 1; i >= 0; --i)
+        {
+            var node = below[i].Index;
+            if (node < 0)
+                continue;
+            var start = nodes[node].FirstPlace;
+            below[i].LeafCount = end < 0 ? MeshTree.CountTriangles(nodes, node) : end - start;
+            Check.That(below[i].LeafCount == MeshTree.CountTriangles(nodes, node));
+            end = start;
+        }
     }
 
     static bool IContainer.IsList => false;

@@ -189,9 +189,13 @@ public unsafe partial struct Mesh : IDisposableShape
 
     /// <summary>A triangle that is known to exist, scaled.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal readonly void GetChild(int triangle, out Triangle target)
+    internal readonly void GetChild(int triangle, out Triangle target) => GetChildAt(Header->GetPlace(triangle), out target);
+
+    /// <summary>A triangle by its place in the tree, scaled.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly void GetChildAt(int place, out Triangle target)
     {
-        Header->GetCorners(triangle, out var a, out var b, out var c);
+        Header->GetCornersAt(place, out var a, out var b, out var c);
         var isMirrored = IsMirrored;
         target = new(a * scale, (isMirrored ? c : b) * scale, (isMirrored ? b : c) * scale) { TwoSided = twoSided };
     }
