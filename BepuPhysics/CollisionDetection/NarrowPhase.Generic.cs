@@ -2,6 +2,8 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -318,11 +320,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
         var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
-        if (surface.Restitution == 0 && !isExact)
+        if (surface.Restitution == 0 && !surface.ExactImpacts && !isExact)
             return;
         CallbackChecks.Restitution(pair, surface.Restitution);
         ref var worker = ref workers[workerIndex];
-        Note(ref worker.Bouncing, new() { Pair = pair, Coefficient = surface.Restitution }, worker.Pool);
+        var coefficient = surface.ExactImpacts ? MathHelper.Max(surface.Restitution, Restitution.LeastCoefficient) : surface.Restitution;
+        Note(ref worker.Bouncing, new() { Pair = pair, Coefficient = coefficient }, worker.Pool);
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.

@@ -8,4 +8,11 @@ public struct SurfaceProperties
     /// do not bounce, so that resting things rest.
     /// </summary>
     public float Restitution;
+
+    /// <summary>
+    /// Whether impacts are made when the surfaces meet, as those of surfaces that bounce, also where <see cref="Restitution"/> is zero: what falls stays where
+    /// it lands. Contacts by themselves take a few substeps to stop it, it overlaps meanwhile, and leaves with the speed at which that is corrected, at
+    /// most that of the material; with relaxations less. Costs as much as restitution.
+    /// </summary>
+    public bool ExactImpacts;
 }

@@ -46,7 +46,8 @@ sealed class ImpactWorld(AccuracySettings settings) : IDisposable
     }
 
     /// <summary>Kinetic and potential energy.</summary>
-    // With constant acceleration g, steps of length h and velocities v at their ends, positions lie on a parabola whose velocity is v - g h / 2.
+    // With constant acceleration g, steps of length h and velocities v at their ends, positions lie on a parabola whose velocity is v + g h / 2: v is its
+    // mean in the step that has ended.
     public double Energy()
     {
         double energy = 0;
@@ -55,7 +56,7 @@ sealed class ImpactWorld(AccuracySettings settings) : IDisposable
         {
             var inertia = world.Bodies[body].LocalInertia;
             double mass = 1.0 / inertia.InverseMass;
-            var velocity = world.LinearVelocity(body) - gravity * (settings.SubstepDuration / 2);
+            var velocity = world.LinearVelocity(body) + gravity * (settings.SubstepDuration / 2);
             var spin = world.Orientation(body).RotateBack(world.AngularVelocity(body));
             var tensor = inertia.InverseInertiaTensor;
             energy += mass * (velocity.LengthSquared / 2 - Double3.Dot(gravity, world.Position(body)))

@@ -19,10 +19,12 @@ struct BouncingPair
     public float Speed;
     /// <summary>Whether the surfaces overlap, and carry no load.</summary>
     public bool Overlaps;
-    /// <summary>How far they still do after this substep.</summary>
+    /// <summary>How far they are to be moved apart in this substep, besides what their velocity does.</summary>
     public float Overlap;
     /// <summary>Overlap of each contact that the solver is not told of in this substep.</summary>
     public FourFloats Hidden;
+    /// <summary>Whether it takes part in the impact that is being made.</summary>
+    public bool Joins;
     /// <summary>Impacts in this substep.</summary>
     public int ImpactCount;
     /// <summary>What impacts have pushed along the normal in this step, N s.</summary>

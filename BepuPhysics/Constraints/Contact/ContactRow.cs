@@ -10,6 +10,13 @@ readonly struct ContactRow(Vector3 linear, Vector3 angularA, Vector3 angularB)
     readonly Vector3 angularA = angularA;
     readonly Vector3 angularB = angularB;
 
+    /// <summary>The row at an arm about A in a direction.</summary>
+    /// <param name="arm">Position relative to the centre of A.</param>
+    /// <param name="direction">Unit direction, in which A is pushed.</param>
+    /// <param name="offsetB">Position of B relative to A.</param>
+    internal static ContactRow At(Vector3 arm, Vector3 direction, Vector3 offsetB) =>
+        new(direction, Exact.Cross(arm, direction), Exact.Cross(direction, arm - offsetB));
+
     /// <summary>Velocity of A against B along the row.</summary>
     internal float Along(in BodyVelocity a, in BodyVelocity b) =>
         Exact.Dot(a.Linear, linear) + Exact.Dot(a.Angular, angularA) + (Exact.Dot(b.Angular, angularB) - Exact.Dot(b.Linear, linear));

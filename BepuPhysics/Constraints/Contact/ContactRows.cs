@@ -87,7 +87,7 @@ unsafe readonly ref struct ContactRows
     internal Vector3 Arm(int contact) => Read(contact * ContactPrestepLayout.FloatsPerContact);
 
     /// <summary>The row at an arm about A in a direction.</summary>
-    internal ContactRow Row(Vector3 arm, Vector3 direction) => new(direction, Exact.Cross(arm, direction), Exact.Cross(direction, arm - OffsetB));
+    internal ContactRow Row(Vector3 arm, Vector3 direction) => ContactRow.At(arm, direction, OffsetB);
 
     /// <summary>The row that keeps the surfaces apart at a contact.</summary>
     internal ContactRow NormalRow(int contact) => Row(Arm(contact), Normal);

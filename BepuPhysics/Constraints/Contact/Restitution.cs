@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints.Contact;
 // the pairs that have a coefficient of restitution (no others are visited) bounce before a substep is solved. Bodies move in straight
 // lines within it: a gap s that closes at a speed v closes at the time s / v. Impacts are made one after the other in the order of their
 // times, and each looks again at the pairs of its two bodies. So a blow passes through a row of spheres within one substep, each impact
-// is one of two bodies, and none adds energy (PairImpact). What then still approaches comes to rest by the solver.
+// is one of two bodies or of those that meet at the same time, and none adds energy (SharedImpact). What then still approaches comes to rest by the solver.
 //
 // A body gets its new velocity at the beginning of the substep, but bounces at the time t: it is moved back by t times the change, and so
 // is at the end of the substep where it would be. In between it overlaps what it has bounced off.
@@ -24,9 +24,14 @@ namespace BepuPhysics.Constraints.Contact;
 // Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
 sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
+    /// <summary>Coefficient of what does not bounce, but stops as what does: zero is that of what is hit at a corner while others hold it.</summary>
+    internal const float LeastCoefficient = 1e-30f;
+
     const int PairsPerBlock = 64;
     // Steps of acceleration that a contact may gather while it rests.
     const float RestingSteps = 2;
+    // Steps in which surfaces that part are out of an overlap by themselves.
+    const float PartingSteps = 8;
     // Impacts of one pair in one substep.
     const int MaximumImpacts = 16;
     // Part of the weight of either body from which on a contact carries a load: a body that rests on many contacts gives each a part.
@@ -34,8 +39,16 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     // Speed of approach over speed of the bodies that may be rounding.
     const float RoundingShare = 1e-6f;
 
+    // Pairs of one impact.
+    const int MaximumPairs = 256;
+    // Part of the substep, and of the speed, within which impacts are alike.
+    const float AlikeShare = 1e-3f;
+    // Cosine of the angle between the normals of one floor.
+    const float SameDirection = 0.9999f;
+
     QuickList<BouncingPair> pairs = new(16, pool);
     ImpactQueue queue = new(pool);
+    SharedImpact impact = new(pool);
     bool isLinked;
     bool anyMeets;
 
@@ -83,6 +96,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     {
         pairs.Dispose(pool);
         queue.Dispose();
+        impact.Dispose();
     }
 
     internal void Abandon() => pairs = default;
@@ -154,7 +168,10 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             if (gap < 0 && !isLoaded)
             {
                 pair.Overlaps = true;
-                pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(0, speed) * dt - gap);
+                // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
+                var parting = pair.Coefficient > 0 ? PartingSteps * solver.LastSubstepCount * dt : dt;
+                var left = MathHelper.Min(0, speed) * parting - gap;
+                pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(left, contacts.MaximumRecoveryVelocity * dt));
             }
             if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, row)))
                 continue;
@@ -213,30 +230,67 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     {
         while (!queue.IsEmpty)
         {
-            ref var pair = ref pairs[queue.First];
-            ++pair.ImpactCount;
-            if (pair.Coefficient == 0)
-                pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
-            var contacts = Contacts(pair);
-            PairImpact.Find(contacts, pair, dt, out var changeA, out var changeB);
-            pair.Impulse += NormalImpulse(contacts, changeA, changeB);
-            var time = pair.Time;
-            contacts.Push(pair.A, changeA);
-            Move(contacts, pair.A, changeA.Linear * -time, dt);
-            if (pair.B < 0)
-                continue;
-            contacts.Push(pair.B, changeB);
-            Move(contacts, pair.B, changeB.Linear * -time, dt);
+            var first = queue.First;
+            var time = pairs[first].Time;
+            impact.Begin(time, dt);
+            Join(first);
+            for (int i = 0; i < impact.PairCount; ++i)
+                JoinNeighbours(impact.Pair(i), time, dt);
+            impact.Solve();
+            for (int i = 0; i < impact.PairCount; ++i)
+            {
+                ref var pair = ref pairs[impact.Pair(i)];
+                pair.Joins = false;
+                pair.Impulse += impact.NormalImpulse(i);
+            }
+            for (int i = 0; i < impact.BodyCount; ++i)
+            {
+                if (!impact.TryGetChange(i, out var body, out var change))
+                    continue;
+                var contacts = Contacts(pairs[first]);
+                contacts.Push(body, change);
+                Move(contacts, body, change.Linear * -time, dt);
+            }
         }
     }
 
-    // By the body that the impulse moves more surely; one that only turns tells nothing.
-    static float NormalImpulse(in ContactRows contacts, in BodyVelocity changeA, in BodyVelocity changeB)
+    void Join(int index)
     {
-        if (contacts.InertiaA.InverseMass > 0)
-            return Exact.Dot(changeA.Linear, contacts.Normal) / contacts.InertiaA.InverseMass;
-        return contacts.InertiaB.InverseMass > 0 ? -Exact.Dot(changeB.Linear, contacts.Normal) / contacts.InertiaB.InverseMass : 0;
+        ref var pair = ref pairs[index];
+        ++pair.ImpactCount;
+        pair.Joins = true;
+        if (pair.Coefficient == 0)
+            pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
+        impact.Add(index, pair, Contacts(pair));
     }
+
+    // What meets at the same time, as fast, is one impact. So is all that a body meets in a substep of one floor, whether that is of one piece or of tiles:
+    // contacts of one patch are not told apart either.
+    void JoinNeighbours(int index, float time, float dt)
+    {
+        JoinNeighboursOf(pairs[index].A, index, time, dt);
+        if (pairs[index].B >= 0)
+            JoinNeighboursOf(pairs[index].B, index, time, dt);
+    }
+
+    void JoinNeighboursOf(int body, int index, float time, float dt)
+    {
+        for (int i = queue.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        {
+            ref var pair = ref pairs[i];
+            if (!pair.Joins && pair.Time < BouncingPair.Never && pair.Coefficient > 0 && pairs[index].Coefficient > 0 &&
+                (IsAlike(pair, pairs[index], time, dt) || IsOneFloor(pair, pairs[index])))
+                Join(i);
+        }
+    }
+
+    // At the same time and as fast: nothing but rounding would say which is the first. The slower of two at the same time is later, as in a row of spheres
+    // that touch, of which some approach by their rounding.
+    static bool IsAlike(in BouncingPair pair, in BouncingPair other, float time, float dt) =>
+        pair.Time - time <= AlikeShare * dt && MathF.Abs(pair.Speed - other.Speed) <= AlikeShare * other.Speed;
+
+    bool IsOneFloor(in BouncingPair a, in BouncingPair b) =>
+        a.A == b.A && a.B == b.B && Exact.Dot(Contacts(a).Normal, Contacts(b).Normal) > SameDirection;
 
     // Moves a body whose velocity has changed, and looks at its pairs again.
     void Move(in ContactRows contacts, int body, Vector3 way, float dt)
@@ -267,7 +321,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
             var massB = contacts.InertiaB.InverseMass;
             if (!(massA + massB > 0))
                 continue;
-            var way = MathHelper.Min(pair.Overlap, contacts.MaximumRecoveryVelocity * dt) / (massA + massB);
+            var way = pair.Overlap / (massA + massB);
             Move(contacts, pair.A, contacts.Normal * (way * massA), dt);
             if (pair.B >= 0)
                 Move(contacts, pair.B, contacts.Normal * -(way * massB), dt);
