@@ -1,5 +1,7 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 
 namespace BepuPhysics.Characters;
 
@@ -54,4 +56,6 @@ public struct CharacterController
     internal Vector3 LastView;
     // Whether it went up a step in the last step: then it may stand on nothing, on the way over the edge.
     internal bool Rises;
+
+    internal readonly float TargetSpeed => MathF.Sqrt(Exact.Dot(TargetVelocity, TargetVelocity));
 }

@@ -115,7 +115,7 @@ public sealed partial class CharacterControllers
     // Only towards where it wants to go, so that a fast jump is not braked by walking on.
     static void SteerInAir(in CharacterController character, BodyReference body, in CharacterStep step, float dt)
     {
-        var missing = MathF.Sqrt(Exact.Dot(character.TargetVelocity, character.TargetVelocity)) - Exact.Dot(body.Velocity.Linear, step.Direction);
+        var missing = character.TargetSpeed - Exact.Dot(body.Velocity.Linear, step.Direction);
         if (missing > 0)
             body.Velocity.Linear += step.Direction * Math.Min(missing, character.MaximumAirForce * body.LocalInertia.InverseMass * dt);
     }

@@ -40,7 +40,7 @@ public sealed partial class CharacterControllers
     // No faster than it walks, nor, upwards, than the force that holds it can stop on top: v^2 / 2 = a s.
     static float RisingVelocity(in CharacterController character, BodyReference body, float rise, float dt)
     {
-        var speed = MathF.Sqrt(Exact.Dot(character.TargetVelocity, character.TargetVelocity));
+        var speed = character.TargetSpeed;
         if (rise < 0)
             return Math.Max(rise / dt, -speed);
         var stopping = MathF.Sqrt(2 * rise * character.MaximumVerticalForce * body.LocalInertia.InverseMass);

@@ -132,21 +132,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // What the broad phase and TestPair ask of a pair that they find. Sensors are left out: nobody could be told any more that their pair is watched.
-    internal override bool WatchesLate(in CollidablePair pair, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner)
+    internal override bool WatchesLate(
+        in CollidablePair pair, TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner)
     {
         inner = 0;
         if (pair.A.Mobility != CollidableMobility.Dynamic || (ContinuityOf(pair.A).Mode != ContinuousDetectionMode.Continuous &&
             ContinuityOf(pair.B).Mode != ContinuousDetectionMode.Continuous))
             return false;
-        Simulation.GetPoseAndShape(pair.A, out _, out var shapeA);
-        Simulation.GetPoseAndShape(pair.B, out _, out var shapeB);
         if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out inner, out _) || !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
             return false;
         if ((Simulation.Layers.IsUsed && !CollisionLayers.MayMeet(Simulation.Layers.Of(pair.A), Simulation.Layers.Of(pair.B))) ||
             (Simulation.Events.UsesSensors && Simulation.Events.CountSensors(pair.A, pair.B) > 0))
             return false;
-        var margin = MarginOf(pair.A) + (pair.B.Mobility == CollidableMobility.Static ? 0 : MarginOf(pair.B));
-        return IsAllowed(0, pair, ref margin);
+        var margin = 0f;
+        return AskFirst(0, pair, ref margin);
     }
 
     // By which its turn moves the surface of a shape that is not a ball.

@@ -93,7 +93,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// <summary>Inner radius of a shape, or what counts as one where there is none, and the radius around its centre that it does not leave, m.</summary>
     internal abstract (float Inner, float Radius) RadiiOf(TypedIndex shape);
     /// <summary>Whether a pair that was not foreseen is to be watched: one of the two is marked, it is fast, and the game allows it.</summary>
-    internal abstract bool WatchesLate(in CollidablePair pair, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner);
+    internal abstract bool WatchesLate(
+        in CollidablePair pair, TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner);
     /// <summary>Compiles what is generic over the callbacks of a game, without calling them.</summary>
     /// <param name="shapeTypes">Ids of the shape types whose tests are compiled.</param>
     internal abstract void Compile(ReadOnlySpan<int> shapeTypes);

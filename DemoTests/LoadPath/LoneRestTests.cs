@@ -138,20 +138,24 @@ public class LoneRestTests
 
     readonly struct TurningCallbacks(Torque torque) : IPoseIntegratorCallbacks
     {
-        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.Nonconserving;
-        public bool AllowSubstepsForUnconstrainedBodies => true;
         public bool IntegrateVelocityForKinematics => false;
-
-        public void Initialize(Simulation simulation) { }
-
-        public void PrepareForIntegration(float dt) { }
+        public bool AllowSubstepsForUnconstrainedBodies => true;
+        public AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.Nonconserving;
 
         public void IntegrateVelocity(
             Vector<int> bodyIndices, Vector3Wide position, QuaternionWide orientation, BodyInertiaWide localInertia, Vector<int> integrationMask,
             int workerIndex, Vector<float> dt, ref BodyVelocityWide velocity)
         {
-            velocity.Linear.Y -= dt * Gravity;
             velocity.Angular.Y += dt * torque.AngularAcceleration;
+            velocity.Linear.Y -= dt * Gravity;
+        }
+
+        public void PrepareForIntegration(float dt)
+        {
+        }
+
+        public void Initialize(Simulation simulation)
+        {
         }
     }
 

@@ -123,7 +123,7 @@ sealed unsafe partial class FastPairs
         NarrowPhase.SortCollidableReferencesForPair(self, other, out _, out _, out var a, out var b);
         var pair = new FastPair { Pair = new(a, b), Time = FastPair.Never };
         if (IsWatched(body, pair.Pair) || !TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) || !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B)
-            || !narrowPhase.WatchesLate(pair.Pair, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
+            || !narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
             return;
         pair.SmallerInner = SmallerInner(pair);
         var number = pairs.Count;
@@ -142,7 +142,7 @@ sealed unsafe partial class FastPairs
 
     bool IsWatched(int body, in CollidablePair pair)
     {
-        for (int i = firstPairs[body]; i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        for (int i = firstPairs[body]; i >= 0; i = pairs[i].NextOf(body))
         {
             if (pairs[i].Pair.A == pair.A && pairs[i].Pair.B == pair.B)
                 return true;

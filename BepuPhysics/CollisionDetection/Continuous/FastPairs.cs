@@ -396,7 +396,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     {
         if (body < 0)
             return;
-        for (int i = firstPairs[body]; i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        for (int i = firstPairs[body]; i >= 0; i = pairs[i].NextOf(body))
         {
             Find(ref pairs[i], time, dt, pool);
             times.Change(i, pairs[i].Time);

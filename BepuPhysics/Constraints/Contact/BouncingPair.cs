@@ -37,6 +37,10 @@ struct BouncingPair
     public int NextOfA;
     /// <summary>Next pair of B, or -1.</summary>
     public int NextOfB;
+
+    /// <summary>Next pair of one of the two bodies, or -1.</summary>
+    public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;
+
     /// <summary>Place in the queue, or -1.</summary>
     public int QueueIndex;
 

@@ -243,11 +243,11 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
                 pair.Joins = false;
                 pair.Impulse += impact.NormalImpulse(i);
             }
+            var contacts = Contacts(pairs[first]);
             for (int i = 0; i < impact.BodyCount; ++i)
             {
                 if (!impact.TryGetChange(i, out var body, out var change))
                     continue;
-                var contacts = Contacts(pairs[first]);
                 contacts.Push(body, change);
                 Move(contacts, body, change.Linear * -time, dt);
             }
@@ -275,7 +275,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
 
     void JoinNeighboursOf(int body, int index, float time, float dt)
     {
-        for (int i = queue.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        for (int i = queue.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = pairs[i].NextOf(body))
         {
             ref var pair = ref pairs[i];
             if (!pair.Joins && pair.Time < BouncingPair.Never && pair.Coefficient > 0 && pairs[index].Coefficient > 0 &&
@@ -296,7 +296,7 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     void Move(in ContactRows contacts, int body, Vector3 way, float dt)
     {
         contacts.Move(body, way);
-        for (int i = queue.FirstOf(body); i >= 0; i = pairs[i].A == body ? pairs[i].NextOfA : pairs[i].NextOfB)
+        for (int i = queue.FirstOf(body); i >= 0; i = pairs[i].NextOf(body))
         {
             ref var pair = ref pairs[i];
             var others = Contacts(pair);
