@@ -39,6 +39,10 @@ sealed class SweepWorld : IDisposable
             AddTerrain();
         else
             AddShapes();
+        // As steps would leave the tree, and as a world that is only asked should: adding alone makes one that is dearer to search. A few dozen times,
+        // since the peer mends its tree little by little.
+        for (int update = 0; update < 64; ++update)
+            Simulation.BroadPhase.Update();
         Hull = CreateHull(.25f);
         Reach = isTerrain ? CellCount * .4f : Extent;
         Floor = isTerrain ? 0 : -Extent;
