@@ -52,7 +52,7 @@ unsafe readonly struct ContactConstraint
     {
         var wasHeld = WasHeld;
         var knewB = KnowsB;
-        WriteMaterial(material, frictionCenter);
+        WriteMaterial(material, frictionCenter, wasHeld);
         if (KeptArms.MayKeep(contactCount, manifold, wasHeld, hasTwoBodies))
         {
             ReadArms(features, knewB, out var arms);
@@ -84,7 +84,7 @@ unsafe readonly struct ContactConstraint
     internal void WriteNew(
         ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
-        WriteMaterial(material, frictionCenter);
+        WriteMaterial(material, frictionCenter, old.WasHeld);
         WriteGeometry(manifold, frictionCenter);
         if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.KnowsB))
         {
@@ -185,13 +185,14 @@ unsafe readonly struct ContactConstraint
     void WriteOffsetB(in ConvexContactManifold manifold, in Vector3 frictionCenter) =>
         Write(ContactPrestepLayout.OffsetB(contactCount), hasTwoBodies && frictionCenter == default ? manifold.OffsetB : frictionCenter);
 
-    void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter)
+    void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter, bool wasHeld)
     {
         // The sign says something else: a game may give a negative zero.
         var coefficient = MathF.Abs(material.FrictionCoefficient);
         Write(ContactPrestepLayout.Friction(contactCount), hasTwoBodies && frictionCenter != default ? -coefficient : coefficient);
         Write(ContactPrestepLayout.Spring(contactCount), material.SpringSettings.AngularFrequency);
-        Write(ContactPrestepLayout.Spring(contactCount) + 1, material.SpringSettings.TwiceDampingRatio);
+        Write(ContactPrestepLayout.Damping(contactCount), material.SpringSettings.AngularFrequency == 0
+            ? ContactMaterialWide.DampingOfRigid(wasHeld) : material.SpringSettings.TwiceDampingRatio);
         Write(ContactPrestepLayout.MaximumRecovery(contactCount), material.MaximumRecoveryVelocity);
     }
 

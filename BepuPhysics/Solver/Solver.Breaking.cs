@@ -42,6 +42,7 @@ public sealed unsafe partial class Solver
     /// Chooses what a constraint bears before it breaks. One that had to bear more is removed at the end of the step and listed in
     /// <see cref="BrokenConstraints"/>.
     /// </summary>
+    /// <remarks>Wakes the bodies: what has slept until now may be too much for it.</remarks>
     /// <param name="handle">The constraint; no contact, and no type of a game's own that is no joint.</param>
     /// <param name="threshold">Greatest impulses of a step.</param>
     /// <exception cref="ArgumentException">There is no such constraint, its type has no rows, or a threshold is not positive; nothing was changed.</exception>
@@ -56,6 +57,7 @@ public sealed unsafe partial class Solver
         }
         if (Processor(Locations[handle.Slot].TypeId).RowCount == 0)
             throw new ArgumentException($"{handle} is of a type that does not say what its impulses are.", nameof(handle));
+        WakeBodiesOf(handle);
         var place = PlaceOfBreakable(handle.Slot);
         if (float.IsPositiveInfinity(threshold.Impulse) && float.IsPositiveInfinity(threshold.AngularImpulse))
         {

@@ -25,7 +25,7 @@ public sealed unsafe partial class Solver
     /// <remarks>
     /// One constraint that says no is enough for two bodies, whatever others say, and so it is while it is disabled. From the next step on; no callback
     /// is asked about such a pair. Where a scene has such a constraint, each pair of bodies that may touch looks through the constraints of the one that
-    /// has fewer.
+    /// has fewer. Wakes the bodies where it changes something: what they touch is no longer what it was.
     /// </remarks>
     /// <param name="handle">The constraint; no contact.</param>
     /// <param name="collide">Whether its bodies may collide.</param>
@@ -36,6 +36,7 @@ public sealed unsafe partial class Solver
         CheckJoint(handle);
         if (apart.Contains(handle.Slot) != collide)
             return;
+        WakeBodiesOf(handle);
         if (collide)
             ForgetApart(handle.Slot);
         else

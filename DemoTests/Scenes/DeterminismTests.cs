@@ -71,15 +71,26 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     [InlineData("tori", 60, 300)]
     public void Lanes_do_not_change_a_bit(string name, int steps, int fullSteps)
     {
-        steps = IsFull ? fullSteps : steps;
-        var four = RunChild(name, steps, 128, out int lanes);
+        // Another process knows the built-in scenes only; a small one it reads from a file.
+        var isSmall = name == "wave" || IsFast(name) || (!IsFull && name is "shape-pile" or "hull-pile");
+        AssertSameForAnyLanes(name, isSmall ? Scene(name) : null, IsFull ? fullSteps : steps);
+    }
+
+    /// <summary>Requires the same recorded hashes for 4, 8 and 16 lanes.</summary>
+    /// <param name="name">Name of a built-in scene, or of the one that is given.</param>
+    /// <param name="scene">The scene; null for a built-in one.</param>
+    /// <param name="steps">Steps to run.</param>
+    /// <param name="options">Options of the run.</param>
+    internal void AssertSameForAnyLanes(string name, SceneDescription? scene, int steps, params string[] options)
+    {
+        var four = RunChild(name, scene, steps, 128, out int lanes, options: options);
         Assert.Equal(4, lanes);
         // The stand-in is the same on every processor; true vectors of 512 bits are asked for besides, where there are any.
-        AssertSame(four, RunChild(name, steps, 128, out lanes, SixteenLanesRunner.Path), $"{name} with 16 lanes, against 4,");
+        AssertSame(four, RunChild(name, scene, steps, 128, out lanes, SixteenLanesRunner.Path, options), $"{name} with 16 lanes, against 4,");
         Assert.Equal(16, lanes);
         if (Vector256.IsHardwareAccelerated)
         {
-            AssertSame(four, RunChild(name, steps, 256, out lanes), $"{name} with 8 lanes, against 4,");
+            AssertSame(four, RunChild(name, scene, steps, 256, out lanes, options: options), $"{name} with 8 lanes, against 4,");
             Assert.Equal(8, lanes);
         }
         else
@@ -88,7 +99,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         }
         if (Vector512.IsHardwareAccelerated)
         {
-            AssertSame(four, RunChild(name, steps, 512, out lanes), $"{name} with vectors of 512 bits, against 4 lanes,");
+            AssertSame(four, RunChild(name, scene, steps, 512, out lanes, options: options), $"{name} with vectors of 512 bits, against 4 lanes,");
             Assert.Equal(16, lanes);
         }
         else
@@ -117,17 +128,14 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         return world.HashSteps(steps).ConvertAll(hash => hash.ToString("x16", CultureInfo.InvariantCulture)).Numbered();
     }
 
-    static List<(int Step, string Hash)> RunChild(string scene, int steps, int bits, out int lanes, string? runner = null)
+    static List<(int Step, string Hash)> RunChild(
+        string name, SceneDescription? scene, int steps, int bits, out int lanes, string? runner = null, string[]? options = null)
     {
         string json = Path.GetTempFileName(), file = Path.GetTempFileName() + ".scene";
         try
         {
-            // Another process knows the built-in scenes only; a small one it reads from a file.
-            if (scene == "wave" || IsFast(scene) || (!IsFull && scene is "shape-pile" or "hull-pile"))
-            {
-                File.WriteAllText(file, SmallScenes.Write(Scene(scene)));
-                scene = file;
-            }
+            if (scene is not null)
+                File.WriteAllText(file, SmallScenes.Write(scene));
             var start = new ProcessStartInfo(Environment.GetEnvironmentVariable("DOTNET_HOST_PATH") ?? "dotnet")
             {
                 RedirectStandardOutput = true,
@@ -135,8 +143,9 @@ public sealed class DeterminismTests(ITestOutputHelper output)
             };
             string[] arguments =
             [
-                runner ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"), "run", scene, "--steps", steps.ToString(CultureInfo.InvariantCulture),
-                "--hash-every", "1", "--json", json,
+                runner ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"), "run", scene is null ? name : file,
+                "--steps", steps.ToString(CultureInfo.InvariantCulture),
+                "--hash-every", "1", "--json", json, .. options ?? [],
             ];
             foreach (string argument in arguments)
                 start.ArgumentList.Add(argument);
@@ -147,7 +156,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
             string messages = process.StandardOutput.ReadToEnd();
             process.WaitForExit();
             // A status of 2 says that bodies were lost: what falls freely for five seconds is.
-            Assert.True(process.ExitCode is 0 or 2, $"{scene} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
+            Assert.True(process.ExitCode is 0 or 2, $"{name} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
             var root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
             lanes = root.GetProperty("lanes").GetInt32();
             var hashes = new List<(int, string)>();
@@ -162,7 +171,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         }
     }
 
-    static void AssertSame(List<(int Step, string Hash)> expected, List<(int Step, string Hash)> actual, string what)
+    internal static void AssertSame(List<(int Step, string Hash)> expected, List<(int Step, string Hash)> actual, string what)
     {
         Assert.NotEmpty(expected);
         Assert.Equal(expected.Count, actual.Count);

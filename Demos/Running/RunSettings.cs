@@ -39,6 +39,9 @@ public sealed record RunSettings
     /// <summary>Whether bodies may fall asleep; as the scene says when null.</summary>
     public bool? Sleep { get; init; }
 
+    /// <summary>Whether all events of all bodies are listened to, and part of the recorded hashes.</summary>
+    public bool Listen { get; init; }
+
     /// <summary>Frequency in Hz of contacts and joints; the engine's own default when null.</summary>
     public float? Frequency { get; init; }
 

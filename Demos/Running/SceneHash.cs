@@ -26,10 +26,12 @@ struct SceneHash()
         Add(q.W);
     }
 
-    void Add(float number)
+    public void Add(float number) => Add(BitConverter.SingleToUInt32Bits(number));
+
+    public void Add(uint bits)
     {
         // A step of MurmurHash3's finalizer per number: every bit of the input reaches every bit above and below it.
-        ulong mixed = (Value ^ BitConverter.SingleToUInt32Bits(number)) * 0xFF51AFD7ED558CCD;
+        ulong mixed = (Value ^ bits) * 0xFF51AFD7ED558CCD;
         Value = mixed ^ (mixed >> 32);
     }
 }

@@ -58,6 +58,8 @@ public sealed class SceneRun : IDisposable
         try
         {
             built = SceneBuilder.Build(scene, simulation, jointSpring, recorder, settings.Sleep);
+            if (settings.Listen)
+                EngineEvents.ListenToAll(simulation);
         }
         catch
         {
@@ -84,7 +86,7 @@ public sealed class SceneRun : IDisposable
             clock.End();
             stages = stages.Add(EngineDefaults.ReadStages(simulation));
             if (settings.HashEvery > 0 && step % settings.HashEvery == 0)
-                hashes.Add(new StepHash(step, built.Hash()));
+                hashes.Add(new StepHash(step, settings.Listen ? EngineEvents.Hash(simulation, built.Hash()) : built.Hash()));
             progress?.Invoke(step);
             if (step == warmup)
             {

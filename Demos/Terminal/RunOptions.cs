@@ -21,6 +21,7 @@ sealed class RunOptions
     readonly Option<int> hashEvery = Make("--hash-every", "Steps between two recorded state hashes; 0 for none.", defaults.HashEvery);
     readonly Option<int?> warmup = Make<int?>("--warmup", "First steps that are not measured [default: 30, at most half of the steps].");
     readonly Option<bool?> sleep = Make<bool?>("--sleep", "Whether bodies may fall asleep [default: as the scene says].");
+    readonly Option<bool> listen = Make("--listen", "All events of all bodies are listened to, and part of the recorded hashes.", defaults.Listen);
     readonly Option<float?> frequency = Make<float?>("--frequency", "Frequency in Hz of contacts and joints [default: the engine's].");
     readonly Option<float?> dampingRatio = Make<float?>("--damping-ratio", "Damping ratio that goes with --frequency [default: 1].");
 
@@ -28,7 +29,10 @@ sealed class RunOptions
     public void AddTo(Command command)
     {
         Option[] options =
-            [steps, stepDuration, substeps, iterations, relaxations, loadPath, directJoints, threads, seed, hashEvery, warmup, sleep, frequency, dampingRatio];
+        [
+            steps, stepDuration, substeps, iterations, relaxations, loadPath, directJoints, threads, seed, hashEvery, warmup, sleep, listen, frequency,
+            dampingRatio,
+        ];
         foreach (Option option in options)
             command.Options.Add(option);
     }
@@ -48,6 +52,7 @@ sealed class RunOptions
         HashEvery = parsed.GetValue(hashEvery),
         Warmup = parsed.GetValue(warmup),
         Sleep = parsed.GetValue(sleep),
+        Listen = parsed.GetValue(listen),
         Frequency = parsed.GetValue(frequency),
         DampingRatio = parsed.GetValue(dampingRatio),
     };

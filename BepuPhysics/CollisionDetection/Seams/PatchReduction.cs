@@ -19,7 +19,9 @@ static unsafe class PatchReduction
     const float SpanPreference = 1.05f;
     const float SideLean = 1e-4f;
     // What is above the deepest by more than this at the end of the step does not touch.
-    const float Apart = 2e-2f;
+    const float Apart = 5e-3f;
+    // Depth of a candidate that does not touch, where it is one of the last two at most.
+    const float Aside = -1e30f;
 
     struct Frames
     {
@@ -57,44 +59,46 @@ static unsafe class PatchReduction
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
         Span<float> limits = stackalloc float[PatchSet.Capacity];
-        FindLimits(memory.Ranked.AsSpan(), results, placed, patches, reduces, frames.Size, limits);
-        var left = Fill(ref memory, results, placed, patches, reduces, limits, greatest, ref frames, pool);
+        var leaning = FindLimits(memory.Ranked.AsSpan(), results, placed, patches, reduces, frames.Size, limits);
+        var left = Fill(ref memory, results, placed, patches, reduces, limits, leaning, greatest, ref frames, pool);
         Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
         // What is carried by those that touch does not need the others. In place of one that touches it would be carried by fewer, and rock.
-        for (int i = 0; i < count; ++i)
-            left &= (sides.LeftExists[i] | sides.RightExists[i]) == 0 ? -1 : ~(1 << i);
+        var inLine = ~(sides.LeftExists | sides.RightExists);
+        left &= (int)Wide.Bits(inLine);
         if (left != 0)
         {
-            for (int i = 0; i < count; ++i)
-                limits[i] = (left & 1 << i) != 0 ? float.MinValue : limits[i];
-            Fill(ref memory, results, placed, patches, reduces, limits, greatest, ref frames, pool);
+            Fill(ref memory, results, placed, patches, reduces, limits, leaning | left, greatest, ref frames, pool);
             Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out deepest, out farthest, out sides, out secondExists);
         }
+        inLine &= secondExists;
+        if (inLine != Vector<int>.Zero)
+            ChooseEnds(memory.Candidates.Span.Memory, greatest, frames.Size, inLine, farthest, ref deepest);
         memory.Kept.Count = 0;
         for (int i = 0; i < count; ++i)
         {
             if ((reduces & 1 << i) == 0)
                 continue;
-            var end = memory.Kept.Count + patches[i].Share;
-            Add(ref memory, deepest, i, end);
+            var room = memory.Kept.Count + patches[i].Share;
+            Add(ref memory, deepest, i, room);
             if (secondExists[i] != 0)
-                Add(ref memory, farthest, i, end);
+                Add(ref memory, farthest, i, room);
             // The larger side first: there may be room for one.
             for (int side = 0; side < 2; ++side)
             {
                 if ((sides.TipIsLeft[i] != 0) == (side == 0))
-                    AddIf(sides.LeftExists | sides.BeyondMask, ref memory, sides.Left, i, end);
+                    AddIf(sides.LeftExists | sides.BeyondMask, ref memory, sides.Left, i, room);
                 else
-                    AddIf(sides.RightExists | sides.BeyondMask, ref memory, sides.Right, i, end);
+                    AddIf(sides.RightExists | sides.BeyondMask, ref memory, sides.Right, i, room);
             }
         }
     }
 
-    // The least depth that contacts of each patch must have at the end of the step to touch. Where there is room for all, or too few touch to carry anything,
-    // none is left out.
-    static void FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
+    // The least depth that contacts of each patch must have at the end of the step to touch; all do where there is room for all. Returns a bit for each patch
+    // of which too few touch to carry anything.
+    static int FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
         Vector<float> sizes, Span<float> limits)
     {
+        var leaning = 0;
         for (int lane = 0; lane < limits.Length; ++lane)
         {
             limits[lane] = float.MinValue;
@@ -112,16 +116,16 @@ static unsafe class PatchReduction
             }
             if (touching == patches[lane].ContactCount)
                 continue;
-            var limit = MathHelper.Min(0, deepest) - Apart * sizes[lane];
+            limits[lane] = MathHelper.Min(0, deepest) - Apart * sizes[lane];
             touching = 0;
             foreach (ref var child in ranked)
             {
                 for (int i = 0; child.Patch == lane && i < results[child.Slot].Manifold.Count; ++i)
-                    touching += Touches(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal, limit) ? 1 : 0;
+                    touching += Touches(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal, limits[lane]) ? 1 : 0;
             }
-            if (touching > 2)
-                limits[lane] = limit;
+            leaning |= touching > 2 ? 0 : 1 << lane;
         }
+        return leaning;
     }
 
     // Whether a contact is that deep, or is at the end of the step.
@@ -134,9 +138,9 @@ static unsafe class PatchReduction
         return contact.Depth - Exact.Dot(way, normal) >= limit;
     }
 
-    // A bit for each patch some of whose contacts were left out.
+    // Contacts that do not touch are candidates only of the patches of a mask. Returns a bit for each patch some of whose contacts were left out.
     static int Fill(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
-        ReadOnlySpan<float> limits, int greatest, ref Frames frames, BufferPool pool)
+        ReadOnlySpan<float> limits, int leaning, int greatest, ref Frames frames, BufferPool pool)
     {
         var left = 0;
         ref var candidates = ref memory.Candidates;
@@ -169,7 +173,8 @@ static unsafe class PatchReduction
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
-                if (!Touches(result, i, placed[child.Slot].Motion, patch.Normal, limits[lane]))
+                var touches = Touches(result, i, placed[child.Slot].Motion, patch.Normal, limits[lane]);
+                if (!touches && (leaning & 1 << lane) == 0)
                 {
                     left |= 1 << lane;
                     continue;
@@ -187,7 +192,7 @@ static unsafe class PatchReduction
                 }
                 GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, frame.X);
                 GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, frame.Y);
-                GatherScatter.Get(ref candidate.Depth, lane) = contact.Depth + (isFirst ? frame.Preference : 0);
+                GatherScatter.Get(ref candidate.Depth, lane) = touches ? contact.Depth + (isFirst ? frame.Preference : 0) : Aside;
                 GatherScatter.Get(ref candidate.Weight, lane) = isRemembered ? SpanPreference : 1;
                 GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
             }
@@ -204,23 +209,42 @@ static unsafe class PatchReduction
         best.Score = best.Depth = none;
         for (int i = 0; i < count; ++i)
             best.Offer(candidates[i].Depth, candidates[i], i);
-        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, best, none, best, out farthest);
+        // The two that are farthest apart of those that touch. What does not is the second where only one does.
+        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, best, new Vector<float>(Aside), best, out farthest);
+        var border = size * new Vector<float>(Border);
+        secondExists = ContactReduction<FaceCandidate>.IsFarEnough(farthest, border);
+        if (!Vector.EqualsAll(secondExists, Vector<int>.AllBitsSet))
+        {
+            ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, best, none, best, out var other);
+            farthest.Replace(~secondExists, other);
+            farthest.Score = Wide.Select(secondExists, farthest.Score, other.Score);
+            secondExists = ContactReduction<FaceCandidate>.IsFarEnough(farthest, border);
+        }
         var level = best.Depth - size * new Vector<float>(LevelTolerance);
         ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, farthest, level, best, out deepest);
-        secondExists = ContactReduction<FaceCandidate>.IsFarEnough(farthest, size * new Vector<float>(Border));
         ContactReduction<FaceCandidate>.ChooseSides(candidates, count, none, deepest, farthest, SideLean, secondExists, out sides);
     }
 
-    static void AddIf(Vector<int> exists, ref SeamMemory memory, in ContactChoice choice, int lane, int end)
+    // Of contacts in a line the deepest need not be an end: what is carried by it and the far end alone tips over it, and is stopped by the end that was left
+    // out, which is the deepest then. An end that is nearly as deep takes its place; as a third one it would carry a part of what two do, and lift it.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ChooseEnds(FaceCandidate* candidates, int count, Vector<float> size, Vector<int> inLine, in ContactChoice farthest, ref ContactChoice deepest)
+    {
+        var level = deepest.Depth - size * new Vector<float>(Apart);
+        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, farthest, level, deepest, out var end);
+        deepest.Replace(inLine, end);
+    }
+
+    static void AddIf(Vector<int> exists, ref SeamMemory memory, in ContactChoice choice, int lane, int room)
     {
         if (exists[lane] != 0)
-            Add(ref memory, choice, lane, end);
+            Add(ref memory, choice, lane, room);
     }
 
     // There is room for the contacts of all patches.
-    static void Add(ref SeamMemory memory, in ContactChoice choice, int lane, int end)
+    static void Add(ref SeamMemory memory, in ContactChoice choice, int lane, int room)
     {
-        if (memory.Kept.Count < end)
+        if (memory.Kept.Count < room)
             memory.Kept.AddUnsafely(choice.Name[lane]);
     }
 }

@@ -39,6 +39,12 @@ struct ContactMaterialWide
     /// </summary>
     internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
 
+    /// <summary>What the damping ratio of a patch without a frequency of its own says, which has no use for it: whether it was held in the last step.</summary>
+    internal static float DampingOfRigid(bool wasHeld) => wasHeld ? -0f : 0;
+
+    /// <summary>Which of some patches without a frequency of their own were held in the last step.</summary>
+    internal static Vector<int> WasHeld(Vector<float> damping) => Vector.LessThan(Vector.AsVectorInt32(damping), Vector<int>.Zero);
+
     /// <summary>
     /// Of two bodies: patches that are a part of one that several bodies bear which nothing moves. Their coefficient is negative; what a game gives is not.
     /// With one body the place of friction says so.
@@ -126,6 +132,7 @@ static class ContactPrestepLayout
     internal static int Normal(int contactCount) => OffsetB(contactCount) + 3;
     internal static int Friction(int contactCount) => Normal(contactCount) + 3;
     internal static int Spring(int contactCount) => Friction(contactCount) + 1;
+    internal static int Damping(int contactCount) => Spring(contactCount) + 1;
     internal static int MaximumRecovery(int contactCount) => Spring(contactCount) + 2;
     internal static int PrestepFloats(int contactCount) => MaximumRecovery(contactCount) + 1;
     internal static int FrictionImpulse(int contactCount) => contactCount;

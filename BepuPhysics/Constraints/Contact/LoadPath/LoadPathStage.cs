@@ -131,7 +131,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, spoilt.Memory, QuietSteps * solver.LastSubstepCount,
-            new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale);
+            new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale, substep.Dt);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;

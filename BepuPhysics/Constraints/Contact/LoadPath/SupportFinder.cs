@@ -12,6 +12,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
 /// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
+/// <param name="dt">Length of a substep, s.</param>
 // Only contacts that are quiet carry: their surfaces move no faster along or apart than the acceleration from outside gives in some substeps. What
 // slides, rolls fast, tumbles or is hit is left to the sweeps, and so is what rests on something that moves.
 //
@@ -19,7 +20,8 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, float quietSteps, RestTolerance tolerance, float warmStartScale)
+    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, float quietSteps, RestTolerance tolerance,
+    float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
     internal const int LeastContacts = 3;
@@ -36,6 +38,9 @@ readonly unsafe struct SupportFinder(
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
     const float SlidingShare = 0.99f;
     const float SlidingSteps = 0.1f;
+    // How far soft contacts sink in under the weight of a body, in substeps of the speed that one gives: 1 / (2 pi / 16)^2. What has been held and opens by
+    // less would touch again as soon as it is let go, and so on for ever.
+    const float SinkingSteps = 6.5f;
 
     /// <summary>Holds the contacts of what rests alone on a static, and writes what else is found in a bundle, in the order of lanes.</summary>
     /// <param name="batch">The type batch.</param>
@@ -124,10 +129,14 @@ readonly unsafe struct SupportFinder(
         slides &= IsAtLimit(count, prestep, impulses);
         var band = new Vector<float>(ContactMaterialWide.BandPerExtent) * extent;
         var open = Vector<int>.Zero;
+        var near = Vector<int>.Zero;
+        var wasHeld = ContactMaterialWide.WasHeld(prestep[ContactPrestepLayout.Damping(count)]);
+        var reach = Wide.Mask(wasHeld, fastest * new Vector<float>(SinkingSteps * dt));
         for (int i = 0; i < count; ++i)
         {
             var touches = Vector.GreaterThanOrEqual(((ContactPrestepWide*)prestep)[i].Depth, new Vector<float>(-2) * band);
             open |= Vector.AndNot(new Vector<int>(1 << i), touches | Vector.GreaterThan(impulses[i], Vector<float>.Zero));
+            near |= new Vector<int>(1 << i) & Vector.GreaterThan(((ContactPrestepWide*)prestep)[i].Depth, -reach);
         }
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
         Spoil(Vector.AndNot(leans, carries), references, hasB);
@@ -140,7 +149,7 @@ readonly unsafe struct SupportFinder(
             if (alone != Vector<int>.Zero)
             {
                 holds = true;
-                Hold(Vector.AndNot(alone, slides), count, open, band, prestep + ContactPrestepLayout.Spring(count));
+                Hold(Vector.AndNot(alone, slides), count, Vector.AndNot(open, near), band, prestep + ContactPrestepLayout.Spring(count));
                 carries = Vector.AndNot(carries, alone);
                 if (carries == Vector<int>.Zero)
                     return 0;
@@ -166,6 +175,7 @@ readonly unsafe struct SupportFinder(
                 Radius = radius[lane],
                 Count = (byte)count,
                 Open = (byte)open[lane],
+                Near = (byte)near[lane],
                 HasTwoBodies = hasB,
                 IsUpperA = isUpperA[lane] != 0,
                 Slides = slides[lane] != 0,
@@ -215,11 +225,11 @@ readonly unsafe struct SupportFinder(
         return Vector.Equals(counts, Vector<int>.One);
     }
 
-    static void Hold(Vector<int> lanes, int count, Vector<int> open, Vector<float> band, Vector<float>* spring)
+    static void Hold(Vector<int> lanes, int count, Vector<int> away, Vector<float> band, Vector<float>* spring)
     {
         var touching = new Vector<int>(count);
         for (int i = 0; i < count; ++i)
-            touching -= open >> i & Vector<int>.One;
+            touching -= away >> i & Vector<int>.One;
         lanes &= Vector.GreaterThanOrEqual(touching, new(LeastContacts));
         *spring = Wide.Select(lanes, ContactMaterialWide.HeldSpring(band, lone: new(-1)), *spring);
     }

@@ -21,6 +21,8 @@ unsafe struct SupportLink
     public byte Count;
     /// <summary>One bit per contact, set where the surfaces are apart: it carries nothing and is left as it is.</summary>
     public byte Open;
+    /// <summary>One bit per contact, set where it would touch again if the patch, which has been held, were let go.</summary>
+    public byte Near;
     /// <summary>Whether the constraint has two bodies.</summary>
     public bool HasTwoBodies;
     /// <summary>Whether the upper body is A of the constraint.</summary>
@@ -30,8 +32,8 @@ unsafe struct SupportLink
     /// <summary>Whether the contacts are too steep to hand a load down: their bodies hold each other.</summary>
     public bool Leans;
 
-    /// <summary>Number of contacts that may carry.</summary>
-    internal readonly int CarryingCount => Count - BitOperations.PopCount(Open);
+    /// <summary>Number of contacts that the upper body rests on.</summary>
+    internal readonly int CarryingCount => Count - BitOperations.PopCount((uint)(Open & ~Near));
 
     /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
     internal readonly ref float Spring => ref Prestep[ContactPrestepLayout.Spring(Count) * Vector<float>.Count];
