@@ -42,17 +42,17 @@ public class GearStackTests(ITestOutputHelper output)
     }
 
     /// <summary>A gear that comes down on a stack of others stays there, and no pair has more than eight contacts in four patches.</summary>
-    // What is not yet as it should be. On a stack of thirty it should be at rest after three seconds, to 1e-6 J/kg. On one of three it rocks by .001 J/kg, and
-    // stacks of ten and more have fallen over: what is a lip to the teeth, which are thin, is less than what a gear rocks by.
-    [Fact]
-    public void A_gear_stays_on_a_stack()
+    // Teeth are thin, and a gear that leans is deeper at some of them than at its hub by more than a lip. As long as a normal was offered by the deepest child
+    // alone, some met walls of others; these had patches, and the one that carries the gear two contacts, on which it rocked for ever. The aim is 1e-6 J/kg,
+    // which one of these misses by half.
+    [Theory, InlineData(3, 0), InlineData(3, 1), InlineData(3, 2), InlineData(3, 3), InlineData(30, 0)]
+    public void A_gear_comes_to_rest_on_a_stack(int stack, int number)
     {
-        const int stack = 3;
         using var world = new CompoundWorld();
         world.AddStatic(isBig: false, (new(8, 1, 8), new RigidPose(new Vector3(0, -.5f, 0))));
         var gear = AddGear(world);
         var inertia = new Cylinder(HubRadius, 2 * HalfThickness).ComputeInertia(1);
-        var random = new Random(LevelSeeds.Of(2200));
+        var random = new Random(LevelSeeds.Of(2200 + number));
         List<BodyHandle> bodies = [];
         for (int i = 0; i < stack + 1; ++i)
         {
@@ -75,8 +75,8 @@ public class GearStackTests(ITestOutputHelper output)
         });
         output.WriteLine($"greatest energy {energy}, at most {most} contacts, top at {world.Simulation.Bodies[bodies[^1]].Pose.Position}");
         Assert.InRange(most, 3, 8);
-        Assert.InRange(energy, 0, 5e-3f);
-        Assert.InRange(world.Simulation.Bodies[bodies[^1]].Pose.Position.Y, (2 * stack + 1) * HalfThickness - 2e-2f, (2 * stack + 1) * HalfThickness + 1e-3f);
+        Assert.InRange(energy, 0, 1e-5f);
+        Assert.InRange(world.Simulation.Bodies[bodies[^1]].Pose.Position.Y, (2 * stack + 1) * HalfThickness - 2e-3f, (2 * stack + 1) * HalfThickness + 1e-3f);
     }
 
     // Of all constraints between a body and the one below it.

@@ -109,8 +109,8 @@ unsafe struct ChildPairs(BufferPool pool)
             Motion = pair.Motion,
             Dt = dt,
             SpeculativeMargin = pair.SpeculativeMargin,
-            // The shape of the lower type: a convex one before a container. Of two of one type it is the caller's A, the body where B is a static.
-            MoverIsB = pair.Flipped,
+            // A convex shape before a container. Of two containers it is the caller's A, the body where B is a static, whatever that is wrapped in.
+            MoverIsB = pair.Flipped && (ShapeCopy.Fits(pair.NameA.Type) || ShapeCopy.Fits(pair.NameB.Type)),
             HasRound = PlacedChildren.IsRound(pair.NameA.Type) || PlacedChildren.IsRound(pair.NameB.Type),
             PairId = pair.PairId,
             WaitCount = 1,

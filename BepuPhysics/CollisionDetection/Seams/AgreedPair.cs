@@ -33,8 +33,8 @@ struct AgreedPair
     /// <summary>Where the pair waits in this step: the worker, and its place among those of the worker.</summary>
     public int Worker, Index;
 
-    // Part of the body's reach by which it may have moved: a tenth of what it may be deeper than a child that it yields to.
-    const float Tolerance = ChildAgreement.Tolerance * 0.1f;
+    // Part of the body's reach by which it may have moved: a tenth of a lip that is none.
+    const float Tolerance = ChildAgreement.GreatestLip * 0.1f;
     // Times as much for depths. No move that is allowed changes these by more: another shape in the place of one does.
     const float DepthShare = 4;
 

@@ -96,6 +96,7 @@ unsafe struct BodyAgreement(BufferPool pool)
         if (set.Index < 0)
             children = children[..SeamMemory.Sort(children, set.Results)];
         memory.Rank(children, pool);
+        JoinNormals(ResultsOf(set), PlacedOf(set));
         LeaveFixed();
         if (!set.IsOnPlane && MovesAlike())
             PatchSet.Thin(ref memory, ResultsOf(set), PlacedOf(set), pool);
@@ -115,6 +116,29 @@ unsafe struct BodyAgreement(BufferPool pool)
     readonly Span<ChildResult> ResultsOf(in SeamSet set) => new(set.Results, SlotCount(set));
 
     readonly Span<PlacedChildren> PlacedOf(in SeamSet set) => new(set.Placed, SlotCount(set));
+
+    // What has one normal has that of the deepest, as the contacts of a patch have. What leans a little has the normal of its own face on a part of the floor
+    // that ends below it: it would be pushed along the others by what it leans. Normals of what is round are found by a search, and not as exact.
+    void JoinNormals(Span<ChildResult> results, Span<PlacedChildren> placed)
+    {
+        var ranked = memory.Ranked.AsSpan();
+        for (int i = 1; i < ranked.Length; ++i)
+        {
+            ref var normal = ref results[ranked[i].Slot].Manifold.Normal;
+            if (ranked[i].Class == FixedClass || PlacedChildren.IsRound(placed[ranked[i].Slot].TypeA))
+                continue;
+            for (int j = 0; j < i; ++j)
+            {
+                ref readonly var leader = ref results[ranked[j].Slot].Manifold.Normal;
+                if (ranked[j].Group != ranked[i].Group || PlacedChildren.IsRound(placed[ranked[j].Slot].TypeA) ||
+                    !ChildAgreement.HasOneNormal(leader, normal))
+                    continue;
+                ranked[i].HasYielded |= normal != leader;
+                normal = leader;
+                break;
+            }
+        }
+    }
 
     void LeaveFixed()
     {

@@ -67,14 +67,17 @@ struct RankedChild
 /// this as well. Its contacts are found once more along that normal; where the features do not overlap along it there are none.
 /// </para>
 /// <para>
-/// A child yields only to one that it shares a child of either shape with: two boxes of one floor that touch the same ball. Nothing can be lost: what
-/// has yielded is apart when what it has yielded to is, but for rotations.
+/// A child yields only to a normal of one that it shares a child of either shape with: two boxes of one floor that touch the same ball. Nothing can be
+/// lost: what has yielded is apart when what it has yielded to is, but for rotations.
 /// </para>
 /// </remarks>
 static class ChildAgreement
 {
-    /// <summary>Part of a mover's inner radius by which it may be deeper than what it yields to: a lip of that height is none.</summary>
-    public const float Tolerance = 1e-3f;
+    /// <summary>Part of a mover's inner radius: a lip of that height is none.</summary>
+    public const float GreatestLip = 1e-3f;
+
+    // Part of it by which a mover may be deeper than what it yields to: such a lip, as rounding of places may show it.
+    const float Tolerance = 1.05f * GreatestLip;
 
     // Cosine of 1e-3 rad: normals nearer to each other are one.
     const float SameNormal = 1 - 5e-7f;
@@ -94,15 +97,6 @@ static class ChildAgreement
         ref var set = ref view.Set;
         set.Count = SeamMemory.Sort(view.Ranked, set.Results);
         set.Index = set.LastLeader = -1;
-        set.HasOneA = set.HasOneB = true;
-        for (int i = 1; i < set.Count; ++i)
-        {
-            ref var first = ref view.Ranked[0];
-            ref var other = ref view.Ranked[i];
-            set.HasOneA &= view.Result(first).Children.A == view.Result(other).Children.A;
-            // Children of several pairs are those of several shapes.
-            set.HasOneB &= first.Pair == other.Pair && view.Result(first).Children.B == view.Result(other).Children.B;
-        }
         // What is alone agrees with itself.
         set.Stage = set.Count > 1 ? SeamStage.Next : SeamStage.Done;
     }
@@ -183,45 +177,38 @@ static class ChildAgreement
             Accept(ref tests, view, pool);
     }
 
-    // Whether those that might yield to it may yield to leaders with its normal as well: of these one shares its A, and one its B, if others have that, too.
+    // Whether those that might yield to it may yield to a leader with its normal as well, as that is offered to all that it might be offered to. Children of
+    // one pair have agreed when those of several do.
     static bool HasLeader(SeamView view, int index)
     {
         ref var child = ref view.Ranked[index];
-        ref var result = ref view.Result(child);
-        var (hasA, hasB) = (false, false);
-        for (int i = view.Set.LastLeader; i >= 0 && !(hasA && hasB); i = view.Ranked[i].PreviousLeader)
+        for (int i = view.Set.LastLeader; i >= 0; i = view.Ranked[i].PreviousLeader)
         {
-            ref var leader = ref view.Ranked[i];
-            ref var accepted = ref view.Result(leader);
-            if (leader.Group != child.Group || !HasOneNormal(accepted.Manifold.Normal, result.Manifold.Normal))
-                continue;
-            hasA |= accepted.Children.A == result.Children.A || accepted.Children.A == AnyChild;
-            hasB |= leader.Pair == child.Pair && accepted.Children.B == result.Children.B;
+            if (view.Ranked[i].Group == child.Group && HasOneNormal(view, view.Ranked[i], child))
+                return true;
         }
-        if (!hasA && (!hasB || result.Children.A == AnyChild || !(view.Set.HasOneB || IsAlone(view, index, byA: true))))
-            return false;
-        // Children of one pair have agreed when those of several do.
-        return hasB || child.Pair != 0 || view.Set.HasOneA || IsAlone(view, index, byA: false);
+        return false;
     }
 
-    // Whether no child with another normal has its A, or its B.
-    static bool IsAlone(SeamView view, int index, bool byA)
-    {
-        ref var result = ref view.Result(view.Ranked[index]);
-        foreach (ref var child in view.Ranked)
-        {
-            ref var other = ref view.Result(child);
-            if ((byA ? other.Children.A == result.Children.A : other.Children.B == result.Children.B) &&
-                !HasOneNormal(other.Manifold.Normal, result.Manifold.Normal))
-            {
-                return false;
-            }
-        }
-        return true;
-    }
+    static bool HasOneNormal(SeamView view, in RankedChild a, in RankedChild b) =>
+        HasOneNormal(view.Result(a).Manifold.Normal, view.Result(b).Manifold.Normal);
 
     /// <summary>Whether two normals are nearer to each other than those of one surface may be.</summary>
     public static bool HasOneNormal(in Vector3 a, in Vector3 b) => Exact.Dot(a, b) > SameNormal;
+
+    // Whether the normal of a leader is offered to a child: by the leader itself, or by another child with its normal. A body is moved as a whole, but what one
+    // leg stands on says nothing of what another meets that stands on nothing.
+    static bool IsOffered(in RankedChild child, in RankedChild leader, SeamView view)
+    {
+        if (SharesChild(child, leader, view))
+            return true;
+        foreach (ref var other in view.Ranked)
+        {
+            if (other.Group == leader.Group && SharesChild(child, other, view) && HasOneNormal(view, other, leader))
+                return true;
+        }
+        return false;
+    }
 
     static bool SharesChild(in RankedChild a, in RankedChild b, SeamView view)
     {
@@ -241,8 +228,7 @@ static class ChildAgreement
             return false;
         ref var result = ref view.Result(child);
         ref var accepted = ref view.Result(other);
-        return SharesChild(child, other, view) &&
-            Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) is >= LeastCosine and <= SameNormal;
+        return Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) is >= LeastCosine and <= SameNormal && IsOffered(child, other, view);
     }
 
     // Depth by which a child may be deeper than what it yields to.

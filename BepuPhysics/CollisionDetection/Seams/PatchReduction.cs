@@ -18,8 +18,8 @@ static unsafe class PatchReduction
     const float DepthPreference = 8e-5f;
     const float SpanPreference = 1.05f;
     const float SideLean = 1e-4f;
-    // What is above the deepest by more than this at the end of the step does not touch.
-    const float Apart = 5e-3f;
+    /// <summary>Part of the mover's inner radius: what is above the deepest by more than this at the end of the step does not touch.</summary>
+    public const float Apart = 5e-3f;
     // Depth of a candidate that does not touch, where it is one of the last two at most.
     const float Aside = -1e30f;
 

@@ -62,7 +62,7 @@ struct PatchSet
         if (count == 0)
             return 0;
         patches.Match(count, known);
-        patches.SetShares(count);
+        patches.SetShares(count, FindNear(memory.Ranked.AsSpan(), results, placed, count));
         for (int i = 0; i < count; ++i)
             Place(target[(Capacity - count)..], ref patches[i], i, results[patches[i].Slot].Manifold.OffsetB);
         var reduces = 0;
@@ -232,22 +232,48 @@ struct PatchSet
     }
 
     // Eight contacts in all: four for each of two patches; of three, three for those that are known longest, which do not change from step to step
-    // as the deepest may; two for each of four. What one does not need goes to the next.
-    void SetShares(int count)
+    // as the deepest may; two for each of four. What one does not need goes to the next. What is only coming near has one if others need the rest: with less
+    // than three contacts what holds the body would let it rock.
+    void SetShares(int count, int near)
     {
-        Span<int> shares = count switch { < 3 => [4, 4, 0, 0], 3 => [3, 3, 2, 0], _ => [2, 2, 2, 2] };
+        var apart = count - BitOperations.PopCount((uint)near);
+        var room = Capacity * 2 - apart;
+        var rest = count - apart;
         var left = 0;
-        var rank = 0;
-        for (int number = 0; number < Capacity; ++number)
+        for (int pass = 0; pass < 2; ++pass)
         {
-            for (int i = 0; i < count; ++i)
+            for (int number = 0; number < Capacity; ++number)
             {
-                if (this[i].Number != number)
-                    continue;
-                this[i].Share = Math.Min(ConvexContactManifold.MaximumContactCount, shares[rank++] + left);
-                left = Math.Max(0, this[i].Share - this[i].ContactCount);
+                for (int i = 0; i < count; ++i)
+                {
+                    if (this[i].Number != number || (near & 1 << i) != 0 != (pass == 0))
+                        continue;
+                    var share = Math.Min(ConvexContactManifold.MaximumContactCount, (room + rest - 1) / rest);
+                    --rest;
+                    room -= share;
+                    this[i].Share = Math.Min(ConvexContactManifold.MaximumContactCount, share + left);
+                    left = Math.Max(0, this[i].Share - this[i].ContactCount);
+                }
             }
+            rest = apart;
+            room += apart;
         }
+    }
+
+    // A bit for each patch that touches, or is about to; for all where none is, or where there is room for all.
+    static int FindNear(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, int count)
+    {
+        var all = (1 << count) - 1;
+        if (count < 3)
+            return all;
+        var near = 0;
+        foreach (ref var child in ranked)
+        {
+            ref var manifold = ref results[child.Slot].Manifold;
+            if (child.Patch >= 0 && (near & 1 << child.Patch) == 0 && manifold.GreatestDepth >= -PatchReduction.Apart * placed[child.Slot].InnerRadius())
+                near |= 1 << child.Patch;
+        }
+        return near == 0 ? all : near;
     }
 
     // Inserts the patch into those that are placed already.

@@ -38,8 +38,6 @@ unsafe struct SeamSet
     public int Index;
     /// <summary>Number of children that others may yield to; the last of them.</summary>
     public int LeaderCount, LastLeader;
-    /// <summary>Whether all have one child of A, or of B: those of the other shape are all different then.</summary>
-    public bool HasOneA, HasOneB;
     /// <summary>Its tests of the last round.</summary>
     public SeamTests Tests;
     /// <summary>The contact that is foreseen, of the child that is looked at.</summary>

@@ -16,6 +16,7 @@ namespace DemoTests.CollisionDetection.Children;
 public sealed class MeshContactTests : IDisposable
 {
     const float Margin = .2f;
+    const int PairCount = 60;
 
     readonly BufferPool pool = new();
     readonly Shapes shapes;
@@ -96,10 +97,19 @@ public sealed class MeshContactTests : IDisposable
             mesh.GetPosedLocalChild(i, out var child, out var pose);
             (triangles[i], centers[i]) = (shapes.Add(child), pose.Position);
         }
+        // Some seeds have fewer contacts in each round than others.
+        var contactCount = 0;
+        for (int round = 0; round < 10 && contactCount <= 2 * PairCount; ++round)
+            contactCount += CompareRound(typeId, mesh, meshIndex, triangles, centers);
+        Assert.True(contactCount > 2 * PairCount, $"{contactCount} contacts");
+    }
+
+    // Number of contacts.
+    int CompareRound(int typeId, Mesh mesh, TypedIndex meshIndex, TypedIndex[] triangles, Vector3[] centers)
+    {
         Log together = new(), alone = new();
         var batcher = new CollisionBatcher<Callbacks>(pool, shapes, registry, 1 / 60f, new(together));
         var tester = new CollisionBatcher<Callbacks>(pool, shapes, registry, 1 / 60f, new(alone));
-        const int PairCount = 60;
         for (int pair = 0; pair < PairCount; ++pair)
         {
             var convex = AddConvex(typeId);
@@ -131,7 +141,7 @@ public sealed class MeshContactTests : IDisposable
                 AssertSame(alone.Pairs[2 * (pair * triangles.Length + i) + 1], together.Children.GetValueOrDefault((2 * pair + 1, i, 0)), null);
             }
         }
-        Assert.True(contactCount > 2 * PairCount, $"{contactCount} contacts");
+        return contactCount;
     }
 
     // Contacts of a mesh that is A are told from its own centre, so their places are left out.

@@ -52,7 +52,13 @@ public class SeparateFloorTests(ITestOutputHelper output)
         Assert.Equal("", failures);
     }
 
-    string Compare(SeparateFloor floor, SeamMover mover, float friction, float speed, int seed)
+    /// <summary>What leans on its contacts has the normal of its own face where a part of the floor ends below it, and is not pushed along by that.</summary>
+    // By .00106 and .00077 m/s within two seconds before all parts of a floor had one normal.
+    [Theory, InlineData(71001), InlineData(71002)]
+    public void What_leans_keeps_its_speed(int seed) =>
+        Assert.Equal("", Compare(SeparateFloor.Boxes, SeamMover.Compound, friction: 0, speed: 1, LevelSeeds.Of(seed), relativeError: 1e-5f));
+
+    string Compare(SeparateFloor floor, SeamMover mover, float friction, float speed, int seed, float relativeError = 1e-3f)
     {
         var stepCount = (int)(Math.Min(20 / speed, 2) * 60);
         using var expected = new ClusterWorld(isCluster: true);
@@ -76,7 +82,7 @@ public class SeparateFloorTests(ITestOutputHelper output)
             $"height {heightError * 1000:g3} mm, up {upward * 1000:g3} mm/s\n";
         output.WriteLine(text);
         // What may be left of up and down is a load that friction takes its part of.
-        var allowed = 1e-3f * speed + friction * GreatestUpward;
+        var allowed = relativeError * speed + friction * GreatestUpward;
         var isStraight = velocityError <= allowed && sideways <= GreatestSidewaysOf(floor, mover) * speed + friction * GreatestUpward;
         return isStraight && heightError <= 2e-4f && upward <= GreatestUpward ? "" : text;
     }
