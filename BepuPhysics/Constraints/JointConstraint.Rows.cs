@@ -69,7 +69,6 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, Span<ConstraintRowWide> rows)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
-        ReadJacobian(geometry, rows);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         Aim(bodies, substep, prestep, geometry, error, out var target, out var softness, out var isHard);
         if (IsLimited && substep.IsRelaxation)
@@ -92,6 +91,8 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             row.MaximumImpulse = greatest;
             row.HardMask = isHard;
         }
+        // The bodies are the caller's own copy, of which nothing else is read.
+        ReadJacobian(geometry, ref Unsafe.AsRef(in bodies), rows);
     }
 
     static void IConstraint<TBodies, TPrestep, TRows>.WriteImpulses(
@@ -101,19 +102,28 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             Row(ref impulses, i) = Wide.Select(lanes, rows[i], Row(ref impulses, i));
     }
 
-    // J column by column: what the joint sees of a unit velocity.
-    static void ReadJacobian(in TGeometry geometry, Span<ConstraintRowWide> rows)
+    // J column by column: what the joint sees of a unit velocity. One that is not read is seen as none at all is.
+    static void ReadJacobian(in TGeometry geometry, ref TBodies bodies, Span<ConstraintRowWide> rows)
     {
-        TBodies bodies = default;
+        for (int slot = 0; slot < TBodies.Count; ++slot)
+        {
+            ref var body = ref BodySlots.At(ref bodies, slot);
+            body.Linear = body.Angular = default;
+        }
+        TJoint.RelativeVelocity(geometry, bodies, out var unseen);
         for (int slot = 0; slot < TBodies.Count; ++slot)
         {
             // Linear and angular velocity lie side by side, in bodies as in Jacobians.
             ref var coordinates = ref Unsafe.As<Vector3Wide, Vector<float>>(ref BodySlots.At(ref bodies, slot).Linear);
             for (int i = 0; i < CoordinatesPerBody; ++i)
             {
-                Unsafe.Add(ref coordinates, i) = Vector<float>.One;
-                TJoint.RelativeVelocity(geometry, bodies, out var column);
-                Unsafe.Add(ref coordinates, i) = Vector<float>.Zero;
+                var column = unseen;
+                if ((TJoint.Access & (i < CoordinatesPerBody / 2 ? BodyAccess.Linear : BodyAccess.Angular)) != 0)
+                {
+                    Unsafe.Add(ref coordinates, i) = Vector<float>.One;
+                    TJoint.RelativeVelocity(geometry, bodies, out column);
+                    Unsafe.Add(ref coordinates, i) = Vector<float>.Zero;
+                }
                 for (int row = 0; row < rows.Length; ++row)
                     Unsafe.Add(ref Unsafe.As<RowJacobianWide, Vector<float>>(ref rows[row].Of(slot)), i) = Row(ref column, row);
             }

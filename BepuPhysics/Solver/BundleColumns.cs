@@ -35,3 +35,15 @@ readonly struct MoveInBundles(int from, int to) : IColumnVisitor
             column[target + i] = column[source + i];
     }
 }
+
+/// <summary>Exchanges two constraints.</summary>
+readonly struct ExchangeInBundles(int a, int b) : IColumnVisitor
+{
+    public void Visit<T>(ref Buffer<T> column, int width = 1) where T : unmanaged
+    {
+        var ofA = TypeProcessor.ColumnStart(width, a);
+        var ofB = TypeProcessor.ColumnStart(width, b);
+        for (int i = 0; i < width * Vector<float>.Count; i += Vector<float>.Count)
+            (column[ofA + i], column[ofB + i]) = (column[ofB + i], column[ofA + i]);
+    }
+}

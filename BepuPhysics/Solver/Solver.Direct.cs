@@ -38,6 +38,9 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Number of structures that are solved at once, equal ones that are solved side by side as one.</summary>
+    internal int DirectIslandCount => directStage.IslandCount;
+
     // Joints of the active set, or their bodies, are not where they were.
     void NoteJointChange(int typeId)
     {
@@ -59,7 +62,7 @@ public sealed unsafe partial class Solver
             ChangeOver(ref joints);
         }
         for (int i = 0; i < joints.Count; ++i)
-            SetSwept(joints[i].Joint.Handle, !joints[i].IsDirect);
+            SetSwept(joints[i].Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
         directStage.Replace(plan);
         chosenMode = directJoints;
@@ -113,14 +116,15 @@ public sealed unsafe partial class Solver
                     ref var need = ref needs[typeBatch.IndexToHandle[i].Slot];
                     (joint.Number, joint.Asks) = (need.Number, ChoosesDirectJoints ? need.Asks > 0 : MayAsk(typeBatch.TypeId));
                 }
+                joint.Handle = typeBatch.IndexToHandle[i];
                 ref var node = ref joint.Joint;
                 node = new()
                 {
-                    Handle = typeBatch.IndexToHandle[i],
                     TypeId = typeBatch.TypeId,
                     RowCount = processor.RowCount,
                     BodyCount = processor.BodiesPerConstraint,
                     Limit = processor.LimitOf(0),
+                    SeesLinear = processor.SeesLinear,
                 };
                 for (int slot = 0; slot < node.BodyCount; ++slot)
                     node.Bodies[slot] = processor.BodyReference(ref typeBatch, i, slot) & (EncodedBody.IndexMask | EncodedBody.KinematicFlag);

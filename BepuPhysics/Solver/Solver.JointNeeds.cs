@@ -107,10 +107,10 @@ public sealed unsafe partial class Solver
         var count = 0;
         foreach (ref var joint in joints.AsSpan())
         {
-            ref var need = ref needs[joint.Joint.Handle.Slot];
+            ref var need = ref needs[joint.Handle.Slot];
             if (joint.IsRefused && ChoosesDirectJoints)
                 need.Refuse();
-            if (joint.IsDirect != IsSwept(joint.Joint.Handle))
+            if (joint.IsDirect != IsSwept(joint.Handle))
                 continue;
             // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected as in any mode.
             if (joint.IsDirect && ChoosesDirectJoints && need.Number <= numberedBefore)

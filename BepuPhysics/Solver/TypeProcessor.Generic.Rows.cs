@@ -15,6 +15,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override bool IsLinear(int row) => TConstraint.IsLinear(row);
 
     /// <inheritdoc/>
+    internal override bool SeesLinear => (TConstraint.SolveAccess & BodyAccess.Linear) != 0;
+
+    /// <inheritdoc/>
     internal override RowLimit LimitOf(int row) => TConstraint.LimitOf(row);
 
     /// <inheritdoc/>
@@ -22,7 +25,6 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
         Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
-        rows.Clear();
         TConstraint.ReadRows(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], rows);
     }
 

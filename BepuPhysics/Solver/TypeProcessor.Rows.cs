@@ -14,6 +14,9 @@ public abstract unsafe partial class TypeProcessor
     /// <summary>Whether a row is along a direction; it is about an axis otherwise.</summary>
     internal abstract bool IsLinear(int row);
 
+    /// <summary>Whether any row sees linear velocities; it sees angular ones alone otherwise.</summary>
+    internal abstract bool SeesLinear { get; }
+
     /// <summary>What bounds the impulse of a row.</summary>
     internal abstract RowLimit LimitOf(int row);
 
@@ -22,7 +25,7 @@ public abstract unsafe partial class TypeProcessor
     /// <param name="bodies">The bodies of the active set.</param>
     /// <param name="substep">The substep, and what its present sweep is for.</param>
     /// <param name="bundle">Index of the bundle in the type batch.</param>
-    /// <param name="rows"><see cref="RowCount"/> rows; lanes without a constraint mean nothing.</param>
+    /// <param name="rows"><see cref="RowCount"/> rows, zero before; lanes without a constraint mean nothing, nor do bodies that the type does not have.</param>
     internal abstract void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, Span<ConstraintRowWide> rows);
 
     /// <summary>Adds what the loads of a bundle do to the rotation of its bodies (GeometricStiffness.cs), one constraint after the other.</summary>
@@ -68,6 +71,7 @@ public abstract unsafe partial class TypeProcessor
     internal void ReadRows(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int index, Span<ConstraintRow> rows)
     {
         Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[RowCount];
+        wide.Clear();
         ReadRows(ref batch, bodies, substep, index / Vector<float>.Count, wide);
         for (int i = 0; i < wide.Length; ++i)
             rows[i] = Lanes.Read<ConstraintRow, ConstraintRowWide>(ref wide[i], index % Vector<float>.Count);

@@ -143,6 +143,13 @@ public abstract partial class TypeProcessor
         VisitColumns(ref batch, ref move);
     }
 
+    /// <summary>Exchanges the places of two constraints.</summary>
+    internal void Exchange(ref TypeBatch batch, int a, int b)
+    {
+        var exchange = new ExchangeInBundles(a, b);
+        VisitColumns(ref batch, ref exchange);
+    }
+
     /// <summary>Says who a constraint is, on one body or two, and nothing else.</summary>
     internal void WriteNames(ref TypeBatch batch, int index, ConstraintHandle handle, int referenceA, int referenceB)
     {

@@ -231,12 +231,18 @@ public class DirectStateTests
     [Fact]
     public void A_step_allocates_nothing()
     {
+        // What runs for the first time is compiled, and compiling allocates.
+        using (var before = new TestWorld(direct))
+        {
+            AddCrowd(before);
+            before.Step(180);
+        }
         using var world = new TestWorld(direct);
         AddCrowd(world);
         world.Step(120);
-        var before = GC.GetAllocatedBytesForCurrentThread();
+        var allocated = GC.GetAllocatedBytesForCurrentThread();
         world.Step(30);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - allocated);
         var pooled = world.Pool.GetTotalAllocatedByteCount();
         world.Step(30);
         Assert.Equal(pooled, world.Pool.GetTotalAllocatedByteCount());

@@ -1,6 +1,5 @@
 using System;
 using BepuUtilities;
-using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
@@ -14,7 +13,7 @@ namespace BepuPhysics.Constraints;
 // derivatives jump have such errors (the twist of a rack's pinion jumps where that has swung by half a turn, by up to half a tooth), and so have light bodies
 // at the end of arms that whip, which no substep follows. A motion that turns a joint by w h on an arm r leaves it off by (w h)^2 r / 2, a part w h / 2 of the
 // way that it goes: a twentieth, if a substep follows it. What is beyond that, and more than joints are off by anyway, goes with a time constant.
-static unsafe class Correction
+static class Correction
 {
     // Of a body's size, and of a radian.
     const double GreatestPart = 0.2;
@@ -24,44 +23,42 @@ static unsafe class Correction
     const double BeyondTime = 0.1;
 
     /// <summary>Lessens what the rows of a joint are after.</summary>
-    internal static void Limit(
-        in DirectNode node, TypeProcessor processor, DirectPair* jacobian, DirectRow* rows, in QuickList<DirectBody> bodies,
-        Buffer<BodyInertia> inertias, Buffer<MotionState> motions, float dt)
+    internal static void Limit(in JointLane joint, in BodySet set, float dt)
     {
         double linear = 0, angular = 0;
-        for (int row = 0; row < node.RowCount; ++row)
+        for (int row = 0; row < joint.RowCount; ++row)
         {
-            if (processor.IsLinear(row))
-                linear += rows[row].Target * rows[row].Target;
+            if (joint.IsLinear(row))
+                linear += joint.Target(row) * joint.Target(row);
             else
-                angular += rows[row].Target * rows[row].Target;
+                angular += joint.Target(row) * joint.Target(row);
         }
         var part = 1d;
-        if (IsSmall(node, linear * dt * dt, angular * dt * dt, bodies, inertias))
+        if (IsSmall(joint, linear * dt * dt, angular * dt * dt, set.LocalInertias))
             return;
         // Those that have bounds go at the rate of the sweeps already.
         double way = double.PositiveInfinity, turn = double.PositiveInfinity;
-        if (!node.HasBounds)
-            (way, turn) = Motion(node, bodies, motions, dt);
+        if (joint.Limit == RowLimit.None)
+            (way, turn) = Motion(joint, set.MotionStates, dt);
         if (linear > 0)
         {
-            var reach = Reach(node, processor, jacobian, bodies, inertias);
+            var reach = Reach(joint, set.LocalInertias);
             part = PartOf(Math.Sqrt(linear) * dt, way + turn * reach, reach, dt);
         }
         if (angular > 0)
             part = Math.Min(part, PartOf(Math.Sqrt(angular) * dt, turn, 1, dt));
-        for (int row = 0; row < node.RowCount && part < 1; ++row)
-            rows[row].Target *= part;
+        for (int row = 0; row < joint.RowCount && part < 1; ++row)
+            joint.Target(row) *= part;
     }
 
     // How far the bodies of a joint move against the first one, and turn, in a substep.
-    static (double Way, double Turn) Motion(in DirectNode node, in QuickList<DirectBody> bodies, Buffer<MotionState> motions, float dt)
+    static (double Way, double Turn) Motion(in JointLane joint, Buffer<MotionState> motions, float dt)
     {
         double way = 0, turn = 0;
-        ref var first = ref motions[bodies[node.Bodies[0]].Reference & EncodedBody.IndexMask].Velocity;
-        for (int slot = 0; slot < node.BodyCount; ++slot)
+        ref var first = ref motions[joint.Body(0)].Velocity;
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
         {
-            ref var velocity = ref motions[bodies[node.Bodies[slot]].Reference & EncodedBody.IndexMask].Velocity;
+            ref var velocity = ref motions[joint.Body(slot)].Velocity;
             way = Math.Max(way, Exact.LengthSquared(velocity.Linear - first.Linear));
             turn = Math.Max(turn, Exact.LengthSquared(velocity.Angular));
         }
@@ -69,14 +66,14 @@ static unsafe class Correction
     }
 
     // Whether errors with these squares are no more than joints are off by anyway, by the radii of gyration alone: what the reach is at least.
-    static bool IsSmall(in DirectNode node, double linear, double angular, in QuickList<DirectBody> bodies, Buffer<BodyInertia> inertias)
+    static bool IsSmall(in JointLane joint, double linear, double angular, Buffer<BodyInertia> inertias)
     {
         const double squared = (double)JointNeed.Tolerance * JointNeed.Tolerance;
         if (angular > squared)
             return false;
-        for (int slot = 0; slot < node.BodyCount && linear > 0; ++slot)
+        for (int slot = 0; slot < joint.BodyCount && linear > 0; ++slot)
         {
-            ref var inertia = ref inertias[bodies[node.Bodies[slot]].Reference & EncodedBody.IndexMask];
+            ref var inertia = ref inertias[joint.Body(slot)];
             ref var inverse = ref inertia.InverseInertiaTensor;
             var trace = (double)inverse.XX + inverse.YY + inverse.ZZ;
             if (inertia.InverseMass > 0 && linear * trace > squared * 3 * inertia.InverseMass)
@@ -96,29 +93,39 @@ static unsafe class Correction
     /// <summary>What an error along directions is judged by: the least radius of gyration of a body about where the joint holds it.</summary>
     // A body without an arm is not turned by what moves it, and counts only where there are no others: by the size of the largest, about the axis that it turns
     // about with the most effort. What is not turned at all, and moved, has no size.
-    internal static double Reach(
-        in DirectNode node, TypeProcessor processor, DirectPair* jacobian, in QuickList<DirectBody> bodies, Buffer<BodyInertia> inertias)
+    internal static double Reach(in JointLane joint, Buffer<BodyInertia> inertias)
     {
-        double least = double.PositiveInfinity, greatest = 0;
-        for (int slot = 0; slot < node.BodyCount; ++slot)
+        var least = double.PositiveInfinity;
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
         {
-            var reference = bodies[node.Bodies[slot]].Reference;
-            ref var inertia = ref inertias[reference & EncodedBody.IndexMask];
+            ref var inertia = ref inertias[joint.Body(slot)];
             if (!(inertia.InverseMass > 0))
                 continue;
             ref var inverse = ref inertia.InverseInertiaTensor;
             // The angular part of a row along a direction is as long as its arm. Those about axes have none.
             double arm = 0;
-            for (int row = 0; row < node.RowCount; ++row)
+            for (int row = 0; row < joint.RowCount; ++row)
             {
-                if (processor.IsLinear(row))
-                    arm = Math.Max(arm, DirectPair.AngularLengthSquared(jacobian[row * node.BodyCount + slot]));
+                if (joint.IsLinear(row))
+                    arm = Math.Max(arm, joint.ArmSquared(row, slot));
             }
             var trace = (double)inverse.XX + inverse.YY + inverse.ZZ;
             if (arm > 0 && trace > 0)
                 least = Math.Min(least, 3 * inertia.InverseMass / trace + arm);
-            greatest = Math.Max(greatest, inertia.InverseMass / Math.Min(Math.Min((double)inverse.XX, inverse.YY), inverse.ZZ));
         }
-        return Math.Sqrt(double.IsFinite(least) || greatest == 0 ? least : greatest);
+        return Math.Sqrt(double.IsFinite(least) ? least : ReachWithoutArms(joint, inertias));
+    }
+
+    static double ReachWithoutArms(in JointLane joint, Buffer<BodyInertia> inertias)
+    {
+        double greatest = 0;
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
+        {
+            ref var inertia = ref inertias[joint.Body(slot)];
+            ref var inverse = ref inertia.InverseInertiaTensor;
+            if (inertia.InverseMass > 0)
+                greatest = Math.Max(greatest, inertia.InverseMass / Math.Min(Math.Min((double)inverse.XX, inverse.YY), inverse.ZZ));
+        }
+        return greatest == 0 ? double.PositiveInfinity : greatest;
     }
 }

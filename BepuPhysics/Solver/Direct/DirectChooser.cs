@@ -17,6 +17,8 @@ struct DirectCandidate
     public bool IsDirect;
     /// <summary>Whether its structure asks in vain.</summary>
     public bool IsRefused;
+    /// <summary>Its handle.</summary>
+    public ConstraintHandle Handle;
     /// <summary>The joint as a plan knows it, with references to its bodies.</summary>
     public DirectNode Joint;
 }
@@ -119,10 +121,12 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         var comparer = order;
         QuickSort.Sort(members.Span, members.Count, ref comparer);
         var nodes = new QuickList<DirectNode>(16, pool);
+        var handles = new QuickList<ConstraintHandle>(16, pool);
         var references = new QuickList<int>(16, pool);
         foreach (var i in members.AsSpan())
         {
             nodes.Add(joints[i].Joint, pool);
+            handles.Add(joints[i].Handle, pool);
             Number(joints[i].Joint, ofDynamic: true, placeOf, ref references);
         }
         var dynamicCount = references.Count;
@@ -133,7 +137,7 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
             for (int slot = 0; slot < node.BodyCount; ++slot)
                 node.Bodies[slot] = placeOf[node.Bodies[slot] & EncodedBody.IndexMask];
         }
-        var isAdded = plan.TryAdd(nodes, references, dynamicCount, pool);
+        var isAdded = plan.TryAdd(nodes, handles, references, dynamicCount, pool);
         var isDecided = isAdded || !DirectPlan.HasBounds(nodes);
         for (int i = first; i >= 0; i = next[i])
         {
@@ -145,6 +149,7 @@ readonly unsafe ref struct DirectChooser(QuickList<DirectCandidate> joints, int 
         foreach (var reference in references.AsSpan())
             placeOf[reference & EncodedBody.IndexMask] = -1;
         references.Dispose(pool);
+        handles.Dispose(pool);
         nodes.Dispose(pool);
         members.Dispose(pool);
         return isDecided;

@@ -1,5 +1,3 @@
-using System;
-
 namespace BepuPhysics.Constraints;
 
 // Limits, servos and motors among the joints of a structure: rows whose impulse has bounds.
@@ -9,7 +7,9 @@ namespace BepuPhysics.Constraints;
 // would go back inside by itself, is solved with the others again. Then all is solved anew. As a rule the first review finds nothing. After a few the last
 // word is with the bounds: all that have some keep what they have, brought within, and the others are solved once more. So no bound is overstepped, joints
 // that hold both ways are always met, and there is an end to the work.
-readonly unsafe partial struct DirectEquations
+//
+// Of structures side by side those are left as they are that need no other review; their equations come out the same when they are worked out once more.
+readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
 {
     // How often it may be changed who is held.
     const int MostReviews = 4;
@@ -20,115 +20,134 @@ readonly unsafe partial struct DirectEquations
     // Part of the greatest impulse by which one that is held has to turn for all to be solved anew.
     const double LeastTurn = 1e-3;
 
-    enum Change
-    {
-        None,
-        Impulses,
-        WhoIsHeld,
-    }
-
     /// <summary>Solves for the impulses, and applies what changes of them.</summary>
-    internal void Solve(in DirectIsland island)
+    internal void Solve()
     {
-        SolveOnce(island);
-        if (!island.HasBounds)
+        SolveOnce(TNumbers.All);
+        if (!hasBounds)
             return;
+        var open = TNumbers.All;
         for (int review = 0; review < MostReviews; ++review)
         {
-            var change = Review(island);
-            if (change == Change.None)
+            Review(open, out var whoIsHeld, out var impulses);
+            open = whoIsHeld | impulses;
+            if (!TNumbers.Any(open))
                 return;
-            if (change == Change.WhoIsHeld)
-                Factor(island);
-            SolveOnce(island);
+            if (TNumbers.Any(whoIsHeld))
+                Factor();
+            SolveOnce(open);
         }
-        if (!HoldWhatIsBeyond(island))
+        open = HoldWhatIsBeyond(open);
+        if (!TNumbers.Any(open))
             return;
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
-            nodes[k].IsHeld = nodes[k].HasBounds;
-        Factor(island);
-        SolveOnce(island);
+        for (int k = firstNode; k < endNode; ++k)
+        {
+            if (nodes[k].HasBounds)
+                holds[k].IsHeld |= open;
+        }
+        Factor();
+        SolveOnce(open);
     }
 
     // By the impulses of the last substep, which are brought within bounds that may have become narrower since.
-    void Foresee(ref DirectNode node)
+    void Foresee(int joint)
     {
+        ref var node = ref nodes[joint];
+        ref var hold = ref holds[joint];
         ClearChange(node);
         var length = LengthOf(node);
-        node.IsHeld = node.Limit == RowLimit.Positive ? rows[node.FirstRow].Impulse <= 0 : length >= node.MostImpulse * AtBound;
-        if (!IsBeyond(node, length))
+        hold.IsHeld = node.Limit == RowLimit.Positive
+            ? TNumbers.AtMost(rows[node.FirstRow].Impulse, default)
+            : TNumbers.AtMost(hold.MostImpulse * TNumbers.Of(AtBound), length);
+        var isBeyond = IsBeyond(joint, length);
+        if (!TNumbers.Any(isBeyond))
             return;
-        FindProjection(node, length);
+        FindProjection(joint, length);
         for (int i = 0; i < node.RowCount; ++i)
-            rows[node.FirstRow + i].Impulse += rows[node.FirstRow + i].X;
+        {
+            ref var row = ref rows[node.FirstRow + i];
+            Write(ref row.Impulse, row.Impulse + row.X, isBeyond);
+        }
     }
 
-    Change Review(in DirectIsland island)
+    // Of some structures: in which it has changed who is held, and in which impulses of those that are.
+    void Review(TNumbers open, out TNumbers whoIsHeld, out TNumbers impulses)
     {
-        var change = Change.None;
+        whoIsHeld = impulses = default;
         // First those that are held, all by the same velocities. What they would do by themselves, as in a sweep, says where they belong.
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        for (int k = firstNode; k < endNode; ++k)
         {
+            if (!nodes[k].HasBounds)
+                continue;
+            var held = open & holds[k].IsHeld;
+            if (!TNumbers.Any(held))
+                continue;
+            Ask(k);
             ref var node = ref nodes[k];
-            if (!node.IsHeld)
-                continue;
-            Ask(node);
-            if (IsIdle(node) && !MayLean(node))
-                continue;
+            if (node.Limit == RowLimit.Positive)
+            {
+                held &= TNumbers.Above(rows[node.FirstRow].X, default);
+                if (!TNumbers.Any(held))
+                    continue;
+                Lean(node, held);
+            }
             SolveForward(node);
             SolveBack(node);
             var length = LengthOf(node);
-            if (node.Limit == RowLimit.Positive ? length > 0 : length < node.MostImpulse)
-            {
-                node.IsHeld = false;
-                change = Change.WhoIsHeld;
-            }
-            else
-                FindProjection(node, length);
+            var goesBack = held & (node.Limit == RowLimit.Positive
+                ? TNumbers.Above(length, default)
+                : TNumbers.Above(holds[k].MostImpulse, length));
+            holds[k].IsHeld &= ~goesBack;
+            whoIsHeld |= goesBack;
+            FindProjection(k, length);
         }
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        for (int k = firstNode; k < endNode; ++k)
         {
-            if (!nodes[k].IsHeld || !Turns(nodes[k]))
+            // A limit has no other bound than none.
+            if (nodes[k].Limit != RowLimit.Length)
                 continue;
-            Apply(nodes[k]);
-            change = change == Change.None ? Change.Impulses : change;
+            var turns = open & holds[k].IsHeld;
+            if (!TNumbers.Any(turns))
+                continue;
+            turns &= Turns(k);
+            if (!TNumbers.Any(turns))
+                continue;
+            Apply(nodes[k], turns);
+            impulses |= turns;
         }
-        return HoldWhatIsBeyond(island) ? Change.WhoIsHeld : change;
+        whoIsHeld |= HoldWhatIsBeyond(open);
     }
 
-    // A limit that nothing leans on. Most are: all that is worked out of them is whether something begins to.
-    static bool IsIdle(in DirectNode node) => node.IsHeld && node.Limit == RowLimit.Positive;
+    // Whether a limit that nothing leans on in any structure. Most are: all that is worked out of them is whether something begins to.
+    bool IsIdle(int joint) => nodes[joint].Limit == RowLimit.Positive && !TNumbers.Any(IsFree(joint));
 
-    // Whether a limit asks for an impulse; what it takes to say how large is worked out then.
-    bool MayLean(in DirectNode node)
+    // A limit asks for an impulse: what it takes to say how large.
+    void Lean(in DirectNode node, TNumbers mask)
     {
-        if (!(rows[node.FirstRow].X > 0))
-        {
-            ClearChange(node);
-            return false;
-        }
         Weigh(node);
-        AddDiagonal(node);
-        FactorDiagonal(node);
-        return true;
+        AddDiagonal(node, mask);
+        FactorDiagonal(node, mask);
     }
 
-    bool HoldWhatIsBeyond(in DirectIsland island)
+    TNumbers HoldWhatIsBeyond(TNumbers open)
     {
-        var any = false;
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        TNumbers any = default;
+        for (int k = firstNode; k < endNode; ++k)
         {
-            ref var node = ref nodes[k];
-            if (!node.HasBounds || node.IsHeld)
+            if (!nodes[k].HasBounds)
                 continue;
-            ClearChange(node);
-            var length = LengthOf(node);
-            if (!IsBeyond(node, length))
+            var beyond = open & IsFree(k);
+            if (!TNumbers.Any(beyond))
                 continue;
-            FindProjection(node, length);
-            Apply(node);
-            node.IsHeld = true;
-            any = true;
+            ClearChange(nodes[k]);
+            var length = LengthOf(nodes[k]);
+            beyond &= IsBeyond(k, length);
+            if (!TNumbers.Any(beyond))
+                continue;
+            FindProjection(k, length);
+            Apply(nodes[k], beyond);
+            holds[k].IsHeld |= beyond;
+            any |= beyond;
         }
         return any;
     }
@@ -136,29 +155,34 @@ readonly unsafe partial struct DirectEquations
     void ClearChange(in DirectNode node)
     {
         for (int i = 0; i < node.RowCount; ++i)
-            rows[node.FirstRow + i].X = 0;
+            rows[node.FirstRow + i].X = default;
     }
 
     // Of the impulse with the change that is asked for; of a limit, which has one row, with its sign.
-    double LengthOf(in DirectNode node)
+    TNumbers LengthOf(in DirectNode node)
     {
-        double sum = 0;
+        if (node.Limit == RowLimit.Positive)
+            return rows[node.FirstRow].Impulse + rows[node.FirstRow].X;
+        TNumbers sum = default;
         for (int i = 0; i < node.RowCount; ++i)
         {
             var value = rows[node.FirstRow + i].Impulse + rows[node.FirstRow + i].X;
-            if (node.Limit == RowLimit.Positive)
-                return value;
             sum += value * value;
         }
-        return Math.Sqrt(sum);
+        return TNumbers.Root(sum);
     }
 
-    static bool IsBeyond(in DirectNode node, double length) => node.Limit == RowLimit.Positive ? length < 0 : length > node.MostImpulse * BeyondBound;
+    TNumbers IsBeyond(int joint, TNumbers length) => nodes[joint].Limit == RowLimit.Positive
+        ? TNumbers.Above(default, length)
+        : TNumbers.Above(length, holds[joint].MostImpulse * TNumbers.Of(BeyondBound));
 
     // The change to the nearest impulse within bounds.
-    void FindProjection(in DirectNode node, double length)
+    void FindProjection(int joint, TNumbers length)
     {
-        var part = node.Limit == RowLimit.Positive || !(length > 0) ? 0 : node.MostImpulse / length;
+        ref var node = ref nodes[joint];
+        TNumbers part = default;
+        if (node.Limit != RowLimit.Positive)
+            part = (holds[joint].MostImpulse / length) & TNumbers.Above(length, default);
         for (int i = 0; i < node.RowCount; ++i)
         {
             ref var row = ref rows[node.FirstRow + i];
@@ -166,11 +190,13 @@ readonly unsafe partial struct DirectEquations
         }
     }
 
-    bool Turns(in DirectNode node)
+    TNumbers Turns(int joint)
     {
-        double sum = 0;
+        ref var node = ref nodes[joint];
+        TNumbers sum = default;
         for (int i = 0; i < node.RowCount; ++i)
             sum += rows[node.FirstRow + i].X * rows[node.FirstRow + i].X;
-        return sum > LeastTurn * node.MostImpulse * (LeastTurn * node.MostImpulse);
+        var least = TNumbers.Of(LeastTurn) * holds[joint].MostImpulse;
+        return TNumbers.Above(sum, least * least);
     }
 }

@@ -1,70 +1,112 @@
-using System;
-using System.Runtime.Intrinsics;
-
 namespace BepuPhysics.Constraints;
 
-/// <summary>The equations of all structures of joints that are solved at once, in numbers of double precision.</summary>
+/// <summary>The equations of a structure of joints that is solved at once, or of several equal ones side by side, in numbers of double precision.</summary>
 // With v the velocities that all else has left, lambda the impulses, K the block of a joint on the diagonal of J M^-1 J^T and s its softness as part of K:
 //
 //   (J M^-1 J^T + s K) x = target - J v - s K lambda,   lambda += x,   v += M^-1 J^T x.
 //
 // Single precision is not enough: in a chain whose end is a million times as heavy as a link all digits are gone before the last pivot. In double precision a
 // true pivot of such a chain is a millionth of its diagonal, and what rounding of J leaves of a row that says what others have said is 1e-14 of it.
-readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbers, DirectPair* jacobians, DirectPair* weighted, DirectRow* rows)
+//
+// Who is held (DirectEquations.Bounds.cs) differs between structures that are solved side by side. Numbers of a joint that is held mean nothing where it is,
+// and what others would get of them is masked.
+readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan plan, in DirectIsland island, in DirectMemory<TVectors, TNumbers> memory)
+    where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
 {
     // Part of what a row has on the diagonal below which its pivot is rounding.
     const double LeastPivot = 1e-9;
-    /// <summary>Most rows of a joint.</summary>
-    internal const int MostRows = 6;
 
     readonly DirectNode* nodes = plan.Nodes.Span.Memory;
     readonly DirectBlock* blocks = plan.Blocks.Span.Memory;
     readonly int* targets = plan.Targets.Span.Memory;
     readonly DirectCoupling* couplings = plan.Couplings.Span.Memory;
-    readonly DirectBody* bodies = plan.Bodies.Span.Memory;
+    readonly int firstNode = island.FirstNode;
+    readonly int endNode = island.EndNode;
+    readonly bool hasBounds = island.HasBounds;
+    readonly TNumbers* numbers = memory.Numbers;
+    readonly DirectPair<TVectors, TNumbers>* jacobians = memory.Jacobians;
+    readonly DirectPair<TVectors, TNumbers>* weighted = memory.Weighted;
+    readonly DirectRow<TNumbers>* rows = memory.Rows;
+    readonly DirectHold<TNumbers>* holds = memory.Holds;
+    readonly DirectBody<TVectors, TNumbers>* bodies = memory.Bodies;
+    readonly int* freeCount = memory.Free;
+    readonly int* free = memory.Free + 1;
 
     /// <summary>Works out A, and applies the impulses that are there, times a factor. Before all else.</summary>
-    internal void WarmStart(in DirectIsland island, double scale)
+    internal void WarmStart(double scale)
     {
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        for (int k = firstNode; k < endNode; ++k)
         {
             for (int i = 0; i < nodes[k].RowCount; ++i)
-                rows[nodes[k].FirstRow + i].Impulse *= scale;
+                rows[nodes[k].FirstRow + i].Impulse *= TNumbers.Of(scale);
             if (nodes[k].HasBounds)
-                Foresee(ref nodes[k]);
-            if (!IsIdle(nodes[k]))
+                Foresee(k);
+            if (!IsIdle(k))
                 Weigh(nodes[k]);
         }
-        Factor(island);
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        Factor();
+        for (int k = firstNode; k < endNode; ++k)
         {
-            for (int i = 0; i < nodes[k].RowCount && !IsIdle(nodes[k]); ++i)
-                Apply(nodes[k], i, rows[nodes[k].FirstRow + i].Impulse);
+            if (IsIdle(k))
+                continue;
+            var mask = nodes[k].Limit == RowLimit.Positive ? ~holds[k].IsHeld : TNumbers.All;
+            for (int i = 0; i < nodes[k].RowCount; ++i)
+                Apply(nodes[k], i, rows[nodes[k].FirstRow + i].Impulse, mask);
         }
     }
 
     // Of a joint that is held there is its own block alone.
-    void Factor(in DirectIsland island)
+    void Factor()
     {
-        new Span<double>(numbers + island.FirstNumber, island.EndNumber - island.FirstNumber).Clear();
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        var count = 0;
+        for (int k = firstNode; k < endNode; ++k)
         {
-            if (!IsIdle(nodes[k]))
-                AddDiagonal(nodes[k]);
+            if (TNumbers.Any(IsFree(k)))
+                free[count++] = k;
+            else if (nodes[k].Limit == RowLimit.Length)
+                AddDiagonal(nodes[k], TNumbers.All);
         }
-        for (int i = island.FirstCoupling; i < island.EndCoupling; ++i)
+        *freeCount = count;
+        for (int i = 0; i < count; ++i)
         {
-            if (!nodes[couplings[i].Later].IsHeld && !nodes[couplings[i].Earlier].IsHeld)
-                AddCoupling(couplings[i]);
+            ClearBlocks(free[i]);
+            AddDiagonal(nodes[free[i]], TNumbers.All);
         }
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
+        for (int i = 0; i < count; ++i)
         {
-            if (!IsIdle(nodes[k]))
-                FactorDiagonal(nodes[k]);
-            if (!nodes[k].IsHeld)
-                Eliminate(nodes[k]);
+            ref var node = ref nodes[free[i]];
+            for (int coupling = node.FirstCoupling; coupling < node.EndCoupling; ++coupling)
+            {
+                if (TNumbers.Any(IsFree(free[i]) & IsFree(couplings[coupling].Later)))
+                    AddCoupling(node, couplings[coupling]);
+            }
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            FactorDiagonal(nodes[free[i]], TNumbers.All);
+            Eliminate(free[i]);
+        }
+        for (int k = firstNode; k < endNode && hasBounds; ++k)
+        {
+            if (nodes[k].Limit == RowLimit.Length && !TNumbers.Any(IsFree(k)))
+                FactorDiagonal(nodes[k], TNumbers.All);
         }
     }
+
+    void ClearBlocks(int joint)
+    {
+        ref var node = ref nodes[joint];
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            if (!TNumbers.Any(IsFree(joint) & IsFree(blocks[a].Joint)))
+                continue;
+            var block = numbers + blocks[a].Place;
+            for (int i = node.RowCount * nodes[blocks[a].Joint].RowCount - 1; i >= 0; --i)
+                block[i] = default;
+        }
+    }
+
+    TNumbers IsFree(int node) => ~holds[node].IsHeld;
 
     // M^-1 J^T.
     void Weigh(in DirectNode node)
@@ -77,49 +119,55 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
             {
                 ref var body = ref bodies[node.Bodies[slot]];
                 w->Linear = j->Linear * body.InverseMass;
-                w->Angular = body.InverseInertiaX * j->Angular[0] + body.InverseInertiaY * j->Angular[1] + body.InverseInertiaZ * j->Angular[2];
+                w->Angular = body.InverseInertiaX * j->Angular.X + body.InverseInertiaY * j->Angular.Y + body.InverseInertiaZ * j->Angular.Z;
             }
         }
     }
 
-    void AddDiagonal(in DirectNode node)
+    void AddDiagonal(in DirectNode node, TNumbers mask)
     {
         var block = numbers + node.Diagonal;
         var count = node.BodyCount;
+        var scale = TNumbers.Of(1) + rows[node.FirstRow].Softness;
         for (int row = 0; row < node.RowCount; ++row)
         {
+            var j = jacobians + node.Jacobian + row * count;
             for (int column = 0; column <= row; ++column)
             {
-                var sum = Vector256<double>.Zero;
+                var w = weighted + node.Jacobian + column * count;
+                TVectors sum = default;
                 for (int slot = 0; slot < count; ++slot)
-                    sum += DirectPair.Multiply(jacobians[node.Jacobian + row * count + slot], weighted[node.Jacobian + column * count + slot]);
-                block[row * node.RowCount + column] = DirectPair.Sum(sum) * (1 + rows[node.FirstRow].Softness);
+                    sum += DirectPair<TVectors, TNumbers>.Multiply(j[slot], w[slot]);
+                Write(ref block[row * node.RowCount + column], TVectors.Sum(sum) * scale, mask);
             }
-            rows[node.FirstRow + row].LeastPivot = LeastPivot * block[row * node.RowCount + row];
+            Write(ref rows[node.FirstRow + row].LeastPivot, TNumbers.Of(LeastPivot) * block[row * node.RowCount + row], mask);
         }
     }
 
-    void AddCoupling(in DirectCoupling coupling)
+    static void Write(ref TNumbers place, TNumbers value, TNumbers mask) => place = TNumbers.Choose(mask, value, place);
+
+    void AddCoupling(in DirectNode earlier, in DirectCoupling coupling)
     {
         ref var later = ref nodes[coupling.Later];
-        ref var earlier = ref nodes[coupling.Earlier];
         var block = numbers + coupling.Place;
         var j = jacobians + later.Jacobian + coupling.LaterSlot;
         for (int row = 0; row < later.RowCount; ++row, j += later.BodyCount)
         {
             var w = weighted + earlier.Jacobian + coupling.EarlierSlot;
             for (int column = 0; column < earlier.RowCount; ++column, w += earlier.BodyCount)
-                *block++ += DirectPair.Sum(DirectPair.Multiply(*j, *w));
+                *block++ += TVectors.Sum(DirectPair<TVectors, TNumbers>.Multiply(*j, *w));
         }
     }
 
-    void Eliminate(in DirectNode node)
+    void Eliminate(int joint)
     {
+        ref var node = ref nodes[joint];
+        var isFree = IsFree(joint);
         var count = node.RowCount;
         var diagonal = numbers + node.Diagonal;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
-            if (nodes[blocks[a].Joint].IsHeld)
+            if (!TNumbers.Any(isFree & IsFree(blocks[a].Joint)))
                 continue;
             // Times the inverse of L^T: what is left is L D.
             var block = numbers + blocks[a].Place;
@@ -137,21 +185,23 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
         var target = targets + node.FirstTarget;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
-            if (nodes[blocks[a].Joint].IsHeld)
+            var isFreeToo = isFree & IsFree(blocks[a].Joint);
+            if (!TNumbers.Any(isFreeToo))
             {
                 target += a + 1 - node.FirstBlock;
                 continue;
             }
             for (int b = node.FirstBlock; b <= a; ++b, ++target)
             {
-                if (!nodes[blocks[b].Joint].IsHeld)
-                    Subtract(node, blocks[a], blocks[b], numbers + *target);
+                var mask = isFreeToo & IsFree(blocks[b].Joint);
+                if (TNumbers.Any(mask))
+                    Subtract(node, blocks[a], blocks[b], numbers + *target, mask);
             }
         }
     }
 
     // L D L^T of a block; a pivot that is rounding is left out, and what its row asks for is left to the rows that say the same.
-    void FactorDiagonal(in DirectNode node)
+    void FactorDiagonal(in DirectNode node, TNumbers mask)
     {
         var count = node.RowCount;
         var block = numbers + node.Diagonal;
@@ -160,23 +210,24 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
             var pivot = block[column * count + column];
             for (int i = 0; i < column; ++i)
                 pivot -= block[column * count + i] * block[column * count + i] * block[i * count + i];
-            block[column * count + column] = pivot;
-            ref var inverse = ref rows[node.FirstRow + column].InversePivot;
-            inverse = pivot > rows[node.FirstRow + column].LeastPivot ? 1 / pivot : 0;
+            Write(ref block[column * count + column], pivot, mask);
+            ref var ofRow = ref rows[node.FirstRow + column];
+            var inverse = (TNumbers.Of(1) / pivot) & TNumbers.Above(pivot, ofRow.LeastPivot);
+            Write(ref ofRow.InversePivot, inverse, mask);
             for (int row = column + 1; row < count; ++row)
             {
                 var value = block[row * count + column];
                 for (int i = 0; i < column; ++i)
                     value -= block[row * count + i] * block[column * count + i] * block[i * count + i];
-                block[row * count + column] = value * inverse;
+                Write(ref block[row * count + column], value * inverse, mask);
             }
         }
     }
 
-    void Subtract(in DirectNode node, in DirectBlock a, in DirectBlock b, double* target)
+    void Subtract(in DirectNode node, in DirectBlock a, in DirectBlock b, TNumbers* target, TNumbers mask)
     {
         var count = node.RowCount;
-        var scaled = stackalloc double[MostRows];
+        var scaled = stackalloc TNumbers[DirectPlan.MostRows];
         var left = numbers + a.Place;
         var columns = nodes[b.Joint].RowCount;
         for (int row = nodes[a.Joint].RowCount; row > 0; --row, left += count)
@@ -184,145 +235,13 @@ readonly unsafe partial struct DirectEquations(in DirectPlan plan, double* numbe
             for (int i = 0; i < count; ++i)
                 scaled[i] = left[i] * rows[node.FirstRow + i].InversePivot;
             var right = numbers + b.Place;
-            for (int column = columns; column > 0; --column, right += count)
+            for (int column = columns; column > 0; --column, right += count, ++target)
             {
                 var sum = scaled[0] * right[0];
                 for (int i = 1; i < count; ++i)
                     sum += scaled[i] * right[i];
-                *target++ -= sum;
+                Write(ref *target, *target - sum, mask);
             }
         }
-    }
-
-    // Solves for the changes of the impulses of all that is not held, and applies them.
-    void SolveOnce(in DirectIsland island)
-    {
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
-        {
-            if (!nodes[k].IsHeld)
-                Ask(nodes[k]);
-        }
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
-        {
-            if (nodes[k].IsHeld)
-                continue;
-            SolveForward(nodes[k]);
-            GoForward(nodes[k]);
-        }
-        for (int k = island.EndNode - 1; k >= island.FirstNode; --k)
-        {
-            if (nodes[k].IsHeld)
-                continue;
-            GoBack(nodes[k]);
-            SolveBack(nodes[k]);
-        }
-        for (int k = island.FirstNode; k < island.EndNode; ++k)
-        {
-            if (!nodes[k].IsHeld)
-                Apply(nodes[k]);
-        }
-    }
-
-    // target - J v - s K lambda.
-    void Ask(in DirectNode node)
-    {
-        var j = jacobians + node.Jacobian;
-        var softness = rows[node.FirstRow].Softness;
-        var velocities = stackalloc DirectPair[Solver.MaximumBodiesPerConstraint];
-        for (int slot = 0; slot < node.BodyCount; ++slot)
-        {
-            velocities[slot] = bodies[node.Bodies[slot]].Velocity;
-            for (int row = 0; row < node.RowCount && softness > 0 && !IsIdle(node); ++row)
-                velocities[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], softness * rows[node.FirstRow + row].Impulse);
-        }
-        for (int row = 0; row < node.RowCount; ++row)
-        {
-            var sum = Vector256<double>.Zero;
-            for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
-                sum += DirectPair.Multiply(*j, velocities[slot]);
-            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - DirectPair.Sum(sum);
-        }
-    }
-
-    void SolveForward(in DirectNode node)
-    {
-        var count = node.RowCount;
-        var x = rows + node.FirstRow;
-        var diagonal = numbers + node.Diagonal;
-        for (int row = 1; row < count; ++row)
-        {
-            for (int i = 0; i < row; ++i)
-                x[row].X -= diagonal[row * count + i] * x[i].X;
-        }
-        for (int row = 0; row < count; ++row)
-            x[row].X *= x[row].InversePivot;
-    }
-
-    void GoForward(in DirectNode node)
-    {
-        var count = node.RowCount;
-        var x = rows + node.FirstRow;
-        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
-        {
-            var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Joint];
-            if (later.IsHeld)
-                continue;
-            for (int row = 0; row < later.RowCount; ++row, block += count)
-            {
-                double sum = 0;
-                for (int i = 0; i < count; ++i)
-                    sum += block[i] * x[i].X;
-                rows[later.FirstRow + row].X -= sum;
-            }
-        }
-    }
-
-    void GoBack(in DirectNode node)
-    {
-        var count = node.RowCount;
-        var x = rows + node.FirstRow;
-        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
-        {
-            var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Joint];
-            if (later.IsHeld)
-                continue;
-            for (int row = 0; row < later.RowCount; ++row, block += count)
-            {
-                var known = rows[later.FirstRow + row].X;
-                for (int i = 0; i < count; ++i)
-                    x[i].X -= x[i].InversePivot * block[i] * known;
-            }
-        }
-    }
-
-    void SolveBack(in DirectNode node)
-    {
-        var count = node.RowCount;
-        var x = rows + node.FirstRow;
-        var diagonal = numbers + node.Diagonal;
-        for (int row = count - 2; row >= 0; --row)
-        {
-            for (int i = row + 1; i < count; ++i)
-                x[row].X -= diagonal[i * count + row] * x[i].X;
-        }
-    }
-
-    void Apply(in DirectNode node)
-    {
-        for (int i = 0; i < node.RowCount; ++i)
-        {
-            ref var row = ref rows[node.FirstRow + i];
-            row.Impulse += row.X;
-            Apply(node, i, row.X);
-        }
-    }
-
-    void Apply(in DirectNode node, int row, double impulse)
-    {
-        var w = weighted + node.Jacobian + row * node.BodyCount;
-        for (int slot = 0; slot < node.BodyCount; ++slot, ++w)
-            bodies[node.Bodies[slot]].Velocity.Add(*w, impulse);
     }
 }

@@ -1,19 +1,16 @@
 using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.Constraints;
 
-/// <summary>A joint of a structure that is solved at once.</summary>
+/// <summary>A joint of a structure that is solved at once, and of those that are solved beside it.</summary>
 struct DirectNode
 {
-    /// <summary>Its handle.</summary>
-    public ConstraintHandle Handle;
     /// <summary>Id of its type.</summary>
     public int TypeId;
-    /// <summary>Index in the type batch.</summary>
-    public int Index;
-    /// <summary>Its structure.</summary>
+    /// <summary>Its structures.</summary>
     public int Island;
+    /// <summary>Its place in the own order of its structure.</summary>
+    public int Place;
     /// <summary>Number of its rows.</summary>
     public int RowCount;
     /// <summary>Number of its bodies.</summary>
@@ -26,19 +23,28 @@ struct DirectNode
     public int Diagonal;
     /// <summary>First of the blocks below it, those of the joints that are left when it is eliminated, and their number.</summary>
     public int FirstBlock, BlockCount;
+    /// <summary>What couples it to joints that are eliminated later.</summary>
+    public int FirstCoupling, EndCoupling;
     /// <summary>First of the places that its elimination changes.</summary>
     public int FirstTarget;
     /// <summary>What bounds its impulse.</summary>
     public RowLimit Limit;
-    /// <summary>Whether it is left out of the equations, with the impulse that it has: a limit that nothing leans on, a servo at its greatest force.</summary>
-    public bool IsHeld;
-    /// <summary>Greatest length of its impulse; of servos and motors only.</summary>
-    public double MostImpulse;
+    /// <summary>Whether its rows see linear velocities: those of joints about axes do not.</summary>
+    public bool SeesLinear;
     /// <summary>Places of its bodies among those of the plan.</summary>
     public DirectBodies Bodies;
 
     /// <summary>Whether it is a limit, a servo or a motor.</summary>
     internal readonly bool HasBounds => Limit != RowLimit.None;
+}
+
+/// <summary>A joint of one structure.</summary>
+struct DirectMember
+{
+    /// <summary>Its handle.</summary>
+    public ConstraintHandle Handle;
+    /// <summary>Index in the type batch.</summary>
+    public int Index;
 }
 
 /// <summary>A number for each body of a joint.</summary>
@@ -48,42 +54,42 @@ struct DirectBodies
     int first;
 }
 
-/// <summary>A structure of joints that is solved at once: ranges in the lists of the plan.</summary>
+/// <summary>A flag for each of the structures that are solved side by side.</summary>
+[InlineArray(DirectPlan.MostLanes)]
+struct DirectFlags
+{
+    bool first;
+}
+
+/// <summary>A structure of joints that is solved at once, and equal ones that are solved beside it: ranges in the lists of the plan.</summary>
 struct DirectIsland
 {
+    /// <summary>How many structures there are, at most <see cref="DirectPlan.Lanes"/>.</summary>
+    public int MemberCount;
+    /// <summary>In how many lanes they are solved.</summary>
+    public readonly int Lanes => MemberCount == 1 ? 1 : MemberCount <= DirectPlan.FourLanes ? DirectPlan.FourLanes : DirectPlan.MostLanes;
     /// <summary>Its joints, in the order of elimination.</summary>
     public int FirstNode, EndNode;
     /// <summary>Its bodies, kinematic ones included.</summary>
     public int FirstBody, EndBody;
-    /// <summary>What couples its joints.</summary>
-    public int FirstCoupling, EndCoupling;
+    /// <summary>Number of those that are dynamic: the first ones.</summary>
+    public int DynamicCount;
     /// <summary>Its numbers.</summary>
     public int FirstNumber, EndNumber;
     /// <summary>Its rows.</summary>
     public int FirstRow, EndRow;
+    /// <summary>Pairs of its Jacobians.</summary>
+    public int FirstPair, EndPair;
+    /// <summary>Where in memory its equations are.</summary>
+    public int Memory;
     /// <summary>Whether its joints that hold both ways have loops, or several ways to the ground.</summary>
     public bool HasLoops;
     /// <summary>Whether there are limits, servos or motors among its joints.</summary>
     public bool HasBounds;
-    /// <summary>Whether any of its joints asks to be solved at once; known where the solver chooses, when they have been looked at.</summary>
-    public bool IsAskedFor;
-}
-
-/// <summary>A row of such a joint.</summary>
-struct DirectRow
-{
-    /// <summary>J v that it is after, m/s or rad/s.</summary>
-    public double Target;
-    /// <summary>Softness, as part of the joint's own K; zero where it is rigid.</summary>
-    public double Softness;
-    /// <summary>The accumulated impulse.</summary>
-    public double Impulse;
-    /// <summary>What is asked for, then the change of the impulse.</summary>
-    public double X;
-    /// <summary>The pivot up to which it is left out.</summary>
-    public double LeastPivot;
-    /// <summary>One over the pivot, or zero where the rows before say all that this one does.</summary>
-    public double InversePivot;
+    /// <summary>
+    /// Whether any of its joints asks to be solved at once, for each structure; known where the solver chooses, when they have been looked at.
+    /// </summary>
+    public DirectFlags IsAskedFor;
 }
 
 /// <summary>A block below the diagonal, in the column of the joint that is eliminated first.</summary>
@@ -100,50 +106,75 @@ struct DirectCoupling
 {
     /// <summary>Place of the block's numbers.</summary>
     public int Place;
-    /// <summary>The joint that is eliminated later, and the one before.</summary>
-    public int Later, Earlier;
+    /// <summary>The joint that is eliminated later.</summary>
+    public int Later;
     /// <summary>Which of their bodies it is.</summary>
     public int LaterSlot, EarlierSlot;
 }
 
-/// <summary>A linear and an angular part; the fourth number of each is zero.</summary>
-struct DirectPair
+/// <summary>Whether a joint is left out of the equations, with the impulse that it has.</summary>
+struct DirectHold<TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
+{
+    /// <summary>Mask of the structures in which it is: a limit that nothing leans on, a servo at its greatest force.</summary>
+    public TNumbers IsHeld;
+    /// <summary>Greatest length of its impulse; of servos and motors only.</summary>
+    public TNumbers MostImpulse;
+}
+
+/// <summary>A row of such a joint.</summary>
+struct DirectRow<TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
+{
+    /// <summary>J v that it is after, m/s or rad/s.</summary>
+    public TNumbers Target;
+    /// <summary>Softness, as part of the joint's own K; zero where it is rigid.</summary>
+    public TNumbers Softness;
+    /// <summary>The accumulated impulse.</summary>
+    public TNumbers Impulse;
+    /// <summary>What is asked for, then the change of the impulse.</summary>
+    public TNumbers X;
+    /// <summary>The pivot up to which it is left out.</summary>
+    public TNumbers LeastPivot;
+    /// <summary>One over the pivot, or zero where the rows before say all that this one does.</summary>
+    public TNumbers InversePivot;
+}
+
+/// <summary>A linear and an angular part.</summary>
+struct DirectPair<TVectors, TNumbers> where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
 {
     /// <summary>Of the centre of mass.</summary>
-    public Vector256<double> Linear;
+    public TVectors Linear;
     /// <summary>About it, world axes.</summary>
-    public Vector256<double> Angular;
+    public TVectors Angular;
 
     /// <summary>Product by numbers.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static Vector256<double> Multiply(in DirectPair a, in DirectPair b) => a.Linear * b.Linear + a.Angular * b.Angular;
-
-    /// <summary>Square of the angular part.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static double AngularLengthSquared(in DirectPair pair) => Sum(pair.Angular * pair.Angular);
-
-    /// <summary>Sum of the numbers, always in this order.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static double Sum(Vector256<double> v) => v[0] + v[1] + (v[2] + v[3]);
+    internal static TVectors Multiply(in DirectPair<TVectors, TNumbers> a, in DirectPair<TVectors, TNumbers> b) =>
+        a.Linear * b.Linear + a.Angular * b.Angular;
 
     /// <summary>Adds a multiple.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal void Add(in DirectPair other, double factor)
+    internal void Add(in DirectPair<TVectors, TNumbers> other, TNumbers factor)
     {
         Linear += other.Linear * factor;
         Angular += other.Angular * factor;
     }
+
+    /// <summary>Adds a multiple where a mask is set, of which there is any.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void Add(in DirectPair<TVectors, TNumbers> other, TNumbers factor, TNumbers mask)
+    {
+        Linear = TVectors.Choose(mask, Linear + other.Linear * factor, Linear);
+        Angular = TVectors.Choose(mask, Angular + other.Angular * factor, Angular);
+    }
 }
 
 /// <summary>A body of such a structure.</summary>
-struct DirectBody
+struct DirectBody<TVectors, TNumbers> where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
 {
     /// <summary>Linear and angular velocity.</summary>
-    public DirectPair Velocity;
+    public DirectPair<TVectors, TNumbers> Velocity;
     /// <summary>Columns of the inverse inertia, world axes.</summary>
-    public Vector256<double> InverseInertiaX, InverseInertiaY, InverseInertiaZ;
+    public TVectors InverseInertiaX, InverseInertiaY, InverseInertiaZ;
     /// <summary>1/kg.</summary>
-    public double InverseMass;
-    /// <summary>Index in the active set, with the mark of a kinematic one.</summary>
-    public int Reference;
+    public TNumbers InverseMass;
 }

@@ -1,14 +1,25 @@
 using System;
+using System.Numerics;
+using System.Runtime.Intrinsics;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
 /// <summary>Which joints are solved at once, in which order, and where each number of their equations is. The same until joints come or go.</summary>
+// Equal structures, which have joints of the same types between the same of their bodies in the same order, have one plan, and are solved side by side.
 // The equations of a structure are A x = b with A = J M^-1 J^T: a block for each joint, and one for each two that have a dynamic body in common. They are
 // factored A = L D L^T, joint after joint; eliminating one makes blocks between all that are left of its neighbours. Which these are is found here, once.
-unsafe struct DirectPlan
+unsafe partial struct DirectPlan
 {
+    /// <summary>Most structures that are solved side by side on any machine.</summary>
+    internal const int MostLanes = 8;
+    /// <summary>Most structures that are solved side by side on this one; no more than a bundle has lanes.</summary>
+    internal static int Lanes => Vector512.IsHardwareAccelerated && Vector<float>.Count >= MostLanes ? MostLanes : FourLanes;
+    /// <summary>Structures up to which those are solved as four that are more than one.</summary>
+    internal const int FourLanes = 4;
+    /// <summary>Most rows of a joint.</summary>
+    internal const int MostRows = 6;
     /// <summary>Joints of a structure with loops beyond which it is left to the sweeps: the work grows with a power between two and three.</summary>
     internal const int MostJointsWithLoops = 1024;
     // Blocks that an elimination changes, per joint in the mean, beyond which a structure is left to the sweeps: a hub of forty joints, a net of twenty by
@@ -17,10 +28,12 @@ unsafe struct DirectPlan
 
     /// <summary>Joints, island by island, in the order of elimination.</summary>
     internal QuickList<DirectNode> Nodes;
-    /// <summary>Structures.</summary>
+    /// <summary>Structures, up to <see cref="Lanes"/> equal ones as one.</summary>
     internal QuickList<DirectIsland> Islands;
-    /// <summary>Bodies.</summary>
-    internal QuickList<DirectBody> Bodies;
+    /// <summary>The joints themselves: <see cref="Lanes"/> for each node.</summary>
+    internal QuickList<DirectMember> Members;
+    /// <summary>Bodies, as indices in the active set with the mark of a kinematic one: <see cref="Lanes"/> for each body of each island.</summary>
+    internal QuickList<int> Bodies;
     /// <summary>Blocks below the diagonal.</summary>
     internal QuickList<DirectBlock> Blocks;
     /// <summary>Places of the blocks that an elimination changes: for each block below it, those with itself and the ones before it.</summary>
@@ -33,6 +46,11 @@ unsafe struct DirectPlan
     internal int RowCount;
     /// <summary>Pairs of all Jacobians.</summary>
     internal int JacobianCount;
+    /// <summary>Memory that the equations take.</summary>
+    internal int MemoryCount;
+
+    // The last island of those whose structures have the same hash.
+    QuickDictionary<ulong, int, HashOfHash> lastOfHash;
 
     /// <summary>Whether any joint is solved at once.</summary>
     internal readonly bool IsEmpty => Nodes.Count == 0;
@@ -42,7 +60,9 @@ unsafe struct DirectPlan
     {
         Nodes = new(16, pool),
         Islands = new(4, pool),
+        Members = new(16, pool),
         Bodies = new(16, pool),
+        lastOfHash = new(16, pool),
         Blocks = new(16, pool),
         Targets = new(16, pool),
         Couplings = new(16, pool),
@@ -50,12 +70,20 @@ unsafe struct DirectPlan
 
     /// <summary>Adds a structure, unless its equations would take too long.</summary>
     /// <param name="joints">Its joints, with rows, and with bodies counted from zero, dynamic ones first.</param>
+    /// <param name="handles">Their handles.</param>
     /// <param name="references">Its bodies, dynamic ones first.</param>
     /// <param name="dynamicCount">Number of dynamic ones.</param>
     /// <param name="pool">Memory.</param>
     /// <returns>Whether it was added.</returns>
-    internal bool TryAdd(ReadOnlySpan<DirectNode> joints, ReadOnlySpan<int> references, int dynamicCount, BufferPool pool)
+    internal bool TryAdd(
+        ReadOnlySpan<DirectNode> joints, ReadOnlySpan<ConstraintHandle> handles, ReadOnlySpan<int> references, int dynamicCount, BufferPool pool)
     {
+        var hash = HashOf(joints, references.Length, dynamicCount);
+        if (lastOfHash.TryGetValue(hash, out var last) && IsEqual(Islands[last], joints, references.Length, dynamicCount))
+        {
+            AddMember(ref Islands[last], handles, references);
+            return true;
+        }
         var before = this;
         pool.Take<int>(joints.Length + 1, out var starts);
         pool.Take<int>(joints.Length * Solver.MaximumBodiesPerConstraint, out var bodies);
@@ -83,25 +111,48 @@ unsafe struct DirectPlan
             TakeBack(before);
             return false;
         }
-        foreach (var reference in references)
-            Bodies.Add(new() { Reference = reference }, pool);
-        AddCouplings(before.Nodes.Count, dynamicCount, before.Bodies.Count, pool);
-        Islands.Add(new()
+        var firstBody = before.Bodies.Count / Lanes;
+        AddCouplings(before.Nodes.Count, dynamicCount, firstBody, pool);
+        ref var island = ref Islands.Allocate(pool);
+        island = new()
         {
             FirstNode = before.Nodes.Count,
             EndNode = Nodes.Count,
-            FirstBody = before.Bodies.Count,
-            EndBody = Bodies.Count,
-            FirstCoupling = before.Couplings.Count,
-            EndCoupling = Couplings.Count,
+            FirstBody = firstBody,
+            EndBody = firstBody + references.Length,
+            DynamicCount = dynamicCount,
             FirstNumber = before.NumberCount,
             EndNumber = NumberCount,
             FirstRow = before.RowCount,
             EndRow = RowCount,
+            FirstPair = before.JacobianCount,
+            EndPair = JacobianCount,
             HasLoops = hasLoops,
             HasBounds = HasBounds(joints),
-        }, pool);
+        };
+        Members.EnsureCapacity(Nodes.Count * Lanes, pool);
+        Members.Count = Nodes.Count * Lanes;
+        Bodies.EnsureCapacity(island.EndBody * Lanes, pool);
+        Bodies.Count = island.EndBody * Lanes;
+        AddMember(ref island, handles, references);
+        lastOfHash.AddAndReplace(hash, Islands.Count - 1, pool);
         return true;
+    }
+
+    /// <summary>Says where in memory the equations of each island are, when all are there.</summary>
+    internal void PlaceMemory()
+    {
+        MemoryCount = 0;
+        foreach (ref var island in Islands.AsSpan())
+        {
+            island.Memory = MemoryCount;
+            MemoryCount += island.Lanes switch
+            {
+                1 => DirectMemory<OneVector, OneNumber>.SizeOf(island),
+                FourLanes => DirectMemory<ManyVectors<FourNumbers>, FourNumbers>.SizeOf(island),
+                _ => DirectMemory<ManyVectors<EightNumbers>, EightNumbers>.SizeOf(island),
+            };
+        }
     }
 
     internal static bool HasBounds(ReadOnlySpan<DirectNode> joints)
@@ -162,6 +213,7 @@ unsafe struct DirectPlan
         for (int k = 0; k < count && fits; ++k)
         {
             var node = joints[order[k]];
+            node.Place = order[k];
             node.FirstRow = RowCount;
             node.Jacobian = JacobianCount;
             node.Diagonal = NumberCount;
@@ -263,6 +315,7 @@ unsafe struct DirectPlan
         for (int k = first; k < Nodes.Count; ++k)
         {
             ref var earlier = ref Nodes[k];
+            earlier.FirstCoupling = Couplings.Count;
             for (int i = earlier.FirstBlock; i < earlier.FirstBlock + earlier.BlockCount; ++i)
             {
                 ref var later = ref Nodes[Blocks[i].Joint];
@@ -276,13 +329,13 @@ unsafe struct DirectPlan
                         {
                             Place = Blocks[i].Place,
                             Later = Blocks[i].Joint,
-                            Earlier = k,
                             LaterSlot = laterSlot,
                             EarlierSlot = slot,
                         }, pool);
                     }
                 }
             }
+            earlier.EndCoupling = Couplings.Count;
         }
         for (int k = first; k < Nodes.Count; ++k)
         {
@@ -299,10 +352,12 @@ unsafe struct DirectPlan
             return;
         Nodes.Dispose(pool);
         Islands.Dispose(pool);
+        Members.Dispose(pool);
         Bodies.Dispose(pool);
         Blocks.Dispose(pool);
         Targets.Dispose(pool);
         Couplings.Dispose(pool);
+        lastOfHash.Dispose(pool);
         this = default;
     }
 }

@@ -1,8 +1,6 @@
 using System;
 using System.Numerics;
-using System.Runtime.Intrinsics;
 using BepuUtilities;
-using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -19,8 +17,12 @@ sealed unsafe partial class DirectStage
         {
             for (int i = 0; i < plan.Islands.Count; ++i)
             {
-                if (!plan.Islands[i].IsAskedFor)
-                    return true;
+                ref var island = ref plan.Islands[i];
+                for (int lane = 0; lane < island.MemberCount; ++lane)
+                {
+                    if (!island.IsAskedFor[lane])
+                        return true;
+                }
             }
             return false;
         }
@@ -30,7 +32,7 @@ sealed unsafe partial class DirectStage
     internal void BeginNeeds()
     {
         for (int i = 0; i < plan.Islands.Count; ++i)
-            plan.Islands[i].IsAskedFor = false;
+            plan.Islands[i].IsAskedFor = default;
     }
 
     /// <summary>Says of the joints of some bundles whether their load is one that sweeps hold. The last substep is over.</summary>
@@ -50,17 +52,17 @@ sealed unsafe partial class DirectStage
                 var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
                 for (int lane = 0; lane < lanes; ++lane)
                 {
-                    ref var node = ref plan.Nodes[nodeOfLane[(first + bundle) * Vector<float>.Count + lane]];
-                    ref var need = ref solver.NeedOf(node.Handle);
-                    var scale = JointScale.Of(processor, ref batch, node.Index, errors, lane, set);
-                    var (sag, turn) = Yield(node, processor, ref batch, substep);
+                    var member = memberOfLane[(first + bundle) * Vector<float>.Count + lane];
+                    ref var need = ref solver.NeedOf(plan.Members[member].Handle);
+                    var scale = JointScale.Of(processor, ref batch, plan.Members[member].Index, errors, lane, set);
+                    var (sag, turn) = Yield(member, processor, ref batch, substep);
                     if (errors.RigidMask[lane] != 0 && IsHeavy(processor, sag, turn, scale, slip))
                         need.Ask();
                     else
                         need.Rest(time);
                     // Whoever writes it writes the same.
                     if (need.Asks > 0)
-                        plan.Islands[node.Island].IsAskedFor = true;
+                        plan.Islands[plan.Nodes[member / DirectPlan.Lanes].Island].IsAskedFor[member % DirectPlan.Lanes] = true;
                 }
             }
             first += batch.BundleCount;
@@ -78,87 +80,51 @@ sealed unsafe partial class DirectStage
 
     // What the load of a joint would bring it to by sweeps, along directions and about axes. A rigid one is a spring of w h = RigidFrequencyDt, which gives way
     // by K lambda h / (w h)^2 under an impulse lambda per substep.
-    (double Sag, double Turn) Yield(in DirectNode node, TypeProcessor processor, ref TypeBatch batch, in Substep substep)
+    (double Sag, double Turn) Yield(int member, TypeProcessor processor, ref TypeBatch batch, in Substep substep)
     {
         var frequencyDt = substep.Joints.RigidFrequencyDt;
-        for (int slot = 0; slot < node.BodyCount; ++slot)
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
         {
             // The mark of a kinematic body is not looked at.
-            if ((processor.BodyReference(ref batch, node.Index, slot) & EncodedBody.HubFlag) != 0)
+            if ((processor.BodyReference(ref batch, plan.Members[member].Index, slot) & EncodedBody.HubFlag) != 0)
                 frequencyDt = MathHelper.Min(frequencyDt, substep.Hubs.RigidFrequencyDt);
         }
         var scale = (double)substep.Dt / (frequencyDt * frequencyDt);
-        var (linear, angular) = VelocityByLoad(node, processor);
+        var (linear, angular) = plan.Islands[plan.Nodes[member / DirectPlan.Lanes].Island].Lanes switch
+        {
+            1 => VelocityByLoad<OneVector, OneNumber>(member, processor),
+            DirectPlan.FourLanes => VelocityByLoad<ManyVectors<FourNumbers>, FourNumbers>(member, processor),
+            _ => VelocityByLoad<ManyVectors<EightNumbers>, EightNumbers>(member, processor),
+        };
         return (scale * linear, scale * angular);
     }
 
     // Lengths of K lambda, along directions and about axes.
-    (double Linear, double Angular) VelocityByLoad(in DirectNode node, TypeProcessor processor)
+    (double Linear, double Angular) VelocityByLoad<TVectors, TNumbers>(int member, TypeProcessor processor)
+        where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
     {
-        Span<DirectPair> changes = stackalloc DirectPair[Solver.MaximumBodiesPerConstraint];
+        ref var node = ref plan.Nodes[member / DirectPlan.Lanes];
+        var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, plan.Islands[node.Island]);
+        Span<DirectPair<TVectors, TNumbers>> changes = stackalloc DirectPair<TVectors, TNumbers>[Solver.MaximumBodiesPerConstraint];
         changes.Clear();
         for (int row = 0; row < node.RowCount; ++row)
         {
             for (int slot = 0; slot < node.BodyCount; ++slot)
-                changes[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], rows[node.FirstRow + row].Impulse);
+                changes[slot].Add(equations.Weighted[node.Jacobian + row * node.BodyCount + slot], equations.Rows[node.FirstRow + row].Impulse);
         }
         double linear = 0, angular = 0;
         for (int row = 0; row < node.RowCount; ++row)
         {
-            var sum = Vector256<double>.Zero;
+            TVectors sum = default;
             for (int slot = 0; slot < node.BodyCount; ++slot)
-                sum += DirectPair.Multiply(jacobians[node.Jacobian + row * node.BodyCount + slot], changes[slot]);
-            var value = DirectPair.Sum(sum);
+                sum += DirectPair<TVectors, TNumbers>.Multiply(equations.Jacobians[node.Jacobian + row * node.BodyCount + slot], changes[slot]);
+            var values = TVectors.Sum(sum);
+            var value = DirectLane.Of(ref values, member % DirectPlan.Lanes);
             if (processor.IsLinear(row))
                 linear += value * value;
             else
                 angular += value * value;
         }
         return (Math.Sqrt(linear), Math.Sqrt(angular));
-    }
-
-    // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
-    void Ease(
-        in DirectNode node, TypeProcessor processor, ReadOnlySpan<ConstraintRowWide> wide, int lane, Buffer<BodyInertia> inertias, float substepDt,
-        bool corrects)
-    {
-        ref var need = ref solver.NeedOf(node.Handle);
-        if (need.Eases <= 0)
-            return;
-        if (!corrects)
-        {
-            need.GoOn(substepDt);
-            return;
-        }
-        double linear = 0, angular = 0;
-        for (int row = 0; row < node.RowCount; ++row)
-        {
-            double error = wide[row].PositionError[lane];
-            if (processor.IsLinear(row))
-                linear += error * error;
-            else
-                angular += error * error;
-        }
-        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
-        var reach = Correction.Reach(node, processor, jacobians.Memory + node.Jacobian, plan.Bodies, inertias);
-        var pace = JointNeed.PaceOf(TurnSquared(node), Math.Max(linear / reach, angular));
-        var linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
-        var angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
-        need.GoOn(pace * substepDt);
-        for (int row = 0; row < node.RowCount; ++row)
-            rows[node.FirstRow + row].Target *= processor.IsLinear(row) ? linearPart : angularPart;
-    }
-
-    // Of the body that turns fastest.
-    float TurnSquared(in DirectNode node)
-    {
-        ref var motion = ref bodies.Awake.MotionStates;
-        float greatest = 0;
-        for (int slot = 0; slot < node.BodyCount; ++slot)
-        {
-            var reference = plan.Bodies[node.Bodies[slot]].Reference;
-            greatest = MathHelper.Max(greatest, Exact.LengthSquared(motion[reference & EncodedBody.IndexMask].Velocity.Angular));
-        }
-        return greatest;
     }
 }

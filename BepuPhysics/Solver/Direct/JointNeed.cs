@@ -101,6 +101,9 @@ struct JointNeed
     internal static float PaceOf(float turnSquared, double error) =>
         MathHelper.Max(1, EaseTime * MathF.Sqrt(turnSquared) * (float)Math.Min(1, SmallError / error));
 
+    /// <summary>Whether an error can go faster if a body of the joint turns.</summary>
+    internal static bool MayHurry(float turnSquared) => turnSquared > 1 / (EaseTime * EaseTime);
+
     /// <summary>Part of an error that is corrected in a substep.</summary>
     /// <param name="left">What is left of the one that the joint came with: <see cref="Gap"/> or <see cref="Turn"/>; found in the first substep.</param>
     /// <param name="error">Length of the error.</param>

@@ -1,0 +1,164 @@
+namespace BepuPhysics.Constraints;
+
+// What is asked of the joints, solved with the factors, and what that does to impulses and velocities.
+readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
+{
+    // Solves for the changes of the impulses of all that is not held, and applies them, in the structures of a mask.
+    void SolveOnce(TNumbers mask)
+    {
+        var count = *freeCount;
+        for (int i = 0; i < count; ++i)
+            Ask(free[i]);
+        for (int i = 0; i < count; ++i)
+        {
+            SolveForward(nodes[free[i]]);
+            GoForward(free[i]);
+        }
+        for (int i = count - 1; i >= 0; --i)
+        {
+            GoBack(free[i]);
+            SolveBack(nodes[free[i]]);
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            var isFree = mask & IsFree(free[i]);
+            if (TNumbers.Any(isFree))
+                Apply(nodes[free[i]], isFree);
+        }
+    }
+
+    // target - J v - s K lambda.
+    void Ask(int joint)
+    {
+        ref var node = ref nodes[joint];
+        var softness = rows[node.FirstRow].Softness;
+        var isSoft = TNumbers.Above(softness, default);
+        if (node.Limit == RowLimit.Positive)
+            isSoft &= IsFree(joint);
+        if (TNumbers.Any(isSoft))
+        {
+            AskSoftly(node, softness, isSoft);
+            return;
+        }
+        var j = jacobians + node.Jacobian;
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            TVectors sum = default;
+            for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
+            {
+                ref var velocity = ref bodies[node.Bodies[slot]].Velocity;
+                if (node.SeesLinear)
+                    sum += DirectPair<TVectors, TNumbers>.Multiply(*j, velocity);
+                else
+                    sum += j->Angular * velocity.Angular;
+            }
+            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - TVectors.Sum(sum);
+        }
+    }
+
+    void AskSoftly(in DirectNode node, TNumbers softness, TNumbers isSoft)
+    {
+        var velocities = stackalloc DirectPair<TVectors, TNumbers>[Solver.MaximumBodiesPerConstraint];
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            velocities[slot] = bodies[node.Bodies[slot]].Velocity;
+            for (int row = 0; row < node.RowCount; ++row)
+                velocities[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], softness * rows[node.FirstRow + row].Impulse, isSoft);
+        }
+        var j = jacobians + node.Jacobian;
+        for (int row = 0; row < node.RowCount; ++row)
+        {
+            TVectors sum = default;
+            for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
+                sum += DirectPair<TVectors, TNumbers>.Multiply(*j, velocities[slot]);
+            rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - TVectors.Sum(sum);
+        }
+    }
+
+    void SolveForward(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        var diagonal = numbers + node.Diagonal;
+        for (int row = 1; row < count; ++row)
+        {
+            for (int i = 0; i < row; ++i)
+                x[row].X -= diagonal[row * count + i] * x[i].X;
+        }
+        for (int row = 0; row < count; ++row)
+            x[row].X *= x[row].InversePivot;
+    }
+
+    void GoForward(int joint)
+    {
+        ref var node = ref nodes[joint];
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            var block = numbers + blocks[a].Place;
+            ref var later = ref nodes[blocks[a].Joint];
+            var mask = IsFree(joint) & IsFree(blocks[a].Joint);
+            if (!TNumbers.Any(mask))
+                continue;
+            for (int row = 0; row < later.RowCount; ++row, block += count)
+            {
+                TNumbers sum = default;
+                for (int i = 0; i < count; ++i)
+                    sum += block[i] * x[i].X;
+                ref var ofLater = ref rows[later.FirstRow + row].X;
+                Write(ref ofLater, ofLater - sum, mask);
+            }
+        }
+    }
+
+    void GoBack(int joint)
+    {
+        ref var node = ref nodes[joint];
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        {
+            var block = numbers + blocks[a].Place;
+            ref var later = ref nodes[blocks[a].Joint];
+            var mask = IsFree(joint) & IsFree(blocks[a].Joint);
+            if (!TNumbers.Any(mask))
+                continue;
+            for (int row = 0; row < later.RowCount; ++row, block += count)
+            {
+                var known = rows[later.FirstRow + row].X;
+                for (int i = 0; i < count; ++i)
+                    Write(ref x[i].X, x[i].X - x[i].InversePivot * block[i] * known, mask);
+            }
+        }
+    }
+
+    void SolveBack(in DirectNode node)
+    {
+        var count = node.RowCount;
+        var x = rows + node.FirstRow;
+        var diagonal = numbers + node.Diagonal;
+        for (int row = count - 2; row >= 0; --row)
+        {
+            for (int i = row + 1; i < count; ++i)
+                x[row].X -= diagonal[i * count + row] * x[i].X;
+        }
+    }
+
+    void Apply(in DirectNode node, TNumbers mask)
+    {
+        for (int i = 0; i < node.RowCount; ++i)
+        {
+            ref var row = ref rows[node.FirstRow + i];
+            Write(ref row.Impulse, row.Impulse + row.X, mask);
+            Apply(node, i, row.X, mask);
+        }
+    }
+
+    void Apply(in DirectNode node, int row, TNumbers impulse, TNumbers mask)
+    {
+        var w = weighted + node.Jacobian + row * node.BodyCount;
+        for (int slot = 0; slot < node.BodyCount; ++slot, ++w)
+            bodies[node.Bodies[slot]].Velocity.Add(*w, impulse, mask);
+    }
+}

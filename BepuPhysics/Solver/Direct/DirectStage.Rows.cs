@@ -1,0 +1,246 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuUtilities;
+
+namespace BepuPhysics.Constraints;
+
+// The rows of the joints of all structures are read bundle by bundle, as the sweeps would read them, and each joint's are written where its structure has them.
+sealed unsafe partial class DirectStage
+{
+    // Of what is as stiff as can be where it may not be rigid, as a part of its own K: 1 / (w h (w h + 2)).
+    static readonly double hardSoftness = SubstepStiffness.DirectSoftness;
+
+    void ReadBundles(in Substep substep, int block)
+    {
+        var start = bundleCount * block / BundleBlocks;
+        var end = bundleCount * (block + 1) / BundleBlocks;
+        var awake = new SolverBodies(bodies.Awake);
+        Span<ConstraintRowWide> wide = stackalloc ConstraintRowWide[DirectPlan.MostRows];
+        // What a type does not write, it does not have.
+        wide.Clear();
+        var ofJoints = substep.Directly();
+        var ofBounds = substep.DirectlyWithBounds();
+        int first = 0;
+        foreach (ref var batch in LeftOut.TypeBatches.AsSpan())
+        {
+            var processor = solver.Processor(batch.TypeId);
+            var kind = new JointKind(processor);
+            var rows = wide[..kind.RowCount];
+            for (int bundle = Math.Max(0, start - first); bundle < Math.Min(end - first, batch.BundleCount); ++bundle)
+            {
+                processor.ReadRows(ref batch, awake, kind.HasBounds ? ofBounds : ofJoints, bundle, rows);
+                for (int lane = 0; lane < Vector<float>.Count; lane += DirectPlan.Lanes)
+                {
+                    var index = bundle * Vector<float>.Count + lane;
+                    var count = Math.Min(DirectPlan.Lanes, batch.ConstraintCount - index);
+                    if (count > 0)
+                        ReadLanes(kind, rows, lane, ref processor.BodyReference(ref batch, index, 0), first * Vector<float>.Count + index, count, substep);
+                }
+            }
+            first += batch.BundleCount;
+        }
+    }
+
+    // The joints of a bundle, or as many of them as structures can be side by side.
+    void ReadLanes(
+        in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, int firstLane, ref int references, int first, int count, in Substep substep)
+    {
+        Span<double> targets = stackalloc double[DirectPlan.MostRows * DirectPlan.MostLanes];
+        var members = memberOfLane.Memory + first;
+        var isWhole = count == DirectPlan.Lanes && AreOfOneIsland(members);
+        var mayLessen = MayLessen(kind, rows[0], firstLane, count);
+        for (int row = 0; row < rows.Length && (mayLessen || !isWhole); ++row)
+        {
+            for (int lane = 0; lane < count; ++lane)
+                targets[row * DirectPlan.MostLanes + lane] = LaneOf(rows[row].TargetVelocity, firstLane + lane);
+        }
+        for (int lane = 0; lane < count && mayLessen; ++lane)
+            Lessen(new(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]), members[lane], substep);
+        if (isWhole)
+        {
+            if (DirectPlan.Lanes == DirectPlan.FourLanes)
+                WriteAll<FourNumbers>(kind, rows, firstLane, mayLessen ? targets : default, members[0] / DirectPlan.Lanes);
+            else
+                WriteAll<EightNumbers>(kind, rows, firstLane, mayLessen ? targets : default, members[0] / DirectPlan.Lanes);
+            return;
+        }
+        for (int lane = 0; lane < count; ++lane)
+        {
+            var joint = new JointLane(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]);
+            var lanes = plan.Islands[plan.Nodes[members[lane] / DirectPlan.Lanes].Island].Lanes;
+            if (lanes == 1)
+                Write<OneVector, OneNumber>(joint, members[lane]);
+            else if (lanes == DirectPlan.FourLanes)
+                Write<ManyVectors<FourNumbers>, FourNumbers>(joint, members[lane]);
+            else
+                Write<ManyVectors<EightNumbers>, EightNumbers>(joint, members[lane]);
+        }
+    }
+
+    // Whether they are the joints of all structures side by side, in this order.
+    static bool AreOfOneIsland(int* members)
+    {
+        for (int lane = 1; lane < DirectPlan.Lanes; ++lane)
+        {
+            if (members[lane] != members[0] + lane)
+                return false;
+        }
+        return members[0] % DirectPlan.Lanes == 0;
+    }
+
+    // Nothing is corrected of limits that are not reached, which most are.
+    bool MayLessen(in JointKind kind, in ConstraintRowWide row, int firstLane, int count)
+    {
+        if (kind.Limit != RowLimit.Positive || solver.ChoosesDirectJoints)
+            return true;
+        for (int lane = 0; lane < count; ++lane)
+        {
+            if (LaneOf(row.PositionError, firstLane + lane) < 0)
+                return true;
+        }
+        return false;
+    }
+
+    // Lessens what a joint is after.
+    void Lessen(in JointLane joint, int member, in Substep substep)
+    {
+        if (!joint.IsHard)
+            return;
+        ref var set = ref bodies.Awake;
+        var corrects = joint.Limit == RowLimit.None || CorrectsAll(joint, substep);
+        if (solver.ChoosesDirectJoints)
+            Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep.Dt, corrects);
+        if (corrects && joint.Limit != RowLimit.Length)
+            Correction.Limit(joint, set, substep.Dt);
+    }
+
+    void Write<TVectors, TNumbers>(in JointLane joint, int member)
+        where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
+    {
+        ref var node = ref plan.Nodes[member / DirectPlan.Lanes];
+        ref var island = ref plan.Islands[node.Island];
+        var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
+        var softness = joint.Limit != RowLimit.None || island.HasLoops ? hardSoftness : 0;
+        var lane = member % DirectPlan.Lanes;
+        var pair = equations.Jacobians + node.Jacobian;
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            // Bodies of a Jacobian lie side by side.
+            for (int slot = 0; slot < joint.BodyCount; ++slot, ++pair)
+            {
+                ref var j = ref joint.Jacobian(row, slot);
+                if (joint.Kind.SeesLinear)
+                {
+                    DirectLane.Write<TVectors, TNumbers>(
+                        ref pair->Linear, lane, j, Unsafe.Add(ref j, Vector<float>.Count), Unsafe.Add(ref j, 2 * Vector<float>.Count));
+                }
+                DirectLane.Write<TVectors, TNumbers>(
+                    ref pair->Angular, lane, Unsafe.Add(ref j, 3 * Vector<float>.Count), Unsafe.Add(ref j, 4 * Vector<float>.Count),
+                    Unsafe.Add(ref j, 5 * Vector<float>.Count));
+            }
+            ref var ofRow = ref equations.Rows[node.FirstRow + row];
+            DirectLane.Of(ref ofRow.Target, lane) = joint.Target(row);
+            DirectLane.Of(ref ofRow.Softness, lane) = joint.Softness(row, softness);
+            DirectLane.Of(ref ofRow.Impulse, lane) = joint.Impulse(row);
+        }
+        DirectLane.Of(ref equations.Holds[member / DirectPlan.Lanes].MostImpulse, lane) = joint.MaximumImpulse;
+    }
+
+    // The joints of all structures side by side at once. Without targets these are what the rows say.
+    void WriteAll<TNumbers>(in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, int firstLane, ReadOnlySpan<double> targets, int joint)
+        where TNumbers : unmanaged, INumbers<TNumbers>
+    {
+        ref var node = ref plan.Nodes[joint];
+        ref var island = ref plan.Islands[node.Island];
+        var equations = new DirectMemory<ManyVectors<TNumbers>, TNumbers>(memory.Memory, island);
+        var softness = kind.HasBounds || island.HasLoops ? hardSoftness : 0;
+        var isHard = Vector.EqualsAll(rows[0].HardMask, Vector<int>.AllBitsSet);
+        // Linear and angular parts, component by component.
+        var j = (TNumbers*)(equations.Jacobians + node.Jacobian);
+        for (int row = 0; row < rows.Length; ++row)
+        {
+            for (int slot = 0; slot < kind.BodyCount; ++slot)
+            {
+                ref var first = ref LaneOf(Unsafe.AsRef(in rows[row]).Of(slot).Linear.X, firstLane);
+                j += kind.SeesLinear ? 0 : 3;
+                for (int i = kind.SeesLinear ? 0 : 3; i < 6; ++i)
+                    *j++ = TNumbers.Read(ref Unsafe.Add(ref first, i * Vector<float>.Count));
+            }
+            ref var ofRow = ref equations.Rows[node.FirstRow + row];
+            ofRow.Target = targets.IsEmpty
+                ? TNumbers.Read(ref LaneOf(rows[row].TargetVelocity, firstLane))
+                : TNumbers.Read(ref Unsafe.AsRef(in targets[row * DirectPlan.MostLanes]));
+            ofRow.Impulse = TNumbers.Read(ref LaneOf(rows[row].Impulse, firstLane));
+            ofRow.Softness = TNumbers.Of(softness);
+            for (int lane = 0; lane < TNumbers.Count && !isHard; ++lane)
+            {
+                DirectLane.Of(ref ofRow.Softness, lane) =
+                    new JointLane(kind, rows, firstLane + lane, ref Unsafe.NullRef<int>(), ref Unsafe.NullRef<double>()).Softness(row, softness);
+            }
+        }
+        equations.Holds[joint].MostImpulse = TNumbers.Read(ref LaneOf(rows[0].MaximumImpulse, firstLane));
+    }
+
+    // By address: an element of a vector is a copy of it otherwise.
+    static ref float LaneOf(in Vector<float> vector, int lane) => ref Unsafe.Add(ref Unsafe.As<Vector<float>, float>(ref Unsafe.AsRef(in vector)), lane);
+
+    // A limit with slack left, a servo on its way at its greatest speed and a motor do not correct an error.
+    static bool CorrectsAll(in JointLane joint, in Substep substep)
+    {
+        if (joint.Limit == RowLimit.Positive)
+            return joint.PositionError(0) < 0;
+        double error = 0, target = 0;
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            error += joint.PositionError(row) * (double)joint.PositionError(row);
+            target += joint.TargetVelocity(row) * (double)joint.TargetVelocity(row);
+        }
+        var frequencyDt = (double)substep.Servos.RigidFrequencyDt;
+        var whole = frequencyDt / (frequencyDt + 2) * substep.InverseDt;
+        return error > 0 && target > 0.99 * 0.99 * whole * whole * error;
+    }
+
+    // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
+    static void Ease(in JointLane joint, ref JointNeed need, in BodySet set, float substepDt, bool corrects)
+    {
+        if (need.Eases <= 0)
+            return;
+        if (!corrects)
+        {
+            need.GoOn(substepDt);
+            return;
+        }
+        double linear = 0, angular = 0;
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            double error = joint.PositionError(row);
+            if (joint.IsLinear(row))
+                linear += error * error;
+            else
+                angular += error * error;
+        }
+        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
+        var turn = TurnSquared(joint, set);
+        var pace = 1f;
+        if (JointNeed.MayHurry(turn))
+            pace = JointNeed.PaceOf(turn, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
+        double linearPart = 0, angularPart = 0;
+        if (joint.Kind.HasLinear)
+            linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
+        if (joint.Kind.HasAngular)
+            angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
+        need.GoOn(pace * substepDt);
+        for (int row = 0; row < joint.RowCount; ++row)
+            joint.Target(row) *= joint.IsLinear(row) ? linearPart : angularPart;
+    }
+
+    // Of the body that turns fastest.
+    static float TurnSquared(in JointLane joint, in BodySet set)
+    {
+        float greatest = 0;
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
+            greatest = MathHelper.Max(greatest, Exact.LengthSquared(set.MotionStates[joint.Body(slot)].Velocity.Angular));
+        return greatest;
+    }
+}

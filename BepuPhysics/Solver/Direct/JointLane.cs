@@ -1,0 +1,114 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+
+namespace BepuPhysics.Constraints;
+
+/// <summary>What all joints of a type have in common.</summary>
+readonly struct JointKind
+{
+    /// <summary>Number of rows.</summary>
+    internal readonly int RowCount;
+    /// <summary>Number of bodies.</summary>
+    internal readonly int BodyCount;
+    /// <summary>What bounds the impulse.</summary>
+    internal readonly RowLimit Limit;
+    /// <summary>A bit for each row that is along a direction.</summary>
+    internal readonly int LinearRows;
+    /// <summary>Whether rows see linear velocities.</summary>
+    internal readonly bool SeesLinear;
+
+    /// <summary>Of a type.</summary>
+    internal JointKind(TypeProcessor processor)
+    {
+        (RowCount, BodyCount, Limit) = (processor.RowCount, processor.BodiesPerConstraint, processor.LimitOf(0));
+        SeesLinear = processor.SeesLinear;
+        for (int row = 0; row < RowCount; ++row)
+            LinearRows |= (processor.IsLinear(row) ? 1 : 0) << row;
+    }
+
+    /// <summary>Whether it is a limit, a servo or a motor.</summary>
+    internal bool HasBounds => Limit != RowLimit.None;
+
+    /// <summary>Whether any row is along a direction.</summary>
+    internal bool HasLinear => LinearRows != 0;
+
+    /// <summary>Whether any row is about an axis.</summary>
+    internal bool HasAngular => LinearRows != (1 << RowCount) - 1;
+}
+
+/// <summary>The rows of one joint of a bundle, as they are read to solve it at once.</summary>
+/// <param name="kind">Its type.</param>
+/// <param name="rows">Rows of the bundle.</param>
+/// <param name="lane">Its lane.</param>
+/// <param name="references">Reference to its first body in the type batch.</param>
+/// <param name="targets">What its first row is after; others are <see cref="DirectPlan.MostLanes"/> apart.</param>
+readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, int lane, ref int references, ref double targets)
+{
+    readonly ReadOnlySpan<ConstraintRowWide> rows = rows;
+    /// <summary>Its type.</summary>
+    internal readonly JointKind Kind = kind;
+
+    readonly int lane = lane;
+    readonly ref int references = ref references;
+    readonly ref double targets = ref targets;
+
+    /// <summary>Number of rows.</summary>
+    internal int RowCount => rows.Length;
+
+    /// <summary>Number of bodies.</summary>
+    internal int BodyCount => Kind.BodyCount;
+
+    /// <summary>What bounds its impulse.</summary>
+    internal RowLimit Limit => Kind.Limit;
+
+    /// <summary>Whether a row is along a direction.</summary>
+    internal bool IsLinear(int row) => (Kind.LinearRows >> row & 1) != 0;
+
+    /// <summary>Index of one of its bodies in the active set.</summary>
+    internal int Body(int slot) => Unsafe.Add(ref references, slot * Vector<float>.Count) & EncodedBody.IndexMask;
+
+    /// <summary>What a row is after: J v, m/s or rad/s. May be lessened.</summary>
+    internal ref double Target(int row) => ref Unsafe.Add(ref targets, row * DirectPlan.MostLanes);
+
+    /// <summary>Whether it is meant to be as stiff as can be.</summary>
+    internal bool IsHard => Lane(rows[0].HardMask) != 0;
+
+    /// <summary>Greatest length of its impulse.</summary>
+    internal float MaximumImpulse => Lane(rows[0].MaximumImpulse);
+
+    /// <summary>How far a row is off.</summary>
+    internal float PositionError(int row) => Lane(rows[row].PositionError);
+
+    /// <summary>What a row is after, before it was lessened.</summary>
+    internal float TargetVelocity(int row) => Lane(rows[row].TargetVelocity);
+
+    /// <summary>Impulse of a row.</summary>
+    internal float Impulse(int row) => Lane(rows[row].Impulse);
+
+    // A structure without loops bears joints that do not give at all. What has bounds may say the same as the joint beside it.
+    /// <summary>Softness of a row as a part of its own K.</summary>
+    /// <param name="row">The row.</param>
+    /// <param name="hardSoftness">That of what is as stiff as can be.</param>
+    internal double Softness(int row, double hardSoftness) =>
+        IsHard ? hardSoftness : Lane(rows[row].ImpulseScale) / Math.Max(Lane(rows[row].MassScale), LeastMassScale);
+
+    // Of a spring that is so soft that it does nothing.
+    const double LeastMassScale = 1e-12;
+
+    /// <summary>The Jacobian of a row by one of its bodies: six numbers, a vector apart.</summary>
+    internal ref float Jacobian(int row, int slot) => ref Unsafe.Add(
+        ref Unsafe.As<RowJacobianWide, float>(ref Unsafe.AsRef(in rows[row]).Of(slot)), lane);
+
+    /// <summary>Square of the arm at which a row turns a body.</summary>
+    internal double ArmSquared(int row, int slot)
+    {
+        ref var first = ref Jacobian(row, slot);
+        double x = Unsafe.Add(ref first, 3 * Vector<float>.Count), y = Unsafe.Add(ref first, 4 * Vector<float>.Count);
+        double z = Unsafe.Add(ref first, 5 * Vector<float>.Count);
+        return x * x + y * y + z * z;
+    }
+
+    // By address: an element of a vector is a copy of it otherwise.
+    T Lane<T>(in Vector<T> vector) where T : unmanaged => Unsafe.Add(ref Unsafe.As<Vector<T>, T>(ref Unsafe.AsRef(in vector)), lane);
+}
