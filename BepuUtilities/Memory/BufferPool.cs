@@ -14,7 +14,7 @@ namespace BepuUtilities.Memory;
 /// Not thread safe: use a pool per worker, see <see cref="WorkerBufferPools"/>.
 /// </summary>
 /// <remarks>
-/// There is a <see cref="PowerPool"/> for each power of two, created when first needed. An id holds the power in its five high
+/// There is a <see cref="PowerPool"/> for each power of two, which holds nothing until it is first needed. An id holds the power in its five high
 /// bits below the sign and the slot within that power's pool in the others, so that an id alone suffices to return a block.
 /// A bit per slot tells whether it is lent. That makes giving back twice, or to the wrong pool, an exception in release builds
 /// too, instead of two owners of one block, which would only show as wrong physics much later.
@@ -32,21 +32,20 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     // A buffer of bytes is as long as an int allows.
     const int MaximumBytePower = 30;
 
-    readonly PowerPool?[] pools = new PowerPool?[MaximumPower - MinimumPower + 1];
-    readonly int blockPower;
-    readonly int expectedPooledResourceCount;
+    readonly PowerPool[] pools = new PowerPool[MaximumPower - MinimumPower + 1];
     readonly List<IBufferPoolUser> users = [];
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="minimumBlockAllocationSize">Least number of bytes to ask the system for at a time, rounded up to a power of two; in [1, 2^30].</param>
-    /// <param name="expectedPooledResourceCount">Number of blocks of one size for which bookkeeping is made in advance.</param>
+    /// <param name="expectedPooledResourceCount">Number of blocks of one size for which bookkeeping is made with the first of them.</param>
     public BufferPool(int minimumBlockAllocationSize = 131072, int expectedPooledResourceCount = 16)
     {
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(minimumBlockAllocationSize);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(minimumBlockAllocationSize, 1 << MaximumBytePower);
         ArgumentOutOfRangeException.ThrowIfNegative(expectedPooledResourceCount);
-        blockPower = GetPower((ulong)minimumBlockAllocationSize);
-        this.expectedPooledResourceCount = expectedPooledResourceCount;
+        var blockPower = GetPower((ulong)minimumBlockAllocationSize);
+        for (int i = 0; i < pools.Length; ++i)
+            pools[i] = new PowerPool(i + MinimumPower, Math.Max(i + MinimumPower, blockPower), expectedPooledResourceCount);
     }
 
     /// <summary>Length in elements of the buffer that <see cref="TakeAtLeast{T}"/> yields for a least length.</summary>
@@ -123,7 +122,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         CheckPower(power);
         var pool = pools[Math.Max(power, MinimumPower) - MinimumPower];
-        return pool == null ? 0 : (int)Math.Min(pool.AllocatedByteCount, int.MaxValue);
+        return (int)Math.Min(pool.AllocatedByteCount, int.MaxValue);
     }
 
     /// <summary>Bytes that this pool holds from the system, whether lent or not.</summary>
@@ -131,7 +130,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         ulong total = 0;
         foreach (var pool in pools)
-            total += pool?.AllocatedByteCount ?? 0;
+            total += pool.AllocatedByteCount;
         return total;
     }
 
@@ -140,7 +139,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         ulong total = 0;
         foreach (var pool in pools)
-            total += pool is null ? 0 : (ulong)pool.TakenCount << pool.Power;
+            total += (ulong)pool.TakenCount << pool.Power;
         return total;
     }
 
@@ -157,7 +156,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         StringBuilder? message = null;
         foreach (var pool in pools)
         {
-            if (pool == null || pool.TakenCount == 0)
+            if (pool.TakenCount == 0)
                 continue;
             message ??= new StringBuilder("Buffers were not returned to the pool:");
             pool.DescribeTaken(message);
@@ -184,7 +183,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     // Only where leaks are reported: the types cost managed memory.
     [Conditional("DEBUG"), Conditional("PHYSICS_VALIDATE")]
-    void NoteOwner(int id, Type elementType) => pools[id >> SlotBits]!.NoteOwner(id & ((1 << SlotBits) - 1), elementType);
+    void NoteOwner(int id, Type elementType) => pools[id >> SlotBits].NoteOwner(id & ((1 << SlotBits) - 1), elementType);
 
     /// <summary>Tells somebody when the pool is cleared, until <see cref="RemoveUser"/>.</summary>
     public void AddUser(IBufferPoolUser user)
@@ -209,7 +208,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         users.Clear();
         ReportLeaks();
         foreach (var pool in pools)
-            pool?.Clear();
+            pool.Clear();
     }
 
     /// <summary>
@@ -220,7 +219,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     public void Trim()
     {
         foreach (var pool in pools)
-            pool?.Trim();
+            pool.Trim();
     }
 
     internal void CheckNotBusy()
@@ -268,11 +267,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    PowerPool GetPool(int power) => pools[power - MinimumPower] ?? CreatePool(power);
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    PowerPool CreatePool(int power) =>
-        pools[power - MinimumPower] = new PowerPool(power, Math.Max(power, blockPower), expectedPooledResourceCount);
+    PowerPool GetPool(int power) => pools[power - MinimumPower];
 
     PowerPool FindOwner(int id, out int slot)
     {

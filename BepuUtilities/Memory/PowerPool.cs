@@ -11,15 +11,19 @@ namespace BepuUtilities.Memory;
 /// <summary>The blocks of one size of a <see cref="BufferPool"/>: memory from the system, cut into slots.</summary>
 /// <remarks>
 /// Slots [0, usedSlotCount) have been lent at least once; those of them that are free lie on a stack, so that what was returned
-/// last, and is in the cache, is lent next. All bookkeeping grows with the memory, so that lending and returning allocate nothing.
+/// last, and is in the cache, is lent next. All bookkeeping grows with the memory, and is none of the garbage collector's: lending and returning
+/// allocate nothing managed, whatever is lent for the first time.
 /// </remarks>
 sealed unsafe class PowerPool
 {
     readonly int allocationPower;
     readonly int slotShift;
-    nint[] allocations;
-    int[] freeSlots;
-    ulong[] taken;
+    readonly int expectedSlotCount;
+    // Addresses of the allocations, the stack of free slots, a bit for each slot that is lent; null while the pool holds no memory.
+    nint* allocations;
+    int* freeSlots;
+    ulong* taken;
+    int allocationCapacity, slotCapacity;
     // Types of the elements of lent slots, in builds with checks.
     Type?[] owners = [];
     int allocationCount;
@@ -39,15 +43,13 @@ sealed unsafe class PowerPool
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="power">Exponent of the size of a slot in bytes.</param>
     /// <param name="allocationPower">Exponent of the number of bytes to ask the system for at a time; not less than the slot's.</param>
-    /// <param name="expectedSlotCount">Number of slots for which bookkeeping is made in advance.</param>
+    /// <param name="expectedSlotCount">Number of slots for which bookkeeping is made with the first memory.</param>
     public PowerPool(int power, int allocationPower, int expectedSlotCount)
     {
         Power = power;
         this.allocationPower = allocationPower;
         slotShift = allocationPower - power;
-        allocations = new nint[Math.Max(1, expectedSlotCount >> slotShift)];
-        freeSlots = new int[expectedSlotCount];
-        taken = new ulong[(expectedSlotCount + 63) >> 6];
+        this.expectedSlotCount = expectedSlotCount;
     }
 
     /// <summary>Exponent of the size of a slot in bytes.</summary>
@@ -117,7 +119,7 @@ sealed unsafe class PowerPool
             }
             hollowSlotCount += goneCount;
             freeSlotCount -= goneCount;
-            Array.Copy(freeSlots, goneCount, freeSlots, 0, freeSlotCount);
+            FreeSlots(goneCount + freeSlotCount)[goneCount..].CopyTo(FreeSlots(freeSlotCount));
         }
         idleSlotCount = freeSlotCount;
     }
@@ -154,8 +156,14 @@ sealed unsafe class PowerPool
     {
         for (int i = 0; i < allocationCount; ++i)
             NativeMemory.AlignedFree((void*)allocations[i]);
-        Array.Clear(allocations);
-        Array.Clear(taken);
+        NativeMemory.Free(allocations);
+        NativeMemory.Free(freeSlots);
+        NativeMemory.Free(taken);
+        allocations = null;
+        freeSlots = null;
+        taken = null;
+        allocationCapacity = 0;
+        slotCapacity = 0;
         allocationCount = 0;
         usedSlotCount = 0;
         freeSlotCount = 0;
@@ -189,7 +197,7 @@ sealed unsafe class PowerPool
     // Asks the system again for the memory of a slot that has none.
     int Refill()
     {
-        var slot = Array.IndexOf(allocations, 0, 0, usedSlotCount);
+        var slot = new ReadOnlySpan<nint>(allocations, usedSlotCount).IndexOf(0);
         allocations[slot] = AskSystem();
         --hollowSlotCount;
         return slot;
@@ -201,14 +209,32 @@ sealed unsafe class PowerPool
         if (slotCount > 1 << BufferPool.SlotBits)
             throw new InsufficientMemoryException($"A pool lends at most 2^{BufferPool.SlotBits} blocks of {1UL << Power} bytes.");
         // Bookkeeping first: should the system refuse the memory, nothing has changed but spare room.
-        if (allocationCount == allocations.Length)
-            Array.Resize(ref allocations, allocations.Length * 2);
-        if (slotCount > freeSlots.Length)
-            Array.Resize(ref freeSlots, (int)BitOperations.RoundUpToPowerOf2((uint)slotCount));
-        if (slotCount > (long)taken.Length << 6)
-            Array.Resize(ref taken, (int)(BitOperations.RoundUpToPowerOf2((uint)slotCount) + 63) >> 6);
+        if (allocationCount == allocationCapacity)
+        {
+            var capacity = Math.Max(2 * allocationCapacity, Math.Max(1, expectedSlotCount >> slotShift));
+            Grow(ref allocations, allocationCapacity, capacity);
+            allocationCapacity = capacity;
+        }
+        if (slotCount > slotCapacity)
+        {
+            var capacity = (int)BitOperations.RoundUpToPowerOf2((uint)Math.Max(slotCount, expectedSlotCount));
+            Grow(ref freeSlots, slotCapacity, capacity);
+            Grow(ref taken, WordCount(slotCapacity), WordCount(capacity));
+            slotCapacity = capacity;
+        }
         allocations[allocationCount] = AskSystem();
         ++allocationCount;
+    }
+
+    Span<int> FreeSlots(int count) => new(freeSlots, count);
+
+    static int WordCount(int slotCount) => (slotCount + 63) >> 6;
+
+    // What is new is zero.
+    static void Grow<T>(ref T* array, int count, int newCount) where T : unmanaged
+    {
+        array = (T*)NativeMemory.Realloc(array, (nuint)newCount * (nuint)sizeof(T));
+        new Span<T>(array + count, newCount - count).Clear();
     }
 
     nint AskSystem()

@@ -313,6 +313,27 @@ public unsafe class BufferPoolTests
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
     }
 
+    [Fact]
+    public void NothingManagedIsAllocatedAsAPoolGrows()
+    {
+        using (var compiled = new BufferPool(4096, 1))
+            Grow(compiled);
+        using var pool = new BufferPool(4096, 1);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        Grow(pool);
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.True(pool.GetTotalAllocatedByteCount() > 2000 * 64 + (1 << 20));
+
+        // Two thousand blocks of one size, and one of each of the others.
+        static void Grow(BufferPool pool)
+        {
+            for (int i = 0; i < 2000; ++i)
+                pool.Take<byte>(64, out _);
+            for (int power = 7; power <= 20; ++power)
+                pool.Take<byte>(1 << power, out _);
+        }
+    }
+
     static void TakeAndReturn(BufferPool pool)
     {
         var buffers = stackalloc Buffer<int>[200];
