@@ -12,7 +12,8 @@ readonly record struct BuiltJoint(BodyHandle A, BodyHandle B, Vector3 AnchorA, V
 /// <summary>What is measured on the bodies and joints of a scene, while it runs and at its end.</summary>
 sealed class BuiltScene
 {
-    const float LostBelow = -50;
+    /// <summary>Height below which a body is lost, m.</summary>
+    public const float LostBelow = -50;
     const float MovedDistance = 0.5f;
 
     readonly Simulation simulation;

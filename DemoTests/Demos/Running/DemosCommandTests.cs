@@ -170,9 +170,10 @@ public sealed class DemosCommandTests : IDisposable
         string json = Path.Combine(folder, "run.json");
         string scene = File("lost.scene", Falling.Replace("1 0 0.5 0 0 0 0 1", "1 9 -49 0 0 0 0 1", StringComparison.Ordinal));
 
-        (int status, _, _) = Run("run", scene, "--steps", "40", "--json", json);
+        (int status, string output, _) = Run("run", scene, "--steps", "40", "--json", json);
 
         Assert.Equal(DemosCommand.Unsound, status);
+        Assert.Contains("2: what fell below y = -50 is lost", output, StringComparison.Ordinal);
         Assert.Equal(1, JsonDocument.Parse(System.IO.File.ReadAllBytes(json)).RootElement.GetProperty("lost").GetInt32());
     }
 
