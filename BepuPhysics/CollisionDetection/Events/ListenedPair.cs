@@ -47,9 +47,11 @@ struct ListenedPair
 }
 
 /// <summary>A contact constraint whose pair is listened to, for one step.</summary>
-struct ListenedManifold
+unsafe struct ListenedManifold
 {
     public ConstraintHandle Constraint;
+    /// <summary>The first of its impulses while the solver runs; they lie a vector apart.</summary>
+    public float* Impulses;
     public int ContactCount;
     public int FirstContact;
     public float ApproachSpeed;

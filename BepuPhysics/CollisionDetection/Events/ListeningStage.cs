@@ -1,4 +1,6 @@
 using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
@@ -34,27 +36,29 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies) : ISolverStage
         for (int i = block * ManifoldsPerBlock; i < end; ++i)
         {
             ref var manifold = ref Manifolds[i];
-            var rows = new ContactRows(solver, bodies, manifold.Constraint, manifold.ContactCount);
             if (point == SolverPoint.BeforeSubsteps)
-                manifold.ApproachSpeed = ApproachSpeed(rows, manifold.ContactCount);
+                Begin(ref manifold);
             else
-                Sum(rows, ref manifold);
+                Sum(ref manifold);
         }
     }
 
-    static float ApproachSpeed(in ContactRows rows, int contactCount)
+    // Impulses stay where they are until the solver has ended.
+    void Begin(ref ListenedManifold manifold)
     {
-        var speed = float.NegativeInfinity;
-        for (int i = 0; i < contactCount; ++i)
-            speed = MathHelper.Max(speed, -rows.NormalRow(i).Along(rows.VelocityA, rows.VelocityB));
-        return speed;
+        var rows = new ContactRows(solver, bodies, manifold.Constraint, manifold.ContactCount);
+        manifold.Impulses = (float*)Unsafe.AsPointer(ref rows.Impulse(0));
+        var (velocityA, velocityB) = (rows.VelocityA, rows.VelocityB);
+        manifold.ApproachSpeed = float.NegativeInfinity;
+        for (int i = 0; i < manifold.ContactCount; ++i)
+            manifold.ApproachSpeed = MathHelper.Max(manifold.ApproachSpeed, -rows.NormalRow(i).Along(velocityA, velocityB));
     }
 
-    void Sum(in ContactRows rows, ref ListenedManifold manifold)
+    void Sum(ref ListenedManifold manifold)
     {
-        for (int i = 0; i < manifold.ContactCount; ++i)
-            Contacts[manifold.FirstContact + i].Impulse += rows.Impulse(i);
-        var friction = ContactPrestepLayout.FrictionImpulse(manifold.ContactCount);
-        manifold.Friction += new System.Numerics.Vector3(rows.Impulse(friction), rows.Impulse(friction + 1), rows.Impulse(friction + 2));
+        var impulse = manifold.Impulses;
+        for (int i = 0; i < manifold.ContactCount; ++i, impulse += Vector<float>.Count)
+            Contacts[manifold.FirstContact + i].Impulse += *impulse;
+        manifold.Friction += new Vector3(*impulse, impulse[Vector<float>.Count], impulse[2 * Vector<float>.Count]);
     }
 }

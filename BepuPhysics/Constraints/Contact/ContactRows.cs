@@ -1,15 +1,16 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>The rows of one contact constraint and the bodies that it connects, one contact at a time: for stages that visit few constraints.</summary>
-unsafe readonly ref struct ContactRows
+readonly ref struct ContactRows
 {
-    readonly ref TypeBatch batch;
-    readonly TypeProcessor processor;
-    readonly int index;
+    // The first float of the description and of the impulses; what follows lies a vector apart.
+    readonly ref float prestep;
+    readonly ref float impulses;
     readonly int contactCount;
     readonly ref BodySet set;
 
@@ -30,17 +31,17 @@ unsafe readonly ref struct ContactRows
 
     internal ContactRows(Solver solver, Bodies bodies, ref TypeBatch typeBatch, int indexInTypeBatch, int contactCount)
     {
-        batch = ref typeBatch;
-        processor = solver.Processor(typeBatch.TypeId);
-        index = indexInTypeBatch;
+        var processor = solver.Processor(typeBatch.TypeId);
+        prestep = ref processor.PrestepFloat(ref typeBatch, indexInTypeBatch, 0);
+        impulses = ref processor.Impulse(ref typeBatch, indexInTypeBatch, 0);
         this.contactCount = contactCount;
         set = ref bodies.ActiveSet;
-        A = processor.BodyReference(ref batch, index, 0) & EncodedBody.IndexMask;
+        A = processor.BodyReference(ref typeBatch, indexInTypeBatch, 0) & EncodedBody.IndexMask;
         B = -1;
         IsFixedB = true;
         if (processor.BodiesPerConstraint > 1)
         {
-            var reference = processor.BodyReference(ref batch, index, 1);
+            var reference = processor.BodyReference(ref typeBatch, indexInTypeBatch, 1);
             B = reference & EncodedBody.IndexMask;
             IsFixedB = (reference & EncodedBody.KinematicFlag) != 0;
         }
@@ -63,13 +64,13 @@ unsafe readonly ref struct ContactRows
     /// <summary>Coulomb coefficient of the patch.</summary>
     internal float Friction => MathF.Abs(SignedFriction);
 
-    float SignedFriction => processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Friction(contactCount));
+    float SignedFriction => Field(ContactPrestepLayout.Friction(contactCount));
 
     /// <summary>Whether the place of B is that of friction; see <see cref="ContactMaterialWide.SharesFriction"/>.</summary>
     bool SharesFriction => B >= 0 && float.IsNegative(SignedFriction);
 
     /// <summary>Greatest speed at which penetration is corrected.</summary>
-    internal float MaximumRecoveryVelocity => processor.PrestepFloat(ref batch, index, ContactPrestepLayout.MaximumRecovery(contactCount));
+    internal float MaximumRecoveryVelocity => Field(ContactPrestepLayout.MaximumRecovery(contactCount));
 
     /// <summary>Sum of the accumulated normal impulses.</summary>
     internal float Load
@@ -146,10 +147,10 @@ unsafe readonly ref struct ContactRows
     }
 
     /// <summary>An accumulated impulse: those along the normal, contact by contact, then friction and twist.</summary>
-    internal ref float Impulse(int row) => ref processor.Impulse(ref batch, index, row);
+    internal ref float Impulse(int row) => ref Unsafe.Add(ref impulses, row * Vector<float>.Count);
 
     /// <summary>Angular frequency of the contacts' spring; see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
-    internal ref float Spring => ref processor.PrestepFloat(ref batch, index, ContactPrestepLayout.Spring(contactCount));
+    internal ref float Spring => ref Field(ContactPrestepLayout.Spring(contactCount));
 
     /// <summary>Impulse against turning about the normal.</summary>
     internal ref float Twist => ref Impulse(ContactPrestepLayout.FrictionImpulse(contactCount) + 3);
@@ -162,9 +163,9 @@ unsafe readonly ref struct ContactRows
 
     /// <summary>Depth of a contact at detection; negative where the surfaces were apart.</summary>
     internal ref float Depth(int contact) =>
-        ref processor.PrestepFloat(ref batch, index, contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);
+        ref Field(contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);
 
-    Vector3 Read(int field) => new(
-        processor.PrestepFloat(ref batch, index, field), processor.PrestepFloat(ref batch, index, field + 1),
-        processor.PrestepFloat(ref batch, index, field + 2));
+    ref float Field(int field) => ref Unsafe.Add(ref prestep, field * Vector<float>.Count);
+
+    Vector3 Read(int field) => new(Field(field), Field(field + 1), Field(field + 2));
 }
