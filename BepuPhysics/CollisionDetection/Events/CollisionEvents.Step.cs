@@ -228,6 +228,7 @@ public sealed unsafe partial class CollisionEvents
             for (int j = manifold.FirstContact; j < manifold.FirstContact + manifold.ContactCount; ++j)
             {
                 ref var contact = ref stage.Contacts[j];
+                contact.Impulse = manifold.Normals[j - manifold.FirstContact];
                 result.Impulse += contact.Impulse;
                 touches |= contact.Depth > 0 || contact.Impulse > 0;
                 if (IsStronger(contact, stage.Contacts[strongest]))

@@ -1,5 +1,6 @@
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;
@@ -55,5 +56,7 @@ unsafe struct ListenedManifold
     public int ContactCount;
     public int FirstContact;
     public float ApproachSpeed;
+    /// <summary>Sums over the substeps: along the normal, contact by contact, and of friction.</summary>
+    public FourFloats Normals;
     public Vector3 Friction;
 }

@@ -54,11 +54,11 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies) : ISolverStage
             manifold.ApproachSpeed = MathHelper.Max(manifold.ApproachSpeed, -rows.NormalRow(i).Along(velocityA, velocityB));
     }
 
-    void Sum(ref ListenedManifold manifold)
+    static void Sum(ref ListenedManifold manifold)
     {
         var impulse = manifold.Impulses;
         for (int i = 0; i < manifold.ContactCount; ++i, impulse += Vector<float>.Count)
-            Contacts[manifold.FirstContact + i].Impulse += *impulse;
+            manifold.Normals[i] += *impulse;
         manifold.Friction += new Vector3(*impulse, impulse[Vector<float>.Count], impulse[2 * Vector<float>.Count]);
     }
 }
