@@ -86,17 +86,17 @@ public class UnusedListenersTests
         using var world = new SceneWorld(Load(name), threads);
         var events = world.Simulation.Events;
         ForAll(world.Simulation, collidable => events.Listen(collidable, EventMask.All));
-        // While lists grow they do so in pools, but code that runs for the first time may take managed memory.
+        // While lists grow they do so in pools, but code that runs for the first time may take managed memory. The piles have to come down, too.
         int calm = 0, steps = 0;
         long told = 0;
-        for (; steps < 300 && calm < 60; ++steps)
+        for (; steps < 150 || (steps < 300 && calm < 60); ++steps)
         {
             var before = world.ManagedBytes();
             world.Step();
             calm = world.ManagedBytes() == before ? calm + 1 : 0;
             told += events.Began.Length + events.Persisting.Length;
         }
-        Assert.True(calm == 60, $"In {steps} steps no 60 in a row made no garbage.");
+        Assert.True(calm >= 60, $"In {steps} steps no 60 in a row made no garbage.");
         Assert.True(told > 100 * steps, $"{told} events in {steps} steps");
     }
 }
