@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Numerics;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 using Xunit;
 
@@ -321,7 +322,9 @@ public unsafe class BufferPoolTests
         using var pool = new BufferPool(4096, 1);
         var before = GC.GetAllocatedBytesForCurrentThread();
         Grow(pool);
-        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        var allocated = GC.GetAllocatedBytesForCurrentThread() - before;
+        // Builds with checks note the types of what is lent.
+        Assert.True(Check.IsEnabled || allocated == 0, $"{allocated} bytes");
         Assert.True(pool.GetTotalAllocatedByteCount() > 2000 * 64 + (1 << 20));
 
         // Two thousand blocks of one size, and one of each of the others.
