@@ -1,7 +1,7 @@
-using System;
+using System.Numerics;
 using BenchmarkDotNet.Attributes;
-using Benchmarks.Smoke;
 using BepuPhysics;
+using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using Demos.Running;
 using Demos.Scenes;
@@ -9,16 +9,10 @@ using Demos.Scenes;
 namespace Benchmarks.Scenes;
 
 /// <summary>What events and layers cost: nobody asks for them, somebody does who meets nothing, or everybody listens to everything.</summary>
-/// <remarks>Every iteration builds the scene anew and measures the same steps of it; the state after these is the same for all.</remarks>
+/// <remarks>The state after the steps that are measured is the same for all.</remarks>
 [WarmupCount(2), IterationCount(15)]
-public class ListeningBenchmarks : IShortened, IDisposable
+public class ListeningBenchmarks : SceneStepBenchmarks
 {
-    const int StepsPerCall = 40;
-
-    int warmupSteps = 60;
-    int steps = StepsPerCall;
-    SceneRun? run;
-
     /// <summary>Who asks.</summary>
     public enum Audience
     {
@@ -38,42 +32,19 @@ public class ListeningBenchmarks : IShortened, IDisposable
     [Params("pyramids", "shape-pile")]
     public string Scene { get; set; } = "pyramids";
 
-    /// <inheritdoc/>
-    void IShortened.Shorten() => (warmupSteps, steps) = (1, 2);
-
-    /// <summary>Builds the scene and lets its contacts form.</summary>
-    [IterationSetup]
-    public void Setup()
+    private protected override SceneRun Create()
     {
-        run = new SceneRun(SceneLibrary.Load(Scene, seed: 1), new RunSettings { Listen = Asks == Audience.All });
+        var run = new SceneRun(SceneLibrary.Load(Scene, seed: 1), new RunSettings { Listen = Asks == Audience.All });
         if (Asks == Audience.Elsewhere)
             ListenElsewhere(run.Simulation);
-        for (int i = 0; i < warmupSteps; ++i)
-            run.Step();
+        return run;
     }
 
     static void ListenElsewhere(Simulation simulation)
     {
-        var shape = simulation.Shapes.Add(new BepuPhysics.Collidables.Sphere(1));
-        var far = simulation.Statics.Add(new StaticDescription(new(0, 1e5f, 0), System.Numerics.Quaternion.Identity, shape));
+        var shape = simulation.Shapes.Add(new Sphere(1));
+        var far = simulation.Statics.Add(new StaticDescription(new(0, 1e5f, 0), Quaternion.Identity, shape));
         simulation.Events.Listen(far, EventMask.All);
         simulation.Layers[far] = new CollisionLayers(1, 1);
-    }
-
-    /// <summary>Frees it.</summary>
-    [IterationCleanup]
-    public void Dispose()
-    {
-        run?.Dispose();
-        run = null;
-        GC.SuppressFinalize(this);
-    }
-
-    /// <summary>A sixtieth of a second in four substeps.</summary>
-    [Benchmark(OperationsPerInvoke = StepsPerCall)]
-    public void Step()
-    {
-        for (int i = 0; i < steps; ++i)
-            run!.Step();
     }
 }

@@ -121,8 +121,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     public int GetCapacityForPower(int power)
     {
         CheckPower(power);
-        var pool = pools[Math.Max(power, MinimumPower) - MinimumPower];
-        return (int)Math.Min(pool.AllocatedByteCount, int.MaxValue);
+        return (int)Math.Min(GetPool(Math.Max(power, MinimumPower)).AllocatedByteCount, int.MaxValue);
     }
 
     /// <summary>Bytes that this pool holds from the system, whether lent or not.</summary>

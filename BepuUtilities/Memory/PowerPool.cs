@@ -119,7 +119,7 @@ sealed unsafe class PowerPool
             }
             hollowSlotCount += goneCount;
             freeSlotCount -= goneCount;
-            FreeSlots(goneCount + freeSlotCount)[goneCount..].CopyTo(FreeSlots(freeSlotCount));
+            new ReadOnlySpan<int>(freeSlots + goneCount, freeSlotCount).CopyTo(new Span<int>(freeSlots, freeSlotCount));
         }
         idleSlotCount = freeSlotCount;
     }
@@ -225,8 +225,6 @@ sealed unsafe class PowerPool
         allocations[allocationCount] = AskSystem();
         ++allocationCount;
     }
-
-    Span<int> FreeSlots(int count) => new(freeSlots, count);
 
     static int WordCount(int slotCount) => (slotCount + 63) >> 6;
 

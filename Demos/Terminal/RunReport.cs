@@ -73,7 +73,7 @@ sealed class RunReport(TextWriter output)
             yield return ("joint error", Text($"{worst * 1000:0.###} mm at most, {rms * 1000:0.###} mm rms"));
         yield return ("energy", Text($"{result.KineticEnergy:G6} J kinetic, {result.PotentialEnergy:G6} J potential"));
         yield return ("moved", Text($"{result.Moved} by more than 0.5 m, {result.Lost} lost, {result.NotFinite} not finite"));
-        if (!result.IsSound)
+        if (result.Lost > 0)
             yield return ("status", Text($"{DemosCommand.Unsound}: what fell below y = {BuiltScene.LostBelow} is lost; what falls on nothing is in time"));
         yield return ("hash", RunResultJson.HashText(result.Hash));
     }

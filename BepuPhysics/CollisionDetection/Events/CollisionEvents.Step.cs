@@ -15,6 +15,8 @@ public sealed unsafe partial class CollisionEvents
     // In the order of pairs. The second takes the result of the next merge.
     QuickList<ListenedPair> pairs;
     QuickList<ListenedPair> spare;
+    // Of the manifolds that the stage sums up.
+    QuickList<EventContact> contacts;
     QuickList<ContactEvent> began;
     QuickList<ContactEvent> ended;
     QuickList<ContactEvent> hits;
@@ -40,7 +42,7 @@ public sealed unsafe partial class CollisionEvents
     internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = 0;
-        stage.Manifolds.Count = stage.Contacts.Count = 0;
+        stage.Manifolds.Count = contacts.Count = 0;
         isSettled &= isAtRest && added.Count == 0 && turned.Count == 0 && removalsSeen == traits.RemovalCount;
         if (isSettled)
             return;
@@ -113,7 +115,7 @@ public sealed unsafe partial class CollisionEvents
             if (!manifold.HasConstraint)
                 continue;
             var count = ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId);
-            Add(ref stage.Manifolds, new() { Constraint = manifold.Constraint, ContactCount = count, FirstContact = stage.Contacts.Count });
+            Add(ref stage.Manifolds, new() { Constraint = manifold.Constraint, ContactCount = count, FirstContact = contacts.Count });
             var rows = new ContactRows(solver, bodies, manifold.Constraint, count);
             pair.OffsetB = rows.OffsetB;
             // There the constraint may have the place of friction.
@@ -121,7 +123,7 @@ public sealed unsafe partial class CollisionEvents
                 pair.OffsetB = bodies.SetOf(pair.Pair.B.BodyHandle, out var indexB).MotionStates[indexB].Pose.Position - pair.CenterOfA;
             for (int i = 0; i < count; ++i)
             {
-                Add(ref stage.Contacts, new()
+                Add(ref contacts, new()
                 {
                     Position = pair.CenterOfA + rows.Arm(i),
                     Normal = rows.Normal,
@@ -227,17 +229,17 @@ public sealed unsafe partial class CollisionEvents
             result.ContactCount += manifold.ContactCount;
             for (int j = manifold.FirstContact; j < manifold.FirstContact + manifold.ContactCount; ++j)
             {
-                ref var contact = ref stage.Contacts[j];
+                ref var contact = ref contacts[j];
                 contact.Impulse = manifold.Normals[j - manifold.FirstContact];
                 result.Impulse += contact.Impulse;
                 touches |= contact.Depth > 0 || contact.Impulse > 0;
-                if (IsStronger(contact, stage.Contacts[strongest]))
+                if (IsStronger(contact, contacts[strongest]))
                     strongest = j;
             }
         }
-        result.Position = stage.Contacts[strongest].Position;
-        result.Normal = stage.Contacts[strongest].Normal;
-        result.Depth = stage.Contacts[strongest].Depth;
+        result.Position = contacts[strongest].Position;
+        result.Normal = contacts[strongest].Normal;
+        result.Depth = contacts[strongest].Depth;
         return result;
     }
 
@@ -262,7 +264,7 @@ public sealed unsafe partial class CollisionEvents
         Release(ref persisting);
         ReleaseSleep();
         Release(ref stage.Manifolds);
-        Release(ref stage.Contacts);
+        Release(ref contacts);
     }
 
     void Release<T>(ref QuickList<T> list) where T : unmanaged
@@ -278,6 +280,6 @@ public sealed unsafe partial class CollisionEvents
         began = ended = hits = persisting = default;
         AbandonSleep();
         stage.Manifolds = default;
-        stage.Contacts = default;
+        contacts = default;
     }
 }

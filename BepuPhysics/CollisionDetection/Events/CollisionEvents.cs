@@ -72,7 +72,7 @@ public sealed unsafe partial class CollisionEvents
     /// <summary>The contacts of an event, also those that did not push; empty for sensors. Valid as long as the event's list.</summary>
     /// <param name="contactEvent">An event of one of the lists as they are now.</param>
     public ReadOnlySpan<EventContact> Contacts(in ContactEvent contactEvent) =>
-        AsSpan(stage.Contacts).Slice(contactEvent.FirstContact, contactEvent.ContactCount);
+        AsSpan(contacts).Slice(contactEvent.FirstContact, contactEvent.ContactCount);
 
     /// <summary>Says what is to be told of a collidable from the next step on, in the place of what was said before.</summary>
     /// <remarks>Pairs that touch already begin then; those that sleep, when they wake. It is forgotten when the collidable is removed.</remarks>

@@ -64,7 +64,7 @@ public sealed unsafe partial class CollisionEvents
                 ref var manifold = ref stage.Manifolds[j];
                 for (int k = manifold.FirstContact; k < manifold.FirstContact + manifold.ContactCount; ++k)
                 {
-                    ref var contact = ref stage.Contacts[k];
+                    ref var contact = ref contacts[k];
                     snapshot.Add(new()
                     {
                         Offset = contact.Position - pair.CenterOfA,

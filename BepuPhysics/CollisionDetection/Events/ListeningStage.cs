@@ -17,8 +17,6 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies) : ISolverStage
 
     /// <summary>Constraints to read. Blocks write to those of theirs.</summary>
     internal QuickList<ListenedManifold> Manifolds;
-    /// <summary>Contacts of these.</summary>
-    internal QuickList<EventContact> Contacts;
 
     bool ISolverStage.ChangesVelocities => false;
 

@@ -55,6 +55,9 @@ unsafe partial struct DirectPlan
     /// <summary>Whether any joint is solved at once.</summary>
     internal readonly bool IsEmpty => Nodes.Count == 0;
 
+    /// <summary>The island of a member.</summary>
+    internal readonly ref DirectIsland IslandOf(int member) => ref Islands[Nodes[member / Lanes].Island];
+
     /// <summary>Makes lists.</summary>
     internal static DirectPlan Create(BufferPool pool) => new()
     {

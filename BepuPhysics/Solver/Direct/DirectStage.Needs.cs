@@ -62,7 +62,7 @@ sealed unsafe partial class DirectStage
                         need.Rest(time);
                     // Whoever writes it writes the same.
                     if (need.Asks > 0)
-                        plan.Islands[plan.Nodes[member / DirectPlan.Lanes].Island].IsAskedFor[member % DirectPlan.Lanes] = true;
+                        plan.IslandOf(member).IsAskedFor[member % DirectPlan.Lanes] = true;
                 }
             }
             first += batch.BundleCount;
@@ -90,7 +90,7 @@ sealed unsafe partial class DirectStage
                 frequencyDt = MathHelper.Min(frequencyDt, substep.Hubs.RigidFrequencyDt);
         }
         var scale = (double)substep.Dt / (frequencyDt * frequencyDt);
-        var (linear, angular) = plan.Islands[plan.Nodes[member / DirectPlan.Lanes].Island].Lanes switch
+        var (linear, angular) = plan.IslandOf(member).Lanes switch
         {
             1 => VelocityByLoad<OneVector, OneNumber>(member, processor),
             DirectPlan.FourLanes => VelocityByLoad<ManyVectors<FourNumbers>, FourNumbers>(member, processor),

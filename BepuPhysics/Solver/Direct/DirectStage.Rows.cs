@@ -53,7 +53,7 @@ sealed unsafe partial class DirectStage
         for (int row = 0; row < rows.Length && (mayLessen || !isWhole); ++row)
         {
             for (int lane = 0; lane < count; ++lane)
-                targets[row * DirectPlan.MostLanes + lane] = LaneOf(rows[row].TargetVelocity, firstLane + lane);
+                targets[row * DirectPlan.MostLanes + lane] = JointLane.LaneOf(rows[row].TargetVelocity, firstLane + lane);
         }
         for (int lane = 0; lane < count && mayLessen; ++lane)
             Lessen(new(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]), members[lane], substep);
@@ -68,7 +68,7 @@ sealed unsafe partial class DirectStage
         for (int lane = 0; lane < count; ++lane)
         {
             var joint = new JointLane(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]);
-            var lanes = plan.Islands[plan.Nodes[members[lane] / DirectPlan.Lanes].Island].Lanes;
+            var lanes = plan.IslandOf(members[lane]).Lanes;
             if (lanes == 1)
                 Write<OneVector, OneNumber>(joint, members[lane]);
             else if (lanes == DirectPlan.FourLanes)
@@ -96,7 +96,7 @@ sealed unsafe partial class DirectStage
             return true;
         for (int lane = 0; lane < count; ++lane)
         {
-            if (LaneOf(row.PositionError, firstLane + lane) < 0)
+            if (JointLane.LaneOf(row.PositionError, firstLane + lane) < 0)
                 return true;
         }
         return false;
@@ -121,7 +121,7 @@ sealed unsafe partial class DirectStage
         ref var node = ref plan.Nodes[member / DirectPlan.Lanes];
         ref var island = ref plan.Islands[node.Island];
         var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
-        var softness = joint.Limit != RowLimit.None || island.HasLoops ? hardSoftness : 0;
+        var softness = HardSoftness(joint.Kind, island);
         var lane = member % DirectPlan.Lanes;
         var pair = equations.Jacobians + node.Jacobian;
         for (int row = 0; row < joint.RowCount; ++row)
@@ -154,7 +154,7 @@ sealed unsafe partial class DirectStage
         ref var node = ref plan.Nodes[joint];
         ref var island = ref plan.Islands[node.Island];
         var equations = new DirectMemory<ManyVectors<TNumbers>, TNumbers>(memory.Memory, island);
-        var softness = kind.HasBounds || island.HasLoops ? hardSoftness : 0;
+        var softness = HardSoftness(kind, island);
         var isHard = Vector.EqualsAll(rows[0].HardMask, Vector<int>.AllBitsSet);
         // Linear and angular parts, component by component.
         var j = (TNumbers*)(equations.Jacobians + node.Jacobian);
@@ -162,28 +162,27 @@ sealed unsafe partial class DirectStage
         {
             for (int slot = 0; slot < kind.BodyCount; ++slot)
             {
-                ref var first = ref LaneOf(Unsafe.AsRef(in rows[row]).Of(slot).Linear.X, firstLane);
+                ref var first = ref JointLane.LaneOf(Unsafe.AsRef(in rows[row]).Of(slot).Linear.X, firstLane);
                 j += kind.SeesLinear ? 0 : 3;
                 for (int i = kind.SeesLinear ? 0 : 3; i < 6; ++i)
                     *j++ = TNumbers.Read(ref Unsafe.Add(ref first, i * Vector<float>.Count));
             }
             ref var ofRow = ref equations.Rows[node.FirstRow + row];
             ofRow.Target = targets.IsEmpty
-                ? TNumbers.Read(ref LaneOf(rows[row].TargetVelocity, firstLane))
+                ? TNumbers.Read(ref JointLane.LaneOf(rows[row].TargetVelocity, firstLane))
                 : TNumbers.Read(ref Unsafe.AsRef(in targets[row * DirectPlan.MostLanes]));
-            ofRow.Impulse = TNumbers.Read(ref LaneOf(rows[row].Impulse, firstLane));
+            ofRow.Impulse = TNumbers.Read(ref JointLane.LaneOf(rows[row].Impulse, firstLane));
             ofRow.Softness = TNumbers.Of(softness);
             for (int lane = 0; lane < TNumbers.Count && !isHard; ++lane)
             {
-                DirectLane.Of(ref ofRow.Softness, lane) =
-                    new JointLane(kind, rows, firstLane + lane, ref Unsafe.NullRef<int>(), ref Unsafe.NullRef<double>()).Softness(row, softness);
+                DirectLane.Of(ref ofRow.Softness, lane) = JointLane.Softness(rows, row, firstLane + lane, softness);
             }
         }
-        equations.Holds[joint].MostImpulse = TNumbers.Read(ref LaneOf(rows[0].MaximumImpulse, firstLane));
+        equations.Holds[joint].MostImpulse = TNumbers.Read(ref JointLane.LaneOf(rows[0].MaximumImpulse, firstLane));
     }
 
-    // By address: an element of a vector is a copy of it otherwise.
-    static ref float LaneOf(in Vector<float> vector, int lane) => ref Unsafe.Add(ref Unsafe.As<Vector<float>, float>(ref Unsafe.AsRef(in vector)), lane);
+    // A structure without loops bears joints that do not give at all. What has bounds may say the same as the joint beside it.
+    static double HardSoftness(in JointKind kind, in DirectIsland island) => kind.HasBounds || island.HasLoops ? hardSoftness : 0;
 
     // A limit with slack left, a servo on its way at its greatest speed and a motor do not correct an error.
     static bool CorrectsAll(in JointLane joint, in Substep substep)

@@ -94,31 +94,28 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
             case SolverPoint.BeforeWarmStart:
                 ReadBundles(substep, block);
                 break;
-            case SolverPoint.AfterWarmStart:
+            case SolverPoint.AfterWarmStart or SolverPoint.AfterSolve:
                 for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
                 {
                     ref var island = ref plan.Islands[i];
                     if (island.Lanes == 1)
-                        Begin<OneVector, OneNumber>(island, substep);
+                        Execute<OneVector, OneNumber>(point, island, substep);
                     else if (island.Lanes == DirectPlan.FourLanes)
-                        Begin<ManyVectors<FourNumbers>, FourNumbers>(island, substep);
+                        Execute<ManyVectors<FourNumbers>, FourNumbers>(point, island, substep);
                     else
-                        Begin<ManyVectors<EightNumbers>, EightNumbers>(island, substep);
-                }
-                break;
-            case SolverPoint.AfterSolve:
-                for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
-                {
-                    ref var island = ref plan.Islands[i];
-                    if (island.Lanes == 1)
-                        Solve<OneVector, OneNumber>(island);
-                    else if (island.Lanes == DirectPlan.FourLanes)
-                        Solve<ManyVectors<FourNumbers>, FourNumbers>(island);
-                    else
-                        Solve<ManyVectors<EightNumbers>, EightNumbers>(island);
+                        Execute<ManyVectors<EightNumbers>, EightNumbers>(point, island, substep);
                 }
                 break;
         }
+    }
+
+    void Execute<TVectors, TNumbers>(SolverPoint point, in DirectIsland island, in Substep substep)
+        where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
+    {
+        if (point == SolverPoint.AfterWarmStart)
+            Begin<TVectors, TNumbers>(island, substep);
+        else
+            Solve<TVectors, TNumbers>(island);
     }
 
     /// <summary>The joints that are solved here, as the sweeps leave them out. There are some.</summary>

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
@@ -86,12 +87,19 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
     /// <summary>Impulse of a row.</summary>
     internal float Impulse(int row) => Lane(rows[row].Impulse);
 
-    // A structure without loops bears joints that do not give at all. What has bounds may say the same as the joint beside it.
     /// <summary>Softness of a row as a part of its own K.</summary>
     /// <param name="row">The row.</param>
     /// <param name="hardSoftness">That of what is as stiff as can be.</param>
-    internal double Softness(int row, double hardSoftness) =>
-        IsHard ? hardSoftness : Lane(rows[row].ImpulseScale) / Math.Max(Lane(rows[row].MassScale), LeastMassScale);
+    internal double Softness(int row, double hardSoftness) => Softness(rows, row, lane, hardSoftness);
+
+    /// <summary>Softness of a row of one joint of a bundle.</summary>
+    /// <param name="rows">Rows of the bundle.</param>
+    /// <param name="row">The row.</param>
+    /// <param name="lane">Lane of the joint.</param>
+    /// <param name="hardSoftness">That of what is as stiff as can be.</param>
+    internal static double Softness(ReadOnlySpan<ConstraintRowWide> rows, int row, int lane, double hardSoftness) => LaneOf(rows[0].HardMask, lane) != 0
+        ? hardSoftness
+        : LaneOf(rows[row].ImpulseScale, lane) / Math.Max(LaneOf(rows[row].MassScale, lane), LeastMassScale);
 
     // Of a spring that is so soft that it does nothing.
     const double LeastMassScale = 1e-12;
@@ -109,6 +117,8 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
         return x * x + y * y + z * z;
     }
 
-    // By address: an element of a vector is a copy of it otherwise.
-    T Lane<T>(in Vector<T> vector) where T : unmanaged => Unsafe.Add(ref Unsafe.As<Vector<T>, T>(ref Unsafe.AsRef(in vector)), lane);
+    T Lane<T>(in Vector<T> vector) where T : unmanaged => LaneOf(vector, lane);
+
+    /// <summary>A number of one joint of a bundle. By address: an element of a vector is a copy of it otherwise.</summary>
+    internal static ref T LaneOf<T>(in Vector<T> vector, int lane) where T : unmanaged => ref GatherScatter.Get(ref Unsafe.AsRef(in vector), lane);
 }
