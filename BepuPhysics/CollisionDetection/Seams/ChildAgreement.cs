@@ -202,9 +202,10 @@ static class ChildAgreement
     {
         if (SharesChild(child, leader, view))
             return true;
+        ref readonly var normal = ref view.Result(leader).Manifold.Normal;
         foreach (ref var other in view.Ranked)
         {
-            if (other.Group == leader.Group && SharesChild(child, other, view) && HasOneNormal(view, other, leader))
+            if (other.Group == leader.Group && HasOneNormal(view.Result(other).Manifold.Normal, normal) && SharesChild(child, other, view))
                 return true;
         }
         return false;
