@@ -15,6 +15,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
 {
     readonly WorldLock world = new();
     readonly bool ownsShapes;
+    bool isDisposed;
     readonly CollidableTraits traits;
     readonly SleepingIslands islands;
 
@@ -162,7 +163,8 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
             Shapes.MakeRoomFor(sizes.ShapesPerType);
     }
 
-    internal bool IsDisposed => world.HasEnded;
+    /// <summary>Whether it is disposed of, as while its callbacks let go of what they have, or its memory is gone.</summary>
+    internal bool IsEnding => isDisposed || world.HasEnded;
 
     /// <summary>Returns all memory to the pool. From then on everything but a second call is refused.</summary>
     /// <exception cref="InvalidOperationException">A step or a query is in progress, or another simulation uses the shapes; nothing was changed.</exception>
@@ -172,6 +174,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
             return;
         using var change = world.ChangeOutsideOfSteps("Simulation.Dispose");
         CheckShapesNotLent("disposed");
+        isDisposed = true;
         try
         {
             // The callbacks are the game's and may throw.

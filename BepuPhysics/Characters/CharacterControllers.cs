@@ -163,7 +163,7 @@ public sealed partial class CharacterControllers : IDisposable, IBufferPoolUser
     {
         if (isDisposed)
             return;
-        if (simulation is { IsDisposed: false })
+        if (simulation is { IsEnding: false })
         {
             foreach (ref var character in characters.Span.AsSpan()[..characters.Count])
                 Release(ref character);

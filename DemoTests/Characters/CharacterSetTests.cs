@@ -5,6 +5,8 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Characters;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
+using BepuUtilities.Memory;
 using DemoTests.Support;
 using Xunit;
 
@@ -199,5 +201,50 @@ public class CharacterSetTests
         // Friction is the floor's again: 9.81 m/s2.
         world.Step(30);
         Assert.True(world.Velocity(body).Length() < 1e-3f, $"{world.Velocity(body)}");
+    }
+
+    // As in the demo of characters whose names these are, where all else of a game that came from there stays.
+    struct DisposingCallbacks(CharacterControllers characters) : INarrowPhaseCallbacks
+    {
+        public readonly void Initialize(Simulation simulation) => characters.Initialize(simulation);
+
+        public readonly bool AllowContactGeneration(int workerIndex, CollidableReference a, CollidableReference b, ref float speculativeMargin) => true;
+
+        public readonly bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB) => true;
+
+        public readonly bool ConfigureContactManifold<TManifold>(
+            int workerIndex, CollidablePair pair, ref TManifold manifold, out PairMaterialProperties pairMaterial)
+            where TManifold : unmanaged, IContactManifold<TManifold>
+        {
+            pairMaterial = new(1, 2, default);
+            characters.TryReportContacts(pair, ref manifold, workerIndex, ref pairMaterial);
+            return true;
+        }
+
+        public readonly bool ConfigureContactManifold(
+            int workerIndex, CollidablePair pair, int childIndexA, int childIndexB, ref ConvexContactManifold manifold) => true;
+
+        public readonly void Dispose() => characters.Dispose();
+    }
+
+    [Fact]
+    public void Callbacks_of_a_game_may_dispose_of_them()
+    {
+        using var pool = new BufferPool();
+        var characters = new CharacterControllers(pool);
+        var simulation = Simulation.Create(
+            pool, new DisposingCallbacks(characters), new DefaultPoseIntegratorCallbacks(new Vector3(0, -10, 0)), new SolveDescription(1, 4));
+        simulation.Statics.Add(new StaticDescription(new Vector3(0, -0.5f, 0), simulation.Shapes.Add(new Box(20, 1, 20))));
+        var body = simulation.Bodies.Add(BodyDescription.CreateDynamic(
+            new Vector3(0, CharacterWorld.HalfHeight, 0), new BodyInertia { InverseMass = 0.1f }, simulation.Shapes.Add(CharacterWorld.Shape), 0.01f));
+        characters.AllocateCharacter(body).TargetVelocity = new(3, 0);
+        for (int i = 0; i < 10; ++i)
+            simulation.Timestep(CharacterWorld.Dt);
+        // It stands, so there is a constraint to let go of.
+        Assert.Equal(2, simulation.Solver.CountConstraints());
+
+        simulation.Dispose();
+
+        pool.AssertEmpty();
     }
 }

@@ -10,6 +10,8 @@ namespace BepuPhysics.CollisionDetection;
 /// <remarks>
 /// Of two nodes that overlap the one with more children below is opened. So all children of one are never tried against the other, unless
 /// one of the two is a list. A node is opened anew for each it meets, and each two children meet once.
+/// The children of a list ask the tree of the other, each with a box in the tree's own frame: a tree is searched by a box in a tenth of the
+/// time that it takes to bring the nodes on the way into the frame of the list.
 /// </remarks>
 unsafe ref struct ContainerDescent<TContainerA, TContainerB>
     where TContainerA : unmanaged, IContainer where TContainerB : unmanaged, IContainer
@@ -22,26 +24,70 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
 
     const int InitialCapacity = 64;
 
+    /// <summary>Whether children of A ask B.</summary>
+    public static bool IsAsked => TContainerA.IsList && !TContainerB.IsList;
+
     QuickList<NodePair> stack;
     Buffer<NodeChild> belowA, belowB;
     BufferPool pool;
     int parent;
     bool flipped;
 
-    public static void Find(in TContainerA a, in TContainerB b, in NodePlacement placement, int parent, bool flipped, Shapes shapes,
-        ref QuickList<FoundChild> found, BufferPool pool)
+    /// <summary>Finds the children of a pair.</summary>
+    /// <param name="a">First container.</param>
+    /// <param name="b">Second container.</param>
+    /// <param name="placementB">Puts nodes of B into the frame of A.</param>
+    /// <param name="placementA">Puts nodes of A into the frame of B; used where <see cref="IsAsked"/>.</param>
+    /// <param name="parent">Index of the pair.</param>
+    /// <param name="flipped">Whether the caller's A is <paramref name="b"/>.</param>
+    /// <param name="shapes">Shapes that children may be.</param>
+    /// <param name="found">Receives the children.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void Find(in TContainerA a, in TContainerB b, in NodePlacement placementB, in NodePlacement placementA, int parent, bool flipped,
+        Shapes shapes, ref QuickList<FoundChild> found, BufferPool pool)
     {
         var descent = new ContainerDescent<TContainerA, TContainerB> { pool = pool, parent = parent, flipped = flipped };
-        descent.stack = new(InitialCapacity, pool);
-        descent.Descend(a, b, placement, shapes, ref found);
-        descent.stack.Dispose(pool);
+        var countA = ContainerPlaces.Open(a, 0, shapes, ref descent.belowA, pool);
+        if (IsAsked)
+            countA = descent.Ask(b, placementA, countA, shapes, ref found);
+        if (countA > 0)
+        {
+            descent.stack = new(InitialCapacity, pool);
+            descent.Descend(a, b, placementB, countA, shapes, ref found);
+            descent.stack.Dispose(pool);
+            pool.Return(ref descent.belowB);
+        }
         pool.Return(ref descent.belowA);
-        pool.Return(ref descent.belowB);
     }
 
-    void Descend(in TContainerA a, in TContainerB b, in NodePlacement placement, Shapes shapes, ref QuickList<FoundChild> found)
+    // What is made of children itself is left at the front of the list.
+    int Ask(in TContainerB b, in NodePlacement placement, int countA, Shapes shapes, ref QuickList<FoundChild> found)
     {
-        var countA = ContainerPlaces.Open(a, 0, shapes, ref belowA, pool);
+        var near = new QuickList<int>(InitialCapacity, pool);
+        int left = 0;
+        for (int i = 0; i < countA; ++i)
+        {
+            ref var child = ref belowA[i];
+            if (child.Index >= 0)
+            {
+                belowA[left++] = child;
+                continue;
+            }
+            var box = placement.Place(child);
+            near.Count = 0;
+            b.FindOverlaps(box.Min, box.Max, shapes, null, ref near, pool);
+            foreach (int other in near.AsSpan())
+                Add(~child.Index, other, ref found);
+        }
+        near.Dispose(pool);
+        return left;
+    }
+
+    readonly void Add(int childA, int childB, ref QuickList<FoundChild> found) =>
+        found.Add(new(parent, flipped ? new(childB, childA) : new(childA, childB)), pool);
+
+    void Descend(in TContainerA a, in TContainerB b, in NodePlacement placement, int countA, Shapes shapes, ref QuickList<FoundChild> found)
+    {
         var countB = OpenB(b, 0, placement, shapes);
         for (int i = 0; i < countA; ++i)
         {
@@ -79,7 +125,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
         if (!BoundingBox.IntersectsUnsafe(a.Min, a.Max, b.Min, b.Max))
             return;
         if (a.Index < 0 && b.Index < 0)
-            found.Add(new(parent, flipped ? new(~b.Index, ~a.Index) : new(~a.Index, ~b.Index)), pool);
+            Add(~a.Index, ~b.Index, ref found);
         else
             stack.Add(new(a, b), pool);
     }

@@ -27,20 +27,32 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             var count = Math.Min(Vector<float>.Count, batch.Count - start);
-            var parents = default(ParentMotionWide);
-            for (int i = 0; i < count; ++i)
-                parents.Write(entries[start + i].Pair, moverIsA: entries[start + i].Pair.Flipped, i);
-            var motion = new RelativeMotionWide(parents, dt);
+            var motionsB = Motions(entries + start, count, ofA: false, dt);
+            var motionsA = ContainerDescent<TContainerA, TContainerB>.IsAsked ? Motions(entries + start, count, ofA: true, dt) : default;
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
-                var placement = new NodePlacement(ref motion, i);
+                var flipped = entry.Pair.Flipped;
+                var placementB = new NodePlacement(ref motionsB, i, entry.Pair, moverIsA: flipped, dt);
+                var placementA = ContainerDescent<TContainerA, TContainerB>.IsAsked
+                    ? new NodePlacement(ref motionsA, i, entry.Pair, moverIsA: !flipped, dt)
+                    : default;
                 var first = found.Count;
-                ContainerDescent<TContainerA, TContainerB>.Find(entry.A, entry.B, placement, start + i, entry.Pair.Flipped, shapes, ref found, pool);
+                ContainerDescent<TContainerA, TContainerB>.Find(
+                    entry.A, entry.B, placementB, placementA, start + i, flipped, shapes, ref found, pool);
                 if (!TContainerA.IsSurface && TContainerB.MayBeSolid && entry.B.IsSolid)
-                    FindWaysOut(entry, placement, start + i, first, shapes, ref found, pool);
+                    FindWaysOut(entry, placementB, start + i, first, shapes, ref found, pool);
             }
         }
+    }
+
+    // How one of the two containers moves in the frame of the other.
+    static RelativeMotionWide Motions(Entry* entries, int count, bool ofA, float dt)
+    {
+        var parents = default(ParentMotionWide);
+        for (int i = 0; i < count; ++i)
+            parents.Write(entries[i].Pair, moverIsA: entries[i].Pair.Flipped != ofA, i);
+        return new RelativeMotionWide(parents, dt);
     }
 
     // A child of A that is inside of B meets nothing of B but the way out.
