@@ -54,6 +54,7 @@ public partial class MigrationPageTests
         ["inertia of a mesh"] = "MeshInertiaTests.What_encloses_nothing_or_is_inside_out_has_no_closed_inertia",
         ["ContactEvents"] = "ContactEventHandlerTests",
         ["deep overlaps"] = "DepthSearchAccuracyTests",
+        ["shapes without a size"] = "BadInputTests.X13_IsRefused",
         ["a pair of shapes"] = "BatchingTests.UnregisteredPairIsRefusedByName",
         ["bad numbers"] = "BadInputTests.X13_IsRefused",
         ["handle.Value"] = "HandleGenerationTests.A_slot_is_given_out_again_under_another_value_and_is_found_by_it",
