@@ -4,6 +4,7 @@ using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Trees;
+using BepuUtilities;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics;
@@ -52,10 +53,7 @@ public sealed unsafe partial class Simulation
         };
         try
         {
-            var orientation = DoubleMatrix3x3.FromQuaternion(pose.Orientation);
-            var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &tested), orientation, default);
-            SweepBounds.InWorld(default, body, new(pose.Position), out var min, out var max);
-            BroadPhase.FindOverlapping(new(min - new Vector3(margin), max + new Vector3(margin)), pool, ref tester);
+            BroadPhase.FindOverlapping(BoundsWithin(shape, pose, margin), ref tester);
             batcher.Flush();
         }
         finally
@@ -63,5 +61,15 @@ public sealed unsafe partial class Simulation
             batcher.Dispose();
             handler = batcher.Callbacks.Handler;
         }
+    }
+
+    // A box that meets the bounds of all that the shape may have contacts with: what it loses by being of floats is less than what is added.
+    static BoundingBox BoundsWithin<TShape>(in TShape shape, in RigidPose pose, float margin) where TShape : unmanaged, IConvexShape
+    {
+        const float sizePart = 4e-5f, coordinatePart = 2e-6f;
+        shape.ComputeBounds(pose.Orientation, out var min, out var max);
+        var size = Vector3.Abs(min) + Vector3.Abs(max);
+        var pad = new Vector3(margin) + new Vector3(Exact.Dot(size, Vector3.One) * sizePart) + Vector3.Abs(pose.Position) * coordinatePart;
+        return new(pose.Position + (min - pad), pose.Position + (max + pad));
     }
 }

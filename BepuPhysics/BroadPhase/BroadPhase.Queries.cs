@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.Intrinsics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities;
@@ -96,18 +97,20 @@ public sealed unsafe partial class BroadPhase
         where TOverlapEnumerator : IBreakableForEach<CollidableReference>
     {
         using var reading = world.Read("BroadPhase.GetOverlaps");
-        FindOverlapping(new(min, max), pool, ref overlapEnumerator);
+        FindOverlapping(new(min, max), ref overlapEnumerator);
     }
 
-    internal void FindOverlapping<TOverlapEnumerator>(in BoundingBox bounds, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
+    internal void FindOverlapping<TOverlapEnumerator>(in BoundingBox bounds, ref TOverlapEnumerator overlapEnumerator)
         where TOverlapEnumerator : IBreakableForEach<CollidableReference>
     {
         var leafEnumerator = new OverlapLeafEnumerator<TOverlapEnumerator> { Enumerator = overlapEnumerator, Leaves = ActiveLeaves };
-        ActiveTree.GetOverlaps(bounds.Min, bounds.Max, pool, ref leafEnumerator);
+        Tree.RequireQuery(bounds.Min, bounds.Max);
+        Vector128<float> min = bounds.Min.AsVector128(), max = bounds.Max.AsVector128();
+        ActiveTree.FindOverlapping(min, max, ref leafEnumerator);
         if (!leafEnumerator.Stopped)
         {
             leafEnumerator.Leaves = StaticLeaves;
-            StaticTree.GetOverlaps(bounds.Min, bounds.Max, pool, ref leafEnumerator);
+            StaticTree.FindOverlapping(min, max, ref leafEnumerator);
         }
         overlapEnumerator = leafEnumerator.Enumerator;
     }

@@ -1,7 +1,6 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
-using System.Runtime.InteropServices;
 using System.Threading;
 
 namespace BepuPhysics;
@@ -16,16 +15,11 @@ namespace BepuPhysics;
 /// </remarks>
 sealed class WorldLock
 {
-    const int StripeCount = 8;
-    // Ints to a cache line.
-    const int StripeLength = 16;
-
     // Stages of all worlds are numbered, so that a thread's mark means one stage of one world and needs not be taken off.
     static long lastStage;
     [ThreadStatic] static long markedStage;
 
-    // Queries in progress, by thread, so that threads that ask at the same time do not share a cache line. The first line is left free.
-    readonly int[] reading = new int[(StripeCount + 1) * StripeLength];
+    readonly QueryCounts queries = new();
     int holder;
     int stepper;
     // The thread that runs a substep event: the others wait for it.
@@ -38,18 +32,6 @@ sealed class WorldLock
 
     /// <summary>Whether the world has come to its end.</summary>
     internal bool HasEnded => end is not null;
-
-    bool IsRead
-    {
-        get
-        {
-            int sum = 0;
-            ref var first = ref MemoryMarshal.GetArrayDataReference(reading);
-            for (int i = 1; i <= StripeCount; ++i)
-                sum += Volatile.Read(ref Unsafe.Add(ref first, i * StripeLength));
-            return sum != 0;
-        }
-    }
 
     /// <summary>From now on everything is refused.</summary>
     /// <param name="reason">What has happened, as a sentence.</param>
@@ -80,7 +62,7 @@ sealed class WorldLock
     internal void Hold(string operation)
     {
         var thread = Take(operation);
-        if ((Volatile.Read(ref stepper) is var other and not 0 && other != thread) || IsRead)
+        if ((Volatile.Read(ref stepper) is var other and not 0 && other != thread) || queries.HasAny(thread))
             Refuse(operation);
         activity = operation;
     }
@@ -96,8 +78,8 @@ sealed class WorldLock
     /// <exception cref="InvalidOperationException">Something else goes on, or the world has ended.</exception>
     internal Scope ChangeOutsideOfSteps([CallerMemberName] string operation = "")
     {
-        Take(operation);
-        if (Volatile.Read(ref stepper) != 0 || IsRead)
+        var thread = Take(operation);
+        if (Volatile.Read(ref stepper) != 0 || queries.HasAny(thread))
             Refuse(operation);
         activity = operation;
         return new(this);
@@ -123,9 +105,10 @@ sealed class WorldLock
     internal StepScope Step([CallerMemberName] string operation = "")
     {
         CheckAlive();
-        if (Interlocked.CompareExchange(ref stepper, CurrentThread, 0) != 0)
+        var thread = CurrentThread;
+        if (Interlocked.CompareExchange(ref stepper, thread, 0) != 0)
             ThrowBusy(operation);
-        if (Volatile.Read(ref holder) != 0 || IsRead)
+        if (Volatile.Read(ref holder) != 0 || queries.HasAny(thread))
         {
             Volatile.Write(ref stepper, 0);
             ThrowBusy(operation);
@@ -139,14 +122,25 @@ sealed class WorldLock
     {
         CheckAlive();
         var thread = CurrentThread;
-        ref var count = ref reading[((thread & (StripeCount - 1)) + 1) * StripeLength];
-        Interlocked.Increment(ref count);
+        if (queries.TryCountAtHome(thread, out var home))
+        {
+            if (Volatile.Read(ref holder) == 0 && queries.IsHome(home))
+                return new(ref home.Count, isShared: false);
+            --home.Count;
+        }
+        return ReadBesideOthers(thread, operation);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    ReadScope ReadBesideOthers(int thread, string operation)
+    {
+        ref var count = ref queries.Count(thread);
         if (Volatile.Read(ref holder) != 0 && !MayReadNow(thread))
         {
             Interlocked.Decrement(ref count);
             ThrowBusy(operation);
         }
-        return new(ref count);
+        return new(ref count, isShared: true);
     }
 
     /// <summary>Refuses the writing of values, which moves nothing in memory, at a time when it would meet others that read or write them.</summary>
@@ -214,10 +208,16 @@ sealed class WorldLock
     }
 
     /// <summary>Ends a query.</summary>
-    internal readonly ref struct ReadScope(ref int count)
+    internal readonly ref struct ReadScope(ref int count, bool isShared)
     {
         readonly ref int count = ref count;
 
-        public void Dispose() => Interlocked.Decrement(ref count);
+        public void Dispose()
+        {
+            if (isShared)
+                Interlocked.Decrement(ref count);
+            else
+                Volatile.Write(ref count, count - 1);
+        }
     }
 }

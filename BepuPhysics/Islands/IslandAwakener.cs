@@ -144,7 +144,7 @@ public sealed unsafe class IslandAwakener
             return;
         // The broad phase belongs to whoever changes the static: nobody else looks at it now.
         var finder = new BodyFinder<TFilter> { Awakener = this, Filter = filter };
-        broadPhase.FindOverlapping(bounds, pool, ref finder);
+        broadPhase.FindOverlapping(bounds, ref finder);
         filter = finder.Filter;
     }
 

@@ -31,11 +31,14 @@ unsafe struct WorldContacts<THandler> : IBreakableForEach<CollidableReference> w
         if (!Simulation.MayMeet(Layers, collidable) || !Batcher.Callbacks.Handler.AllowTest(collidable))
             return true;
         Simulation.GetPoseAndShape(collidable, out var pose, out var shape);
-        if (!Simulation.NarrowPhase.CollisionTaskRegistry.TryGetTask(ShapeType, shape.Type, out _, out _, out _))
+        if (!Simulation.NarrowPhase.CollisionTaskRegistry.TryGetTask(ShapeType, shape.Type, out var task, out var taskIndex, out var flipped))
+            return true;
+        var data = Simulation.Shapes.GetBatch(shape.Type).GetPointer(shape.Index);
+        var offset = pose.Position - Pose.Position;
+        if (CentreLine.ShowsApart(ShapeType, Shape, Pose.Orientation, shape.Type, data, pose.Orientation, offset, Margin))
             return true;
         // A reference names its collidable, and any number may name a pair.
-        Batcher.AddDirectly(ShapeType, shape.Type, Shape, Simulation.Shapes.GetBatch(shape.Type).GetPointer(shape.Index),
-            pose.Position - Pose.Position, Pose.Orientation, pose.Orientation, Margin, new((int)collidable.Packed));
+        Batcher.AddKnown(task, taskIndex, flipped, Shape, data, offset, Pose.Orientation, pose.Orientation, Margin, (int)collidable.Packed);
         return true;
     }
 

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -17,32 +18,68 @@ public unsafe partial struct Tree
         where TEnumerator : IBreakableForEach<int>
     {
         RequireQuery(min, max);
-        var children = Children;
-        var queryMin = min.AsVector128();
-        var queryMax = max.AsVector128();
-        if (LeafCount <= 1)
-        {
-            if (LeafCount == 1 && BoxMath.Overlaps(queryMin, queryMax, BoxMath.LoadMin(children), BoxMath.LoadMax(children)))
-                leafEnumerator.LoopBody(~children->Index);
-            return;
-        }
+        FindOverlapping(min.AsVector128(), max.AsVector128(), ref leafEnumerator);
+    }
 
+    /// <summary>As a box that was checked: of one that is looked for in several trees once.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly void FindOverlapping<TEnumerator>(Vector128<float> min, Vector128<float> max, ref TEnumerator leafEnumerator)
+        where TEnumerator : IBreakableForEach<int>
+    {
+        if (LeafCount > 1)
+            Search(min, max, ref leafEnumerator);
+        else if (LeafCount == 1 && BoxMath.Overlaps(min, max, BoxMath.LoadMin(Children), BoxMath.LoadMax(Children)))
+            leafEnumerator.LoopBody(~Children->Index);
+    }
+
+    // Each way through a node is a branch of its own, which is guessed by itself, and the next node is not waited for.
+    readonly void Search<TEnumerator>(Vector128<float> min, Vector128<float> max, ref TEnumerator leafEnumerator) where TEnumerator : IBreakableForEach<int>
+    {
+        var box = new OverlapTest(min, max);
+        var children = Children;
         var stack = stackalloc int[TraversalStackSize];
-        var count = 1;
-        stack[0] = 0;
-        while (count > 0)
+        var count = 0;
+        var index = 0;
+        while (true)
         {
-            var slot = 2 * stack[--count];
-            for (var last = slot + 1; slot <= last; ++slot)
+            var a = children + 2 * index;
+            var apart = box.FindApart(a);
+            var overlapsB = (apart & OverlapTest.SideB) == 0;
+            if ((apart & OverlapTest.SideA) == 0)
             {
-                var child = children + slot;
-                if (!BoxMath.Overlaps(queryMin, queryMax, BoxMath.LoadMin(child), BoxMath.LoadMax(child)))
+                index = a->Index;
+                if (index >= 0)
+                {
+                    // Leaves are told of at once, of subtrees the second comes first.
+                    if (overlapsB)
+                    {
+                        var indexB = (a + 1)->Index;
+                        if (indexB >= 0)
+                        {
+                            stack[count++] = index;
+                            index = indexB;
+                        }
+                        else if (!leafEnumerator.LoopBody(~indexB))
+                        {
+                            return;
+                        }
+                    }
                     continue;
-                if (child->Index >= 0)
-                    stack[count++] = child->Index;
-                else if (!leafEnumerator.LoopBody(~child->Index))
+                }
+                if (!leafEnumerator.LoopBody(~index))
                     return;
             }
+            if (overlapsB)
+            {
+                index = (a + 1)->Index;
+                if (index >= 0)
+                    continue;
+                if (!leafEnumerator.LoopBody(~index))
+                    return;
+            }
+            if (count == 0)
+                return;
+            index = stack[--count];
         }
     }
 
@@ -86,11 +123,16 @@ public unsafe partial struct Tree
         where TOverlapHandler : IOverlapHandler =>
         PairTraversal<TOverlapHandler, PairConsumer<TOverlapHandler>>.FindPairs(this, treeB, ref overlapHandler, 0);
 
-    static void RequireQuery(Vector3 min, Vector3 max)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static void RequireQuery(Vector3 min, Vector3 max)
     {
-        if (!(min.X <= max.X && min.Y <= max.Y && min.Z <= max.Z))
-            throw new System.ArgumentException($"A box must have min <= max on every axis, was min {min}, max {max}.");
+        if (!Vector128.LessThanOrEqualAll(min.AsVector128(), max.AsVector128()))
+            ThrowQuery(min, max);
     }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ThrowQuery(Vector3 min, Vector3 max) =>
+        throw new System.ArgumentException($"A box must have min <= max on every axis, was min {min}, max {max}.");
 
     readonly struct SelfConsumer<THandler> : IPairConsumer<THandler> where THandler : IOverlapHandler
     {

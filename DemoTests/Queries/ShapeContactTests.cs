@@ -150,6 +150,63 @@ public sealed class ShapeContactTests : IDisposable
         Assert.True(apart > 30 && overlapping > 15, $"{apart} {overlapping}");
     }
 
+    struct Alone : ICollisionCallbacks
+    {
+        public Listener Listener;
+        public CollidableReference Collidable;
+
+        public readonly bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
+
+        public readonly void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
+
+        public readonly void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
+            Listener.OnContacts(Collidable, ref manifold);
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(.1f)]
+    public void Contacts_are_bit_for_bit_those_of_each_pair_alone(float margin)
+    {
+        using var own = new BufferPool();
+        using var levels = new SweepMaze(5);
+        var simulation = levels.Simulation;
+        var pool = levels.World.Pool;
+        var random = new Random(13);
+        var points = new Vector3[14];
+        foreach (ref var point in points.AsSpan())
+            point = new Vector3(random.NextSingle(), random.NextSingle(), random.NextSingle()) - new Vector3(.5f);
+        var hull = new ConvexHull(points, own, out _);
+        TypedIndex[] shapes = [simulation.Shapes.Add(new Box(.5f, .9f, .3f)), simulation.Shapes.Add(hull), simulation.Shapes.Add(new Cylinder(.4f, .3f))];
+        int told = 0;
+        for (int i = 0; i < 100; ++i)
+        {
+            var pose = SweepMaze.NextCase(random).Pose;
+            for (int kind = 0; kind < shapes.Length; ++kind)
+            {
+                var together = new Listener { Found = [], Position = pose.Position };
+                if (kind == 0)
+                    simulation.FindContacts(new Box(.5f, .9f, .3f), pose, margin, pool, ref together);
+                else if (kind == 1)
+                    simulation.FindContacts(hull, pose, margin, pool, ref together);
+                else
+                    simulation.FindContacts(new Cylinder(.4f, .3f), pose, margin, pool, ref together);
+                var alone = new List<Told>();
+                foreach (var collidable in levels.Collidables)
+                {
+                    simulation.GetPoseAndShape(collidable, out var other, out var otherShape);
+                    var batcher = new CollisionBatcher<Alone>(pool, simulation.Shapes, simulation.NarrowPhase.CollisionTaskRegistry, 0,
+                        new() { Collidable = collidable, Listener = new() { Found = alone, Position = pose.Position } });
+                    batcher.Add(shapes[kind], otherShape, other.Position - pose.Position, pose.Orientation, other.Orientation, margin, new(0));
+                    batcher.Flush();
+                }
+                Assert.Equal(alone.OrderBy(found => found.Collidable.Packed), together.Found.OrderBy(found => found.Collidable.Packed));
+                told += alone.Count;
+            }
+        }
+        Assert.True(told > 100, $"{told}");
+    }
+
     struct ByCollidable : IProximityHandler
     {
         public Dictionary<CollidableReference, Proximity> Found;

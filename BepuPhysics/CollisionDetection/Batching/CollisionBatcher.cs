@@ -130,8 +130,15 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
         ArgumentNullException.ThrowIfNull(shapeB);
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
+        AddKnown(task, taskIndex, flipped, shapeA, shapeB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
+    }
+
+    /// <summary>Adds a pair of shapes in memory, which are copied, to the task of their types, with a pose that is known to be sound.</summary>
+    internal void AddKnown(CollisionTask task, int taskIndex, bool flipped, void* shapeA, void* shapeB, in Vector3 offsetB,
+        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId)
+    {
         ref var batch = ref GetBatch(task, taskIndex);
-        var pair = new PairInput(speculativeMargin, continuation.PairId, flipped, PairInput.NoHistory);
+        var pair = new PairInput(speculativeMargin, pairId, flipped, PairInput.NoHistory);
         if (flipped)
             task.WriteDirectly(ref batch, shapeB, shapeA, offsetB, orientationB, orientationA, pair);
         else

@@ -111,7 +111,7 @@ sealed unsafe partial class FastPairs
             near = new(16, pool);
         near.Count = 0;
         var list = new NearList(this, self);
-        simulation.BroadPhase.FindOverlapping(bounds, pool, ref list);
+        simulation.BroadPhase.FindOverlapping(bounds, ref list);
         var order = new ByOrder();
         QuickSort.Sort(near.AsSpan(), ref order);
         for (int i = 0; i < near.Count; ++i)
