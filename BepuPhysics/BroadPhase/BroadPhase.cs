@@ -34,7 +34,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     readonly bool isOwned;
 
     // Leaves that came since the last update.
-    int activeAdditions;
+    ActiveTreeUpkeep activeUpkeep;
     StaticTreeUpkeep upkeep;
 
     /// <summary>Pool that the memory of the trees comes from.</summary>
@@ -70,7 +70,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     internal int AddActiveLeaf(CollidableReference collidable, BoundingBox bounds)
     {
         var index = Add(collidable, bounds, ref ActiveTree, ref ActiveLeaves);
-        ++activeAdditions;
+        activeUpkeep.NoteAddition();
         return index;
     }
 
@@ -191,18 +191,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
     internal void UpdateTrees(IThreadDispatcher? dispatcher = null)
     {
-        // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
-        if (StaticTreeUpkeep.IsGoodPart(activeAdditions, ActiveTree.LeafCount))
-        {
-            ActiveTree.BinnedBuild(Pool, dispatcher);
-        }
-        else
-        {
-            ActiveTree.Refit(Pool, dispatcher);
-            ActiveTree.Refine(Pool, dispatcher);
-        }
-        activeAdditions = 0;
-
+        activeUpkeep.Update(ref ActiveTree, Pool, dispatcher);
         upkeep.Update(ref StaticTree, Pool, dispatcher);
     }
 
@@ -277,7 +266,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
         StaticTree.CopyState(copy);
         copy.Rows(ref ActiveLeaves, ActiveTree.LeafCount);
         copy.Rows(ref StaticLeaves, StaticTree.LeafCount);
-        copy.Value(ref activeAdditions);
+        copy.Value(ref activeUpkeep);
         copy.Value(ref upkeep);
         if (!copy.Restores)
             return;
@@ -289,7 +278,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     {
         ActiveTree.Clear();
         StaticTree.Clear();
-        activeAdditions = 0;
+        activeUpkeep = default;
         upkeep = default;
     }
 
@@ -332,7 +321,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
             Pool.Return(ref ActiveLeaves);
         if (StaticLeaves.Allocated)
             Pool.Return(ref StaticLeaves);
-        activeAdditions = 0;
+        activeUpkeep = default;
         upkeep = default;
     }
 

@@ -27,12 +27,15 @@ public unsafe partial struct Tree
     /// </summary>
     public void Refine(BufferPool pool) => Refine(pool, null);
 
-    /// <summary>As <see cref="Refine(BufferPool)"/>; where nodes have to be copied, on many threads if the tree is large.</summary>
-    internal void Refine(BufferPool pool, IThreadDispatcher? dispatcher)
+    /// <summary>
+    /// As <see cref="Refine(BufferPool)"/>; where nodes have to be copied, on many threads if the tree is large. Returns by which part the cost of what was
+    /// rebuilt fell.
+    /// </summary>
+    internal float Refine(BufferPool pool, IThreadDispatcher? dispatcher)
     {
         ArgumentNullException.ThrowIfNull(pool);
         if (LeafCount <= 2 || --callsToSkip >= 0)
-            return;
+            return 0;
         if (!IsDepthFirst)
             Refit(pool, dispatcher);
 
@@ -55,6 +58,7 @@ public unsafe partial struct Tree
         else if (slicesWithoutGain < PatientSlices * MaximumSkipPower)
             ++slicesWithoutGain;
         callsToSkip = (1 << slicesWithoutGain / PatientSlices) - 1;
+        return gain;
     }
 
     static int Clamp(int value, int low, int high) => value < low ? low : value > high ? high : value;
