@@ -1,6 +1,7 @@
 using BenchmarkDotNet.Running;
 using Benchmarks.Compare;
 using Benchmarks.Joints;
+using Benchmarks.Marked;
 using Benchmarks.Pairs;
 using Benchmarks.Pairs.Shared;
 using Benchmarks.Queries;
@@ -13,6 +14,7 @@ return args switch
 {
     ["compare", ..] => CompareCommand.Run(args[1..]),
     ["joints", ..] => JointCommand.Run(args[1..]),
+    ["marked", ..] => MarkedCommand.Run(args[1..]),
     ["pairs", ..] => PairCommand.Run(args[1..]),
     [PairTimesCommand.Word, string cases, string results] => PairTimesCommand.Run(cases, results),
     ["sweeps", ..] => SweepCommand.Run(args[1..]),

@@ -60,7 +60,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         var dt = workers[workerIndex].Batcher.Dt;
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
-        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed))
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed, out var gate))
             return false;
         // A sensor is passed: nothing is foreseen of it.
         tested.IsExact = !tested.IsSensor;
@@ -72,6 +72,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // What slides along several things that do not give way agrees with all of them.
         if (tested.IsAtSeam)
             return false;
+        if (shapeB.Type == HalfSpace.Id && tested.Pair.B.Mobility == CollidableMobility.Static)
+            gate.SetPlane(Simulation.Shapes.GetShape<HalfSpace>(shapeB.Index), poseB.Orientation);
+        if (!gate.MayMeet(new(poseA.Position), new(poseB.Position), new(velocityA.Linear), new(velocityB.Linear), dt * (double)Lookahead))
+        {
+            tested.SpeculativeMargin = MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
+            return false;
+        }
         var continuity = ContinuityOf(tested.Pair.A);
         var other = ContinuityOf(tested.Pair.B);
         if (other.Mode == ContinuousDetectionMode.Continuous && (continuity.Mode != ContinuousDetectionMode.Continuous ||
@@ -111,7 +118,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return true;
     }
 
-    bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner, out float speed)
+    bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner, out float speed,
+        out WayGate gate)
     {
         var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
         float innerA = batchA.InnerRadius(shapeA.Index), innerB = batchB.InnerRadius(shapeB.Index);
@@ -121,6 +129,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             inner = MathHelper.Min(radiusA, radiusB) * (FastPartOfRadius / FastPart);
         speed = Exact.Length(velocityA.Linear - velocityB.Linear) +
             SurfaceSpeed(velocityA.Angular, radiusA, innerA) + SurfaceSpeed(velocityB.Angular, radiusB, innerB);
+        gate = default;
+        // Twice what may count as touching.
+        gate.Set(radiusA, radiusB, 2 * ExactnessPart * inner);
         return speed * dt > FastPart * inner;
     }
 
@@ -139,7 +150,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (pair.A.Mobility != CollidableMobility.Dynamic || (ContinuityOf(pair.A).Mode != ContinuousDetectionMode.Continuous &&
             ContinuityOf(pair.B).Mode != ContinuousDetectionMode.Continuous))
             return false;
-        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out inner, out _) || !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out inner, out _, out _) || !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
             return false;
         if ((Simulation.Layers.IsUsed && !CollisionLayers.MayMeet(Simulation.Layers.Of(pair.A), Simulation.Layers.Of(pair.B))) ||
             (Simulation.Events.UsesSensors && Simulation.Events.CountSensors(pair.A, pair.B) > 0))

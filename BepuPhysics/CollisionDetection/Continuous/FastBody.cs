@@ -19,7 +19,10 @@ struct FastBody
     public DoubleVector3 Position;
     /// <summary>Its orientation at that time.</summary>
     public Quaternion Orientation;
-    /// <summary>Constant velocities that take it from there to its end, m/s and rad/s. What turns otherwise comes to the same end.</summary>
+    /// <summary>
+    /// Constant velocities that take it from there to its end, m/s and rad/s. What turns otherwise comes to the same end. That of a ball's turn is not known
+    /// before its first impact: nothing asks for it until then.
+    /// </summary>
     public DoubleVector3 Linear, Angular;
     /// <summary>Orientation and velocity at the end of the substep.</summary>
     public Quaternion EndOrientation;
@@ -37,6 +40,8 @@ struct FastBody
     public DoubleVector3 FreeChange;
     /// <summary>Greatest speed by which it may move otherwise than its bounds have foreseen, m/s.</summary>
     public double UnforeseenSpeed;
+    /// <summary>Whether its shape is a ball.</summary>
+    public bool IsBall;
     /// <summary>Whether an impact has changed its way.</summary>
     public bool HasChanged;
 
@@ -49,10 +54,12 @@ struct FastBody
         EndOrientation = end.Pose.Orientation;
         Velocity = end.Velocity;
         Linear = (new DoubleVector3(end.Pose.Position) - Position) * (1 / dt);
-        Angular = BodyTurn.Between(Orientation, EndOrientation, new DoubleVector3(Velocity.Angular) * dt) * (1 / dt);
+        Angular = IsBall ? default : WholeTurn(dt);
         HasChanged = false;
         (CheckedPosition, CheckedOrientation) = (end.Pose.Position, end.Pose.Orientation);
     }
+
+    readonly DoubleVector3 WholeTurn(double dt) => BodyTurn.Between(Orientation, EndOrientation, new DoubleVector3(Velocity.Angular) * dt) * (1 / dt);
 
     /// <summary>Whether it may come to what is not in its bounds.</summary>
     public readonly bool IsUnforeseen =>
@@ -66,9 +73,13 @@ struct FastBody
         BodyTurn.Of(Angular, time - Time).After(DoubleMatrix3x3.FromQuaternion(Orientation));
 
     /// <summary>Brings the body to a time, with the velocity that it has there: in its own frame that of the end, which is that of its energy.</summary>
+    /// <param name="time">The time, s.</param>
+    /// <param name="dt">Length of the substep, s.</param>
     // Angular momentum that is kept would give a thin body a great spin about its length where the way is not quite that of free rotation.
-    public void GoTo(double time)
+    public void GoTo(double time, double dt)
     {
+        if (IsBall && !HasChanged)
+            Angular = WholeTurn(dt);
         Position = PositionAt(time);
         Orientation = BodyTurn.Turn(Orientation, Angular, time - Time);
         Time = time;

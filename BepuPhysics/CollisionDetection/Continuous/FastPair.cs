@@ -28,6 +28,8 @@ struct FastPair
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;
 
+    /// <summary>Which ways may meet at all.</summary>
+    public WayGate Gate;
     /// <summary>When the cores of the shapes meet, s from the beginning of the substep.</summary>
     public double Time;
     /// <summary>Unit normal from B to A at that time.</summary>

@@ -55,6 +55,7 @@ sealed unsafe partial class FastPairs
             Inertia = set.LocalInertias[body],
             Radius = radius,
             TurningRadius = inner < radius ? radius : 0,
+            IsBall = shape.Exists && shape.Type == Sphere.Id,
             UnforeseenSpeed = UnforeseenPart * inner / stepDt,
             ForeseenLinear = new(motion.Velocity.Linear),
             ForeseenSpin = Exact.Length(motion.Velocity.Angular),

@@ -262,10 +262,22 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         pair.Time = FastPair.Never;
         if (pair.Passes || pair.ImpactCount >= MaximumCount)
             return;
-        var motion = new SweepMotion { MaximumT = dt - from, Accuracy = ImpactAccuracy.Default with { TouchingDistance = TouchingPart * pair.Inner } };
-        Place(pair.A, pair.PoseA, from, out motion.LinearA, out motion.AngularA, out motion.OrientationA, out var positionA);
-        Place(pair.B, pair.PoseB, from, out motion.LinearB, out motion.AngularB, out motion.OrientationB, out var positionB);
-        motion.OffsetB = positionB - positionA;
+        if (!pair.Gate.IsSet)
+            SetGate(ref pair);
+        PlaceCentre(pair.A, pair.PoseA, from, out var linearA, out var positionA);
+        PlaceCentre(pair.B, pair.PoseB, from, out var linearB, out var positionB);
+        if (!pair.Gate.MayMeet(positionA, positionB, linearA, linearB, dt - from))
+            return;
+        var motion = new SweepMotion
+        {
+            MaximumT = dt - from,
+            Accuracy = ImpactAccuracy.Default with { TouchingDistance = TouchingPart * pair.Inner },
+            LinearA = linearA,
+            LinearB = linearB,
+            OffsetB = positionB - positionA,
+        };
+        Place(pair.A, pair.ShapeA, pair.PoseA, from, out motion.AngularA, out motion.OrientationA);
+        Place(pair.B, pair.ShapeB, pair.PoseB, from, out motion.AngularB, out motion.OrientationB);
         SweepHit hit = default;
         if (pair.IsSensor)
         {
@@ -304,28 +316,41 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         return false;
     }
 
-    void Place(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 angular, out DoubleMatrix3x3 axes,
-        out DoubleVector3 position)
+    void PlaceCentre(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 position)
     {
         if (body < 0)
         {
-            linear = angular = default;
-            axes = DoubleMatrix3x3.FromQuaternion(still.Orientation);
+            linear = default;
             position = new(still.Position);
             return;
         }
         ref var mover = ref movers[body];
-        (linear, angular) = (mover.Linear, mover.Angular);
-        axes = mover.AxesAt(time);
+        linear = mover.Linear;
         position = mover.PositionAt(time);
+    }
+
+    void Place(int body, TypedIndex shape, in RigidPose still, double time, out DoubleVector3 angular, out DoubleMatrix3x3 axes)
+    {
+        angular = default;
+        axes = default;
+        // The core of a ball is a point.
+        if (shape.Type == Sphere.Id)
+            return;
+        if (body < 0)
+        {
+            axes = DoubleMatrix3x3.FromQuaternion(still.Orientation);
+            return;
+        }
+        ref var mover = ref movers[body];
+        angular = mover.Angular;
+        axes = mover.AxesAt(time);
     }
 
     void Sweep(in FastPair pair, in SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         var children = new AllChildren();
-        SweepPairs.Test(motion, pair.ShapeA.Type, simulation.Shapes.GetBatch(pair.ShapeA.Type).GetPointer(pair.ShapeA.Index),
-            pair.ShapeB.Type, simulation.Shapes.GetBatch(pair.ShapeB.Type).GetPointer(pair.ShapeB.Index), ref children, simulation.Shapes, temporary,
-            out hit);
+        SweepPairs.Test(motion, pair.ShapeA.Type, PointerTo(pair.ShapeA), pair.ShapeB.Type, PointerTo(pair.ShapeB), ref children, simulation.Shapes,
+            temporary, out hit);
     }
 
     struct AllChildren : ISweepFilter
@@ -365,9 +390,9 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         ref var a = ref pair.A >= 0 ? ref movers[pair.A] : ref still;
         ref var b = ref pair.B >= 0 ? ref movers[pair.B] : ref still;
         if (pair.A >= 0)
-            a.GoTo(time);
+            a.GoTo(time, dt);
         if (pair.B >= 0)
-            b.GoTo(time);
+            b.GoTo(time, dt);
         if (pair.ImpactCount >= SlidingCount)
             Stop(pair, ref a, ref b);
         else

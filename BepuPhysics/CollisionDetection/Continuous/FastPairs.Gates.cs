@@ -1,0 +1,35 @@
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Which ways of a pair may meet at all.
+sealed unsafe partial class FastPairs
+{
+    void SetGate(ref FastPair pair)
+    {
+        pair.Gate.Set(ReachOf(pair, pair.ShapeA), ReachOf(pair, pair.ShapeB), TouchingPart * pair.Inner);
+        if (pair.Pair.B.Mobility != CollidableMobility.Static)
+            return;
+        if (pair.ShapeB.Type == HalfSpace.Id)
+        {
+            pair.Gate.SetPlane(*(HalfSpace*)PointerTo(pair.ShapeB), pair.PoseB.Orientation);
+            return;
+        }
+        ref var still = ref simulation.Statics.StaticsBuffer[simulation.Statics.Indices[pair.Pair.B.Slot]];
+        var bounds = simulation.BroadPhase.StaticTree.GetBounds(still.BroadPhaseIndex);
+        pair.Gate.SetStatic(new(bounds.Min), new(bounds.Max));
+    }
+
+    // How far what is swept of a shape reaches from its centre.
+    double ReachOf(in FastPair pair, TypedIndex shape)
+    {
+        if (shape.Type == HalfSpace.Id || !ImpactCore.Exists(shape.Type))
+            return narrowPhase.RadiiOf(shape).Radius;
+        var core = ImpactCore.Of(shape.Type, PointerTo(shape));
+        if (!pair.IsSensor)
+            core.Thin(SkinParts[0], pair.SmallerInner);
+        return core.Margin + core.Reach;
+    }
+
+    void* PointerTo(TypedIndex shape) => simulation.Shapes.GetBatch(shape.Type).GetPointer(shape.Index);
+}
