@@ -3,55 +3,33 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints.Contact;
 
-/// <summary>The pairs that meet within a substep, the earliest first, and the pairs of each body.</summary>
+/// <summary>The pairs of a group that meet within a substep, the earliest first.</summary>
 // A binary heap over the times of the pairs. Of equal times the faster pair comes first, then the one that is first in the list.
 unsafe struct ImpactQueue(BufferPool pool)
 {
     // Indices of pairs.
     QuickList<int> heap = new(16, pool);
-    // First pair of each body of the active set; -1 for none.
-    QuickList<int> firstOfBody = new(16, pool);
 
-    internal void Dispose()
-    {
-        heap.Dispose(pool);
-        firstOfBody.Dispose(pool);
-    }
+    internal void Dispose() => heap.Dispose(pool);
 
     /// <summary>Whether no pair meets any more.</summary>
     internal readonly bool IsEmpty => heap.Count == 0;
 
-    /// <summary>Links pairs to their bodies.</summary>
-    internal void Link(ref QuickList<BouncingPair> pairs, int bodyCount)
-    {
-        firstOfBody.EnsureCapacity(bodyCount, pool);
-        firstOfBody.Count = bodyCount;
-        firstOfBody.AsSpan().Fill(-1);
-        for (int i = pairs.Count - 1; i >= 0; --i)
-        {
-            ref var pair = ref pairs[i];
-            pair.NextOfA = firstOfBody[pair.A];
-            firstOfBody[pair.A] = i;
-            if (pair.B < 0)
-                continue;
-            pair.NextOfB = firstOfBody[pair.B];
-            firstOfBody[pair.B] = i;
-        }
-    }
-
-    /// <summary>First pair of a body.</summary>
-    internal readonly int FirstOf(int body) => firstOfBody[body];
-
-    /// <summary>Begins a substep.</summary>
-    internal void Fill(ref QuickList<BouncingPair> pairs)
+    /// <summary>Begins a substep of a group.</summary>
+    /// <returns>Whether any of its pairs meets, or overlaps.</returns>
+    internal bool Fill(ref QuickList<BouncingPair> pairs, in ImpactGroups groups, int group)
     {
         heap.Count = 0;
-        for (int i = 0; i < pairs.Count; ++i)
+        var overlaps = false;
+        for (int i = 0; i < groups.CountOf(group); ++i)
         {
-            pairs[i].QueueIndex = -1;
-            pairs[i].ImpactCount = 0;
-            Update(ref pairs, i);
+            var pair = groups.Pair(group, i);
+            pairs[pair].QueueIndex = -1;
+            pairs[pair].ImpactCount = 0;
+            overlaps |= pairs[pair].Overlaps;
+            Update(ref pairs, pair);
         }
+        return overlaps || !IsEmpty;
     }
 
     /// <summary>The pair that meets first.</summary>

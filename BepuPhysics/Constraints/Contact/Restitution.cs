@@ -22,7 +22,7 @@ namespace BepuPhysics.Constraints.Contact;
 // carries a load it is told: that contact rests, and overlaps by its softness.
 //
 // Contacts no faster than what the acceleration of two steps gives do not bounce: they rest.
-sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
+sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool pool) : ISolverStage
 {
     /// <summary>Coefficient of what does not bounce, but stops as what does: zero is that of what is hit at a corner while others hold it.</summary>
     internal const float LeastCoefficient = 1e-30f;
@@ -32,23 +32,13 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     const float RestingSteps = 2;
     // Steps in which surfaces that part are out of an overlap by themselves.
     const float PartingSteps = 8;
-    // Impacts of one pair in one substep.
-    const int MaximumImpacts = 16;
     // Part of the weight of either body from which on a contact carries a load: a body that rests on many contacts gives each a part.
     const float LoadingShare = 1 / 16f;
     // Speed of approach over speed of the bodies that may be rounding.
     const float RoundingShare = 1e-6f;
 
-    // Pairs of one impact.
-    const int MaximumPairs = 256;
-    // Part of the substep, and of the speed, within which impacts are alike.
-    const float AlikeShare = 1e-3f;
-    // Cosine of the angle between the normals of one floor.
-    const float SameDirection = 0.9999f;
-
     QuickList<BouncingPair> pairs = new(16, pool);
-    ImpactQueue queue = new(pool);
-    SharedImpact impact = new(pool);
+    ImpactGroups groups = new(pool);
     bool isLinked;
     bool anyMeets;
 
@@ -95,29 +85,42 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
     internal void Dispose()
     {
         pairs.Dispose(pool);
-        queue.Dispose();
-        impact.Dispose();
+        groups.Dispose();
     }
 
-    internal void Abandon() => pairs = default;
+    internal void Abandon()
+    {
+        pairs = default;
+        groups = default;
+    }
 
     bool ISolverStage.BeginStep() => pairs.Count > 0;
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
         SolverPoint.BeforeSubsteps or SolverPoint.AfterIntegration => (pairs.Count + PairsPerBlock - 1) / PairsPerBlock,
-        // Impacts change bodies that others push too: they are made in one order.
-        SolverPoint.BeforeWarmStart => pairs.Count > 0 ? 1 : 0,
+        SolverPoint.BeforeWarmStart => ImpactGroups.MostBlocks(pairs.Count),
         _ => 0,
     };
 
-    void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
+    int ISolverStage.CountBlocks(SolverPoint point, int most)
+    {
+        if (point != SolverPoint.BeforeWarmStart)
+            return most;
+        if (!anyMeets)
+            return 0;
+        anyMeets = false;
+        if (!isLinked)
+            groups.Link(ref pairs, bodies.ActiveSet.Count);
+        isLinked = true;
+        return groups.BlockCount;
+    }
+
+    void ISolverStage.Execute(SolverPoint point, in Substep substep, int block, BufferPool workerPool)
     {
         if (point == SolverPoint.BeforeWarmStart)
         {
-            if (anyMeets)
-                Bounce(substep.Dt);
-            anyMeets = false;
+            Bounce(block, substep.Dt, workerPool);
             return;
         }
         var end = Math.Min(pairs.Count, (block + 1) * PairsPerBlock);
@@ -202,129 +205,5 @@ sealed unsafe class Restitution(Solver solver, Bodies bodies, BufferPool pool) :
         var load = contacts.Load * (contacts.InertiaA.InverseMass + contacts.InertiaB.InverseMass);
         var weight = MathHelper.Max(Exact.LengthSquared(pair.GainA.Linear), Exact.LengthSquared(pair.GainB.Linear));
         return weight > 0 && load * load > LoadingShare * LoadingShare * weight;
-    }
-
-    void Bounce(float dt)
-    {
-        if (!isLinked)
-            queue.Link(ref pairs, bodies.ActiveSet.Count);
-        isLinked = true;
-        queue.Fill(ref pairs);
-        MakeImpacts(dt);
-        Separate(dt);
-        // Who was in the way.
-        MakeImpacts(dt);
-        HideOverlaps();
-    }
-
-    void HideOverlaps()
-    {
-        for (int i = 0; i < pairs.Count; ++i)
-        {
-            if (pairs[i].Overlaps)
-                Contacts(pairs[i]).Hide(ref pairs[i].Hidden);
-        }
-    }
-
-    void MakeImpacts(float dt)
-    {
-        while (!queue.IsEmpty)
-        {
-            var first = queue.First;
-            var time = pairs[first].Time;
-            impact.Begin(time, dt);
-            Join(first);
-            for (int i = 0; i < impact.PairCount; ++i)
-                JoinNeighbours(impact.Pair(i), time, dt);
-            impact.Solve();
-            for (int i = 0; i < impact.PairCount; ++i)
-            {
-                ref var pair = ref pairs[impact.Pair(i)];
-                pair.Joins = false;
-                pair.Impulse += impact.NormalImpulse(i);
-            }
-            var contacts = Contacts(pairs[first]);
-            for (int i = 0; i < impact.BodyCount; ++i)
-            {
-                if (!impact.TryGetChange(i, out var body, out var change))
-                    continue;
-                contacts.Push(body, change);
-                Move(contacts, body, change.Linear * -time, dt);
-            }
-        }
-    }
-
-    void Join(int index)
-    {
-        ref var pair = ref pairs[index];
-        ++pair.ImpactCount;
-        pair.Joins = true;
-        if (pair.Coefficient == 0)
-            pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
-        impact.Add(index, pair, Contacts(pair));
-    }
-
-    // What meets at the same time, as fast, is one impact. So is all that a body meets in a substep of one floor, whether that is of one piece or of tiles:
-    // contacts of one patch are not told apart either.
-    void JoinNeighbours(int index, float time, float dt)
-    {
-        JoinNeighboursOf(pairs[index].A, index, time, dt);
-        if (pairs[index].B >= 0)
-            JoinNeighboursOf(pairs[index].B, index, time, dt);
-    }
-
-    void JoinNeighboursOf(int body, int index, float time, float dt)
-    {
-        for (int i = queue.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = pairs[i].NextOf(body))
-        {
-            ref var pair = ref pairs[i];
-            if (!pair.Joins && pair.Time < BouncingPair.Never && pair.Coefficient > 0 && pairs[index].Coefficient > 0 &&
-                (IsAlike(pair, pairs[index], time, dt) || IsOneFloor(pair, pairs[index])))
-                Join(i);
-        }
-    }
-
-    // At the same time and as fast: nothing but rounding would say which is the first. The slower of two at the same time is later, as in a row of spheres
-    // that touch, of which some approach by their rounding.
-    static bool IsAlike(in BouncingPair pair, in BouncingPair other, float time, float dt) =>
-        pair.Time - time <= AlikeShare * dt && MathF.Abs(pair.Speed - other.Speed) <= AlikeShare * other.Speed;
-
-    bool IsOneFloor(in BouncingPair a, in BouncingPair b) =>
-        a.A == b.A && a.B == b.B && Exact.Dot(Contacts(a).Normal, Contacts(b).Normal) > SameDirection;
-
-    // Moves a body whose velocity has changed, and looks at its pairs again.
-    void Move(in ContactRows contacts, int body, Vector3 way, float dt)
-    {
-        contacts.Move(body, way);
-        for (int i = queue.FirstOf(body); i >= 0; i = pairs[i].NextOf(body))
-        {
-            ref var pair = ref pairs[i];
-            var others = Contacts(pair);
-            others.NoteMove(pair.A == body ? way : -way);
-            Predict(ref pair, others, dt);
-            if (pair.ImpactCount == MaximumImpacts)
-                pair.Time = BouncingPair.Never;
-            queue.Update(ref pairs, i);
-        }
-    }
-
-    // What this leaves, as others are in the way or the overlap is deep, the next steps take out.
-    void Separate(float dt)
-    {
-        for (int i = 0; i < pairs.Count; ++i)
-        {
-            ref var pair = ref pairs[i];
-            if (!(pair.Overlap > 0))
-                continue;
-            var contacts = Contacts(pair);
-            var massA = contacts.InertiaA.InverseMass;
-            var massB = contacts.InertiaB.InverseMass;
-            if (!(massA + massB > 0))
-                continue;
-            var way = pair.Overlap / (massA + massB);
-            Move(contacts, pair.A, contacts.Normal * (way * massA), dt);
-            if (pair.B >= 0)
-                Move(contacts, pair.B, contacts.Normal * -(way * massB), dt);
-        }
     }
 }

@@ -1,0 +1,166 @@
+using System;
+using System.Numerics;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints.Contact;
+
+// Impacts in the order of their times, in one group of pairs after the other.
+sealed unsafe partial class Restitution
+{
+    // Impacts of one pair in one substep.
+    const int MaximumImpacts = 16;
+    // Pairs of one impact.
+    const int MaximumPairs = 256;
+    // Part of the substep, and of the speed, within which impacts are alike.
+    const float AlikeShare = 1e-3f;
+    // Cosine of the angle between the normals of one floor.
+    const float SameDirection = 0.9999f;
+
+    void Bounce(int block, float dt, BufferPool workerPool)
+    {
+        var impacts = new Impacts(this, workerPool);
+        for (int group = groups.FirstGroup(block); group < groups.FirstGroup(block + 1); ++group)
+            impacts.Make(group, dt);
+        impacts.Dispose();
+    }
+
+    // Of one worker.
+    struct Impacts(Restitution owner, BufferPool pool)
+    {
+        ImpactQueue queue = new(pool);
+        SharedImpact impact = new(pool);
+
+        readonly ref QuickList<BouncingPair> Pairs => ref owner.pairs;
+
+        public void Dispose()
+        {
+            queue.Dispose();
+            impact.Dispose();
+        }
+
+        public void Make(int group, float dt)
+        {
+            if (!queue.Fill(ref Pairs, owner.groups, group))
+                return;
+            MakeImpacts(dt);
+            Separate(group, dt);
+            // Who was in the way.
+            MakeImpacts(dt);
+            HideOverlaps(group);
+        }
+
+        readonly void HideOverlaps(int group)
+        {
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                if (pair.Overlaps)
+                    owner.Contacts(pair).Hide(ref pair.Hidden);
+            }
+        }
+
+        void MakeImpacts(float dt)
+        {
+            while (!queue.IsEmpty)
+            {
+                var first = queue.First;
+                var time = Pairs[first].Time;
+                impact.Begin(time, dt);
+                Join(first);
+                for (int i = 0; i < impact.PairCount; ++i)
+                    JoinNeighbours(impact.Pair(i), time, dt);
+                impact.Solve();
+                for (int i = 0; i < impact.PairCount; ++i)
+                {
+                    ref var pair = ref Pairs[impact.Pair(i)];
+                    pair.Joins = false;
+                    pair.Impulse += impact.NormalImpulse(i);
+                }
+                var contacts = owner.Contacts(Pairs[first]);
+                for (int i = 0; i < impact.BodyCount; ++i)
+                {
+                    if (!impact.TryGetChange(i, out var body, out var change))
+                        continue;
+                    contacts.Push(body, change);
+                    Move(contacts, body, change.Linear * -time, dt);
+                }
+            }
+        }
+
+        void Join(int index)
+        {
+            ref var pair = ref Pairs[index];
+            ++pair.ImpactCount;
+            pair.Joins = true;
+            if (pair.Coefficient == 0)
+                pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
+            impact.Add(index, pair, owner.Contacts(pair));
+        }
+
+        // What meets at the same time, as fast, is one impact. So is all that a body meets in a substep of one floor, whether that is of one piece or of tiles:
+        // contacts of one patch are not told apart either.
+        void JoinNeighbours(int index, float time, float dt)
+        {
+            JoinNeighboursOf(Pairs[index].A, index, time, dt);
+            if (Pairs[index].B >= 0)
+                JoinNeighboursOf(Pairs[index].B, index, time, dt);
+        }
+
+        void JoinNeighboursOf(int body, int index, float time, float dt)
+        {
+            for (int i = owner.groups.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = Pairs[i].NextOf(body))
+            {
+                ref var pair = ref Pairs[i];
+                if (!pair.Joins && pair.Time < BouncingPair.Never && pair.Coefficient > 0 && Pairs[index].Coefficient > 0 &&
+                    (IsAlike(pair, Pairs[index], time, dt) || IsOneFloor(pair, Pairs[index])))
+                    Join(i);
+            }
+        }
+
+        // At the same time and as fast: nothing but rounding would say which is the first. The slower of two at the same time is later, as in a row of spheres
+        // that touch, of which some approach by their rounding.
+        static bool IsAlike(in BouncingPair pair, in BouncingPair other, float time, float dt) =>
+            pair.Time - time <= AlikeShare * dt && MathF.Abs(pair.Speed - other.Speed) <= AlikeShare * other.Speed;
+
+        bool IsOneFloor(in BouncingPair a, in BouncingPair b) =>
+            a.A == b.A && a.B == b.B && Exact.Dot(owner.Contacts(a).Normal, owner.Contacts(b).Normal) > SameDirection;
+
+        // Moves a body whose velocity has changed, and looks at its pairs again.
+        void Move(in ContactRows contacts, int body, Vector3 way, float dt)
+        {
+            contacts.Move(body, way);
+            for (int i = owner.groups.FirstOf(body); i >= 0; i = Pairs[i].NextOf(body))
+            {
+                ref var pair = ref Pairs[i];
+                var others = owner.Contacts(pair);
+                others.NoteMove(pair.A == body ? way : -way);
+                owner.Predict(ref pair, others, dt);
+                if (pair.ImpactCount == MaximumImpacts)
+                    pair.Time = BouncingPair.Never;
+                queue.Update(ref Pairs, i);
+            }
+        }
+
+        // What this leaves, as others are in the way or the overlap is deep, the next steps take out.
+        void Separate(int group, float dt)
+        {
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                if (!(pair.Overlap > 0))
+                    continue;
+                var contacts = owner.Contacts(pair);
+                var massA = contacts.InertiaA.InverseMass;
+                var massB = contacts.InertiaB.InverseMass;
+                if (!(massA + massB > 0))
+                    continue;
+                var way = pair.Overlap / (massA + massB);
+                Move(contacts, pair.A, contacts.Normal * (way * massA), dt);
+                if (pair.B >= 0)
+                    Move(contacts, pair.B, contacts.Normal * -(way * massB), dt);
+            }
+        }
+    }
+}
