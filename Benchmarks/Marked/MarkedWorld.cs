@@ -2,8 +2,6 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
-using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -16,13 +14,13 @@ sealed class MarkedWorld : IDisposable
     const float Speed = 150;
     const float RoomPerBall = 10;
     const float Dt = 1 / 60f;
-    // Places of the balls of a heap before they fall.
+    // Of the balls of a heap before they fall, m.
     const float HeapSpacing = 2.2f * Radius;
-    const float HeapHeightPart = 1;
 
     readonly BufferPool pool = new();
     readonly ThreadDispatcher? dispatcher;
     readonly Random random = new(5);
+    TypedIndex shape;
 
     public MarkedWorld(MarkedScene scene, int count, bool isMarked, int threads)
     {
@@ -43,7 +41,7 @@ sealed class MarkedWorld : IDisposable
 
     void Pour(int count, ContinuousDetection mode)
     {
-        var side = (int)Math.Ceiling(Math.Cbrt(count / HeapHeightPart));
+        var side = (int)Math.Ceiling(Math.Cbrt(count));
         var half = side * HeapSpacing / 2;
         AddWalls(new Vector3(half));
         for (int i = 0; i < count; ++i)
@@ -83,8 +81,6 @@ sealed class MarkedWorld : IDisposable
         Simulation.Bodies.Add(BodyDescription.CreateDynamic(
             position, new BodyVelocity(velocity), ball.ComputeInertia(1), new CollidableDescription(shape, mode), -1));
     }
-
-    TypedIndex shape;
 
     Vector3 Any() => new(random.NextSingle() - .5f, random.NextSingle() - .5f, random.NextSingle() - .5f);
 

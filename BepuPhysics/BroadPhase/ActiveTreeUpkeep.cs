@@ -6,8 +6,8 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>When the tree of what is awake is built anew.</summary>
 /// <remarks>
-/// Slices that are refined in turn keep up with a pile. Where thousands of bodies fly past each other, a slice is out of order long before its turn comes again.
-/// That shows in what a slice gains, which costs nothing to know; only then the tree is looked at, and built if it is not what it was.
+/// Slices that are refined in turn keep up with a pile. Where thousands of bodies fly past each other, a slice is out of order long before its turn comes
+/// again. That shows in what a slice gains, which costs nothing to know; only then the tree is looked at, and built if it is not what it was.
 /// </remarks>
 struct ActiveTreeUpkeep
 {
@@ -18,7 +18,6 @@ struct ActiveTreeUpkeep
 
     // Leaves that came since the last update.
     int additions;
-    // Zero where it is not known.
     float costWhenBuilt;
     bool isBuildDue;
 
@@ -34,7 +33,7 @@ struct ActiveTreeUpkeep
         if (hasGrown || isBuildDue)
         {
             tree.BinnedBuild(pool, dispatcher);
-            costWhenBuilt = isBuildDue ? tree.MeasureRelativeCost() : 0;
+            costWhenBuilt = tree.MeasureRelativeCost();
             isBuildDue = false;
             return;
         }

@@ -33,7 +33,6 @@ public sealed unsafe partial class BroadPhase : IDisposable
     // Whether the leaves are the bodies and statics of a simulation, which alone may add and remove them.
     readonly bool isOwned;
 
-    // Leaves that came since the last update.
     ActiveTreeUpkeep activeUpkeep;
     StaticTreeUpkeep upkeep;
 

@@ -41,7 +41,11 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         // Before all others: these are to see where bodies have come to.
         FastPairs = new FastPairs(this, simulation, Pool);
         simulation.Solver.OptionalStages.InsertRange(
-            0, [new FastPairsShare(FastPairs, sweeps: false), new FastPairsShare(FastPairs, sweeps: true), FastPairs]);
+            0,
+            [
+                new FastPairsShare(FastPairs, FastPairsShare.Part.Ways), new FastPairsShare(FastPairs, FastPairsShare.Part.Growth),
+                new FastPairsShare(FastPairs, FastPairsShare.Part.Sweeps), FastPairs,
+            ]);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
         loadPath = new LoadPathStage(simulation.Solver, simulation.Bodies, Pool);

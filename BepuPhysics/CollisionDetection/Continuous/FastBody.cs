@@ -40,6 +40,8 @@ struct FastBody
     public DoubleVector3 FreeChange;
     /// <summary>Greatest speed by which it may move otherwise than its bounds have foreseen, m/s.</summary>
     public double UnforeseenSpeed;
+    /// <summary>Which of those it is whom the solver has thrown aside in the substep, or -1.</summary>
+    public int Look;
     /// <summary>Whether its shape is a ball.</summary>
     public bool IsBall;
     /// <summary>Whether an impact has changed its way.</summary>

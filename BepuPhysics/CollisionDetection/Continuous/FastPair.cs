@@ -14,7 +14,7 @@ struct FastPair
     public int A, B;
     /// <summary>Inner radius of the thinner shape, m.</summary>
     public float Inner;
-    /// <summary>Inner radius of the shape that reaches less far from its centre, m.</summary>
+    /// <summary>Inner radius of the shape that reaches less far from its centre, m; known from the first sweep on.</summary>
     public float SmallerInner;
     /// <summary>Whether one of them is a sensor, which is seen to be met and passed.</summary>
     public bool IsSensor;
@@ -28,7 +28,7 @@ struct FastPair
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;
 
-    /// <summary>Which ways may meet at all.</summary>
+    /// <summary>Which ways may meet at all; known from the first sweep on.</summary>
     public WayGate Gate;
     /// <summary>When the cores of the shapes meet, s from the beginning of the substep.</summary>
     public double Time;

@@ -15,7 +15,22 @@ sealed unsafe partial class FastPairs
     // the thinner shape's inner radius on; with that of both bodies it is three quarters, which a contact still sees before a centre has passed.
     const double UnforeseenPart = .125;
 
-    // What the new way of a body may meet; has memory from the first one on.
+    // What a look finds is kept for so many; who finds more looks again.
+    const int FoundPerLook = 8;
+
+    // A body that was thrown aside.
+    struct Look
+    {
+        public int Body;
+        // What its new way may meet, and what was known of its bounds before.
+        public BoundingBox Way, Known;
+        public int FoundCount;
+    }
+
+    // Those whom the solver has thrown aside in a substep, and what they have found. These have memory from the first one on.
+    QuickList<Look> looks;
+    QuickList<CollidableReference> found;
+    // What the new way of a body may meet.
     QuickList<CollidableReference> near;
     // Length of the step, s, and its end from the beginning of the substep.
     float stepDt;
@@ -38,6 +53,21 @@ sealed unsafe partial class FastPairs
         }
     }
 
+    struct FoundList(CollidableReference self, CollidableReference* places) : IBreakableForEach<CollidableReference>
+    {
+        public int Count;
+
+        public bool LoopBody(CollidableReference collidable)
+        {
+            if (collidable == self)
+                return true;
+            if (Count < FoundPerLook)
+                places[Count] = collidable;
+            ++Count;
+            return true;
+        }
+    }
+
     BufferPool Pool => pool;
 
     // A body as it is when its way begins, and as its bounds have foreseen it.
@@ -55,6 +85,7 @@ sealed unsafe partial class FastPairs
             Inertia = set.LocalInertias[body],
             Radius = radius,
             TurningRadius = inner < radius ? radius : 0,
+            Look = -1,
             IsBall = shape.Exists && shape.Type == Sphere.Id,
             UnforeseenSpeed = UnforeseenPart * inner / stepDt,
             ForeseenLinear = new(motion.Velocity.Linear),
@@ -73,14 +104,56 @@ sealed unsafe partial class FastPairs
         }
     }
 
-    // Whom the solver has thrown aside.
-    void LookAroundTurnedAside(double dt)
+    /// <summary>Finds out whom the solver has thrown aside, and grows their bounds.</summary>
+    internal void GrowTurnedAside(double end)
     {
-        for (int i = 0, count = movers.Count; i < count; ++i)
+        stepEnd = end;
+        looks.Count = 0;
+        for (int i = 0; i < movers.Count; ++i)
         {
-            movers[i].ForeseenLinear += movers[i].FreeChange;
+            ref var mover = ref movers[i];
+            mover.ForeseenLinear += mover.FreeChange;
+            mover.Look = -1;
+            if (!TryGrow(i, 0, out var look))
+                continue;
+            if (!looks.Span.Allocated)
+                (looks, found) = (new(16, pool), new(16 * FoundPerLook, pool));
+            mover.Look = looks.Count;
+            looks.Add(look, pool);
+        }
+        if (looks.Count == 0)
+            return;
+        found.EnsureCapacity(looks.Count * FoundPerLook, pool);
+        found.Count = looks.Count * FoundPerLook;
+    }
+
+    /// <summary>Looks around for a part of those who were thrown aside.</summary>
+    internal void LookAll(int block, int blockCount)
+    {
+        for (int i = StartOf(block, blockCount, looks.Count); i < StartOf(block + 1, blockCount, looks.Count); ++i)
+        {
+            var list = new FoundList(ReferenceOf(looks[i].Body), found.Span.Memory + i * FoundPerLook);
+            simulation.BroadPhase.FindOverlapping(looks[i].Way, pool, ref list);
+            looks[i].FoundCount = list.Count;
+        }
+    }
+
+    void PairTurnedAside(double dt)
+    {
+        for (int i = 0; i < looks.Count; ++i)
+        {
+            if (looks[i].FoundCount > FoundPerLook)
+            {
+                FindNear(looks[i]);
+            }
+            else
+            {
+                ClearNear();
+                for (int j = 0; j < looks[i].FoundCount; ++j)
+                    near.Add(found[i * FoundPerLook + j], pool);
+            }
             var first = pairs.Count;
-            LookAround(i, 0, dt);
+            PairWithNear(looks[i], i, dt);
             for (int j = first; j < pairs.Count; ++j)
             {
                 Find(ref pairs[j], 0, dt, pool);
@@ -92,32 +165,75 @@ sealed unsafe partial class FastPairs
     /// <summary>Pairs a body that moves otherwise than was foreseen with all that is new on its way.</summary>
     void LookAround(int body, double time, double dt)
     {
-        if (body < 0 || !movers[body].IsUnforeseen)
+        if (body < 0 || !TryGrow(body, time, out var look))
             return;
+        FindNear(look);
+        PairWithNear(look, looks.Count, dt);
+    }
+
+    bool TryGrow(int body, double time, out Look look)
+    {
         ref var mover = ref movers[body];
+        look = default;
+        if (!mover.IsUnforeseen)
+            return false;
         mover.ForeseenLinear = mover.Linear;
         mover.ForeseenSpin = mover.Angular.Length;
         var leaf = Bodies.ActiveSet.Collidables[mover.Index].BroadPhaseIndex;
         if (leaf < 0)
-            return;
+            return false;
         // The farthest point of the shape from its centre, in any direction: a turn changes nothing of that.
         var reach = new Vector3((float)mover.Radius);
         Vector3 from = mover.PositionAt(time).ToSingle(), to = mover.PositionAt(stepEnd).ToSingle();
-        var bounds = new BoundingBox(Exact.Min(from, to) - reach, Exact.Max(from, to) + reach);
         var tree = simulation.BroadPhase.ActiveTree;
-        var known = tree.GetBounds(leaf);
-        tree.UpdateBounds(leaf, Exact.Min(bounds.Min, known.Min), Exact.Max(bounds.Max, known.Max));
-        var self = BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, mover.Index);
+        look.Body = body;
+        look.Way = new(Exact.Min(from, to) - reach, Exact.Max(from, to) + reach);
+        look.Known = tree.GetBounds(leaf);
+        tree.UpdateBounds(leaf, Exact.Min(look.Way.Min, look.Known.Min), Exact.Max(look.Way.Max, look.Known.Max));
+        return true;
+    }
+
+    CollidableReference ReferenceOf(int body) => BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, movers[body].Index);
+
+    void ClearNear()
+    {
         if (!near.Span.Allocated)
             near = new(16, pool);
         near.Count = 0;
-        var list = new NearList(this, self);
-        simulation.BroadPhase.FindOverlapping(bounds, ref list);
+    }
+
+    void FindNear(in Look look)
+    {
+        ClearNear();
+        var list = new NearList(this, ReferenceOf(look.Body));
+        simulation.BroadPhase.FindOverlapping(look.Way, ref list);
+    }
+
+    // All have grown before any looks. Who comes later finds whoever came before with its bounds as they are now, and is found with those that it had.
+    void PairWithNear(in Look look, int number, double dt)
+    {
+        var self = ReferenceOf(look.Body);
         var order = new ByOrder();
         QuickSort.Sort(near.AsSpan(), ref order);
         for (int i = 0; i < near.Count; ++i)
-            Pair(body, self, near[i], dt);
+        {
+            if (LookOf(near[i]) is var other && other > number && !Meet(look.Way, looks[other].Known))
+                continue;
+            Pair(look.Body, self, near[i], dt);
+        }
     }
+
+    // -1 for who was not thrown aside by the solver.
+    int LookOf(CollidableReference collidable)
+    {
+        if (collidable.Mobility == CollidableMobility.Static || Bodies.IsAsleep(collidable.Slot))
+            return -1;
+        var mover = moverOf[Bodies.Locations[collidable.Slot].Index];
+        return mover < 0 ? -1 : movers[mover].Look;
+    }
+
+    static bool Meet(in BoundingBox a, in BoundingBox b) =>
+        a.Min.X <= b.Max.X && a.Min.Y <= b.Max.Y && a.Min.Z <= b.Max.Z && b.Min.X <= a.Max.X && b.Min.Y <= a.Max.Y && b.Min.Z <= a.Max.Z;
 
     void Pair(int body, CollidableReference self, CollidableReference other, double dt)
     {
@@ -126,19 +242,11 @@ sealed unsafe partial class FastPairs
         if (IsWatched(body, pair.Pair) || !TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) || !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B)
             || !narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
             return;
-        pair.SmallerInner = SmallerInner(pair);
         var number = pairs.Count;
         pair.NextOfA = LinkLate(ref pair.A, number, dt);
         pair.NextOfB = LinkLate(ref pair.B, number, dt);
         pairs.Add(pair, pool);
         times.Add(number, pair.Time, pool);
-    }
-
-    // A half-space has no inner radius, and reaches farthest.
-    float SmallerInner(in FastPair pair)
-    {
-        var (a, b) = (narrowPhase.RadiiOf(pair.ShapeA), narrowPhase.RadiiOf(pair.ShapeB));
-        return a.Radius <= b.Radius ? a.Inner : b.Inner;
     }
 
     bool IsWatched(int body, in CollidablePair pair)

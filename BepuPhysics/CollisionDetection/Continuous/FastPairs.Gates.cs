@@ -2,11 +2,12 @@ using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
-// Which ways of a pair may meet at all.
+// What is known of the shapes of a pair, and which ways may meet at all: asked at its first sweep, by whichever thread makes that.
 sealed unsafe partial class FastPairs
 {
     void SetGate(ref FastPair pair)
     {
+        pair.SmallerInner = SmallerInner(pair);
         pair.Gate.Set(ReachOf(pair, pair.ShapeA), ReachOf(pair, pair.ShapeB), TouchingPart * pair.Inner);
         if (pair.Pair.B.Mobility != CollidableMobility.Static)
             return;
@@ -18,6 +19,13 @@ sealed unsafe partial class FastPairs
         ref var still = ref simulation.Statics.StaticsBuffer[simulation.Statics.Indices[pair.Pair.B.Slot]];
         var bounds = simulation.BroadPhase.StaticTree.GetBounds(still.BroadPhaseIndex);
         pair.Gate.SetStatic(new(bounds.Min), new(bounds.Max));
+    }
+
+    // A half-space has no inner radius, and reaches farthest.
+    float SmallerInner(in FastPair pair)
+    {
+        var (a, b) = (narrowPhase.RadiiOf(pair.ShapeA), narrowPhase.RadiiOf(pair.ShapeB));
+        return a.Radius <= b.Radius ? a.Inner : b.Inner;
     }
 
     // How far what is swept of a shape reaches from its centre.

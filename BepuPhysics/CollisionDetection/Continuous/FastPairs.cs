@@ -1,8 +1,6 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -17,8 +15,8 @@ namespace BepuPhysics.CollisionDetection;
 // leaves. Impacts are made in the order of their times, and after each the pairs of its bodies are swept anew. So no time is lost; and whatever moved the
 // bodies, none is where it cannot have come to.
 //
-// Where there are many pairs, the ways of bodies and the first sweep of each pair are what takes time. They do not depend on each other, and FastPairsShare
-// has them done by all threads; what is left for one are the impacts.
+// Where there are many pairs, the ways of bodies, the first sweep of each pair, and the search for what those may meet whom the solver has thrown aside are
+// what takes time. They do not depend on each other, and FastPairsShare has them done by all threads; what is left for one are the impacts.
 sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simulation, BufferPool pool) : ISolverStage
 {
     // Parts of the inner radius by which cores are thinner: the first at which they are apart. Who is pushed again and again, by others, comes deeper by one
@@ -98,6 +96,11 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         changed.Dispose(pool);
         if (near.Span.Allocated)
             near.Dispose(pool);
+        if (looks.Span.Allocated)
+        {
+            looks.Dispose(pool);
+            found.Dispose(pool);
+        }
         times.Dispose(pool);
     }
 
@@ -109,6 +112,8 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         moverOf = default;
         changed = default;
         near = default;
+        looks = default;
+        found = default;
         times = default;
     }
 
@@ -122,13 +127,17 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         if (point == SolverPoint.BeforeSubsteps)
             Link();
         else if (HasMoved(point, substep))
-            Check(substep.Dt, point == SolverPoint.AfterSubsteps ? substep.Dt : stepDt - (substep.Index - 1) * substep.Dt);
+            Check(substep.Dt, EndOf(point, substep));
         else
             NoteFreeMotion();
     }
 
     /// <summary>Whether the bodies of a substep have moved before a point.</summary>
     internal static bool HasMoved(SolverPoint point, in Substep substep) => point == SolverPoint.AfterSubsteps || substep.Index > 0;
+
+    /// <summary>Where the step ends, s from the beginning of the substep in which bodies have moved.</summary>
+    internal double EndOf(SolverPoint point, in Substep substep) =>
+        point == SolverPoint.AfterSubsteps ? substep.Dt : stepDt - (substep.Index - 1) * substep.Dt;
 
     /// <summary>Blocks for other threads; 0 if there is too little for them to do. Those of a step: pairs that are found in it make blocks larger.</summary>
     internal int SharedBlockCount { get; private set; }
@@ -167,8 +176,6 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
                 !SweepPairs.IsKnown(pair.ShapeA.Type) || !SweepPairs.IsKnown(pair.ShapeB.Type);
             if (pair.Passes)
                 pair.A = pair.B = -1;
-            else
-                pair.SmallerInner = SmallerInner(pair);
             pair.NextOfA = Link(ref pair.A, i);
             pair.NextOfB = Link(ref pair.B, i);
         }
@@ -223,18 +230,19 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     // The way of a substep, which is that long, in a step that ends at a time from the substep's beginning.
     void Check(double dt, double end)
     {
-        stepEnd = end;
         if (SharedBlockCount == 0)
         {
             BeginWays(0, 1, dt);
+            GrowTurnedAside(end);
             SweepAll(0, 1, dt, pool);
+            LookAll(0, 1);
         }
         times.Clear(pairs.Count, pool);
         for (int i = 0; i < pairs.Count; ++i)
             times.Note(i, pairs[i].Time);
         times.Arrange();
         changed.Count = 0;
-        LookAroundTurnedAside(dt);
+        PairTurnedAside(dt);
         for (int next; (next = times.First) >= 0;)
             MakeImpact(next, dt);
         for (int i = 0; i < changed.Count; ++i)
@@ -356,134 +364,5 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     struct AllChildren : ISweepFilter
     {
         public readonly bool AllowTest(int childA, int childB) => true;
-    }
-
-    void MakeImpact(int index, double dt)
-    {
-        ref var pair = ref pairs[index];
-        var time = pair.Time;
-        if (pair.IsSensor)
-        {
-            // Once is enough to know, and in the order of times: nobody sees a way on which a wall before it has let nothing go.
-            pair.HasPassed = pair.Passes = true;
-            pair.Time = FastPair.Never;
-            times.Change(index, pair.Time);
-            return;
-        }
-        if (!pair.IsAsked)
-        {
-            var manifold = new ConvexContactManifold { Normal = pair.Normal.ToSingle(), Count = 1 };
-            manifold.OffsetB = (pair.ArmA - pair.ArmB).ToSingle();
-            manifold.Contact0.Offset = pair.ArmA.ToSingle();
-            pair.IsAsked = true;
-            pair.Passes = !narrowPhase.ConfigureImpact(pair.Pair, ref manifold, out pair.Friction, out pair.Restitution);
-            if (pair.Passes)
-            {
-                pair.Time = FastPair.Never;
-                times.Change(index, pair.Time);
-                return;
-            }
-        }
-        ++pair.ImpactCount;
-        ++ImpactCount;
-        FastBody still = default;
-        ref var a = ref pair.A >= 0 ? ref movers[pair.A] : ref still;
-        ref var b = ref pair.B >= 0 ? ref movers[pair.B] : ref still;
-        if (pair.A >= 0)
-            a.GoTo(time, dt);
-        if (pair.B >= 0)
-            b.GoTo(time, dt);
-        if (pair.ImpactCount >= SlidingCount)
-            Stop(pair, ref a, ref b);
-        else
-            Bounce(ref pair, ref a, ref b);
-        var (bodyA, bodyB) = (pair.A, pair.B);
-        GoOn(bodyA, dt);
-        GoOn(bodyB, dt);
-        // These may find more pairs, which moves all of them in memory.
-        LookAround(bodyA, time, dt);
-        LookAround(bodyB, time, dt);
-        SweepAgain(bodyA, time, dt);
-        SweepAgain(bodyB, time, dt);
-    }
-
-    void GoOn(int body, double dt)
-    {
-        if (body < 0)
-            return;
-        ref var mover = ref movers[body];
-        if (!mover.HasChanged)
-            changed.Add(body, pool);
-        mover.GoOn(dt);
-    }
-
-    void SweepAgain(int body, double time, double dt)
-    {
-        if (body < 0)
-            return;
-        for (int i = firstPairs[body]; i >= 0; i = pairs[i].NextOf(body))
-        {
-            Find(ref pairs[i], time, dt, pool);
-            times.Change(i, pairs[i].Time);
-        }
-    }
-
-    static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b)
-    {
-        Vector3 normal = pair.Normal.ToSingle(), armA = pair.ArmA.ToSingle(), armB = pair.ArmB.ToSingle();
-        var (inertiaA, inertiaB) = (a.Inertia.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);
-        var row = new ContactRow(normal, Exact.Cross(armA, normal), Exact.Cross(normal, armB));
-        // What comes back at once comes from an edge that does not leave: it is stopped there.
-        var restitution = pair.ImpactCount == 1 ? pair.Restitution : 0;
-        var approach = -row.Along(a.Velocity, b.Velocity);
-        var pushed = Push(row, inertiaA, inertiaB, (1 + restitution) * approach, float.MaxValue, ref a.Velocity, ref b.Velocity);
-        pair.Impulse += pushed;
-        if (!(pair.Friction > 0) || !(pushed > 0))
-            return;
-        var sliding = a.Velocity.Linear + Exact.Cross(a.Velocity.Angular, armA) - b.Velocity.Linear - Exact.Cross(b.Velocity.Angular, armB);
-        sliding -= normal * Exact.Dot(sliding, normal);
-        var speed = Exact.Length(sliding);
-        if (!(speed > 0))
-            return;
-        var tangent = sliding * (-1 / speed);
-        Push(new ContactRow(tangent, Exact.Cross(armA, tangent), Exact.Cross(tangent, armB)), inertiaA, inertiaB, speed,
-            pair.Friction * pushed, ref a.Velocity, ref b.Velocity);
-    }
-
-    // By the impulse along a row that changes the velocity in it.
-    static float Push(in ContactRow row, in BodyInertia inertiaA, in BodyInertia inertiaB, float change, float most, ref BodyVelocity a, ref BodyVelocity b)
-    {
-        var inverseMass = row.Along(row.ResponseOfA(inertiaA, 1), row.ResponseOfB(inertiaB, 1));
-        if (!(change > 0) || !(inverseMass > 0))
-            return 0;
-        var impulse = MathHelper.Min(change / inverseMass, most);
-        var (changeA, changeB) = (row.ResponseOfA(inertiaA, impulse), row.ResponseOfB(inertiaB, impulse));
-        a = new(a.Linear + changeA.Linear, a.Angular + changeA.Angular);
-        b = new(b.Linear + changeB.Linear, b.Angular + changeB.Angular);
-        return impulse;
-    }
-
-    // Impacts that do not end are those of a body that lies against the other, or spins against it edge by edge. It stops to approach, and to turn but about
-    // the normal: then no part of it comes nearer to a face. Where that does not help it stops altogether. The heavier body keeps its turn.
-    void Stop(in FastPair pair, ref FastBody a, ref FastBody b)
-    {
-        var normal = pair.Normal.ToSingle();
-        var inverseMass = a.Inertia.InverseMass + b.Inertia.InverseMass;
-        var aIsLighter = a.Inertia.InverseMass > b.Inertia.InverseMass;
-        ref var lighter = ref aIsLighter ? ref a : ref b;
-        ref var heavier = ref aIsLighter ? ref b : ref a;
-        var isLast = pair.ImpactCount >= StoppingCount;
-        StopCount += isLast ? 1 : 0;
-        var spin = lighter.Velocity.Angular - heavier.Velocity.Angular;
-        lighter.Velocity.Angular = heavier.Velocity.Angular + (isLast ? default : lighter.SpinAbout(normal, spin));
-        // Of the place of the impact, as a part of the heavier body.
-        var arm = (aIsLighter ? pair.ArmB - pair.ArmA : pair.ArmA - pair.ArmB).ToSingle();
-        var relative = lighter.Velocity.Linear - heavier.Velocity.Linear - Exact.Cross(heavier.Velocity.Angular, arm);
-        if (!isLast)
-            relative = normal * (aIsLighter ? MathHelper.Min(0, Exact.Dot(relative, normal)) : MathHelper.Max(0, Exact.Dot(relative, normal)));
-        if (!(inverseMass > 0))
-            return;
-        lighter.Velocity.Linear -= relative * (lighter.Inertia.InverseMass / inverseMass);
-        heavier.Velocity.Linear += relative * (heavier.Inertia.InverseMass / inverseMass);
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using System.Numerics;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
