@@ -23,6 +23,8 @@ sealed class QueryCounts
     // None is ever removed, and all are counted: a thread may still be about to count itself where it was at home.
     readonly Home?[] homes = new Home?[MaximumHomeCount];
     volatile Home home = Home.Nobody;
+    // The home since all threads have passed a fence.
+    volatile Home settled = Home.Nobody;
 
     /// <summary>
     /// Counts a query of the calling thread, if that is at home. It has to be taken back where the world turns out to be held, or the thread no more at home.
@@ -66,12 +68,17 @@ sealed class QueryCounts
         return sum != 0;
     }
 
-    // After the fence whoever was at home has either been seen to count itself, or sees that it is at home no more.
+    // After the fence whoever was at home has either been seen to count itself, or sees that it is at home no more. Where nobody is at home, nobody is to
+    // be seen: the fence takes microseconds, and where many threads change a world in turn each change would have one.
     [MethodImpl(MethodImplOptions.NoInlining)]
     void Move(int thread)
     {
-        home = FindHome(thread);
+        var next = FindHome(thread);
+        if (next == Home.Nobody && home == Home.Nobody && settled == Home.Nobody)
+            return;
+        home = next;
         Interlocked.MemoryBarrierProcessWide();
+        settled = next;
     }
 
     // A stage and a step may come here at the same time.

@@ -64,14 +64,22 @@ public class QueryCountTests
         }
     }
 
-    [Fact]
-    public void A_query_and_a_change_of_another_thread_never_go_on_at_once()
+    // With two threads, and with more than are remembered.
+    [Theory]
+    [InlineData(1, 20_000)]
+    [InlineData(11, 1_000)]
+    public void A_query_and_a_change_of_another_thread_never_go_on_at_once(int otherCount, int turnCount)
     {
         var rivals = new Rivals();
-        var other = new Thread(() => rivals.Compete(20_000));
-        other.Start();
-        rivals.Compete(20_000);
-        Assert.True(other.Join(patience));
+        var others = new Thread[otherCount];
+        for (int i = 0; i < otherCount; ++i)
+        {
+            others[i] = new Thread(() => rivals.Compete(turnCount));
+            others[i].Start();
+        }
+        rivals.Compete(turnCount);
+        foreach (var other in others)
+            Assert.True(other.Join(patience));
         Assert.Equal(0, rivals.Clashes);
         Assert.True(rivals.Queries > 0 && rivals.Changes > 0);
     }
