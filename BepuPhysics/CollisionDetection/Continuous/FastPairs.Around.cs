@@ -133,7 +133,7 @@ sealed unsafe partial class FastPairs
         for (int i = StartOf(block, blockCount, looks.Count); i < StartOf(block + 1, blockCount, looks.Count); ++i)
         {
             var list = new FoundList(ReferenceOf(looks[i].Body), found.Span.Memory + i * FoundPerLook);
-            simulation.BroadPhase.FindOverlapping(looks[i].Way, pool, ref list);
+            simulation.BroadPhase.FindOverlapping(looks[i].Way, ref list);
             looks[i].FoundCount = list.Count;
         }
     }
