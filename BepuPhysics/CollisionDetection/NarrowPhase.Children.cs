@@ -217,9 +217,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (tested.CacheIndex >= 0)
             Pairs.MarkSeen(tested.CacheIndex);
         var known = FirstManifold(tested);
+        Unsafe.SkipInit(out ConvexContactManifold moved);
         for (; i < results.Length; i = SkipForgotten(results, i + 1))
         {
             ref var result = ref results[i];
+            if (tested.MayHaveRims)
+                result.Manifold = AtRims(tested.Pair, result.Manifold, ref moved);
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
             var frictionCenter = worker.Statics.FindFrictionCenter(tested.Pair, result.Children);

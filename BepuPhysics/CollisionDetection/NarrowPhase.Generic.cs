@@ -175,6 +175,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             }
             margin = tested.SpeculativeMargin;
         }
+        tested.MayHaveRims = MayHaveRims(tested, collidableA.Shape, shapeB);
         if (task.Expands)
         {
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
@@ -262,20 +263,22 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     void Complete(ref Worker worker, in TestedPair tested, in ConvexContactManifold convex, in PairMaterialProperties material, int inherited,
         in Vector3 frictionCenter)
     {
+        Unsafe.SkipInit(out ConvexContactManifold moved);
+        ref readonly var contacts = ref tested.MayHaveRims ? ref AtRims(tested.Pair, convex, ref moved) : ref convex;
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {
             Pairs.MarkSeen(tested.CacheIndex);
             if (inherited == StaticPairs.Nothing && tested.KeepsConstraint(typeId))
             {
-                worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, convex,
+                worker.Contacts.Add(Simulation.Solver, &Pairs.Pairs.Values.Memory[tested.CacheIndex].Single.Features, tested.Constraint, contacts,
                     material, frictionCenter);
                 return;
             }
         }
         var pending = new PendingManifold(tested.Pair, ChildIds.None, tested.KeepsHistory)
         {
-            Manifold = convex,
+            Manifold = contacts,
             Material = material,
             Inherited = inherited,
             FrictionCenter = frictionCenter,

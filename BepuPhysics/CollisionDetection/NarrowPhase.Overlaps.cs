@@ -45,6 +45,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (workers.Length < count)
             Array.Resize(ref workers, count);
         readsEarly = count > 1;
+        BeginRims(dt);
         try
         {
             if (crowd.CountsFirst)

@@ -28,6 +28,9 @@ struct TestedPair
     /// <summary>Whether the pair is tested where it will touch; then its contacts are those of that time.</summary>
     public bool IsImpact;
 
+    /// <summary>Whether contacts may run around the rims of cylinders.</summary>
+    public bool MayHaveRims;
+
     /// <summary>Time at which it will touch, s from the beginning of the step.</summary>
     public float ImpactTime;
 

@@ -1,4 +1,5 @@
 using System;
+using BepuUtilities;
 
 namespace BepuPhysics;
 
@@ -50,6 +51,10 @@ public sealed partial class Solver
 
     /// <summary>Substeps of the present step while it is solved, and of the last one afterwards; 0 before the first.</summary>
     public int LastSubstepCount { get; private set; }
+
+    /// <summary>About how long the substeps of a step will be, s: before it begins, its number of them is not rounded yet.</summary>
+    internal float ForeseeSubstepDt(float dt) =>
+        stepsSeen < OddSteps || (hasFixedSubstepCount && governor is null) ? dt / substepCount : MathHelper.Min(dt, usualSubstepDt);
 
     /// <summary>Divides a step into substeps.</summary>
     /// <returns>Length of its substeps, s.</returns>

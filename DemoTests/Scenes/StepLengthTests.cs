@@ -32,6 +32,7 @@ public class StepLengthTests(ITestOutputHelper output)
         {
             for (int i = 0; i < 5; ++i)
             {
+                Assert.Equal(dt / asked, world.Solver.ForeseeSubstepDt(dt));
                 world.Step(dt);
                 Assert.Equal(asked, world.Solver.LastSubstepCount);
             }
@@ -65,6 +66,8 @@ public class StepLengthTests(ITestOutputHelper output)
             scheduled.Add(substep);
             return 1;
         };
+        // As part of the step: that is what decides how far ahead of its beginning substeps are in the mean.
+        Assert.InRange(world.Solver.ForeseeSubstepDt(length * Usual) / (length * Usual) - 1.0 / expected, -.04, .04);
         world.Step(length * Usual);
 
         Assert.Equal(expected, world.Solver.LastSubstepCount);

@@ -48,24 +48,20 @@ static class KnownMisses
             ("ten: capsules in a groove", "s4 i1"),
             ("ten: cylinders in a groove", "s4 i1"),
             ("ten: spheres in a wide shaft", "s4 i1"));
+        // A rigid coin that rolls loses nothing, and one that falls flat only what its impacts take: these are not to come to rest so soon.
         Add("R3", "it has not come to rest yet",
+            ("coin 0.03 m thick, 10 rad/s, at the end", "s16 i1 r1 stiff"),
             ("coin 0.03 m thick, 10 rad/s, at the end", "s4 i1"),
             ("coin 0.03 m thick, 15 rad/s, at the end", "s16 i1 r1 stiff"),
             ("coin 0.03 m thick, 15 rad/s, at the end", "s4 i1"),
+            ("coin 0.03 m thick, 7 rad/s, at the end", "s16 i1 r1 stiff"),
+            ("coin 0.03 m thick, 7 rad/s, at the end", "s4 i1"),
+            ("coin 0.06 m thick, 10 rad/s, at the end", "s16 i1 r1 stiff"),
             ("coin 0.06 m thick, 10 rad/s, at the end", "s4 i1"),
             ("coin 0.06 m thick, 15 rad/s, at the end", "s16 i1 r1 stiff"),
             ("coin 0.06 m thick, 15 rad/s, at the end", "s4 i1"),
+            ("coin 0.06 m thick, 7 rad/s, at the end", "s16 i1 r1 stiff"),
             ("coin 0.06 m thick, 7 rad/s, at the end", "s4 i1"));
-        Add("R3", "contacts that move around a rim give energy",
-            ("coin 0.03 m thick, 10 rad/s, on the way", "s16 i1 r1 stiff"),
-            ("coin 0.03 m thick, 5 rad/s, on the way", "s16 i1 r1 stiff"),
-            ("coin 0.06 m thick, 10 rad/s, on the way", "s16 i1 r1 stiff"),
-            ("coin 0.03 m thick, 5 rad/s, on the way", "s4 i1"),
-            ("coin 0.03 m thick, 7 rad/s, on the way", "s16 i1 r1 stiff"),
-            ("coin 0.03 m thick, 7 rad/s, on the way", "s4 i1"),
-            ("coin 0.06 m thick, 5 rad/s, on the way", "s16 i1 r1 stiff"),
-            ("coin 0.06 m thick, 5 rad/s, on the way", "s4 i1"),
-            ("coin 0.06 m thick, 7 rad/s, on the way", "s16 i1 r1 stiff"));
         Add("X4", "a float has a step of .06 m there",
             ("at 1e6 m", "s16 i1 r1 stiff"),
             ("at 1e6 m", "s4 i1"));

@@ -1,0 +1,60 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Contacts at rims go to where they will be when they become a constraint: after games, seams and statics side by side have seen them where they are.
+public sealed unsafe partial class NarrowPhase<TCallbacks>
+{
+    // Time from the beginning of the step for which contacts at rims are, s. Substeps see depths as they are when they begin: in the mean that is then.
+    float rimTime;
+
+    void BeginRims(float dt) => rimTime = (dt - Simulation.Solver.ForeseeSubstepDt(dt)) * 0.5f;
+
+    // Contacts where a pair will touch are those of another time.
+    static bool MayHaveRims(in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB) => !tested.IsImpact && (MayHaveRims(shapeA) || MayHaveRims(shapeB));
+
+    // Of a compound it is known when its children have been looked at. Those of many children are not: there are too many.
+    static bool MayHaveRims(TypedIndex shape) => shape.Type is Cylinder.Id or Compound.Id;
+
+    /// <summary>The contacts of a pair as the solver is to have them.</summary>
+    /// <param name="pair">The pair, which may have rims.</param>
+    /// <param name="found">Its contacts as they were found.</param>
+    /// <param name="moved">Room for others.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    ref readonly ConvexContactManifold AtRims(in CollidablePair pair, in ConvexContactManifold found, ref ConvexContactManifold moved)
+    {
+        if (found.Count > RimContacts.GreatestCount || !(rimTime > 0))
+            return ref found;
+        var turn = (VelocityOf(pair.A).Angular - VelocityOf(pair.B).Angular) * rimTime;
+        if (turn == default)
+            return ref found;
+        moved = found;
+        Simulation.GetPoseAndShape(pair.A, out var poseA, out var shapeA);
+        Simulation.GetPoseAndShape(pair.B, out var poseB, out var shapeB);
+        MoveRims(found, shapeA, poseA.Orientation, default, found.Normal, turn, ref moved);
+        MoveRims(found, shapeB, poseB.Orientation, found.OffsetB, -found.Normal, -turn, ref moved);
+        return ref moved;
+    }
+
+    void MoveRims(in ConvexContactManifold found, TypedIndex shape, in Quaternion orientation, in Vector3 center, in Vector3 normal, in Vector3 turn,
+        ref ConvexContactManifold moved)
+    {
+        var shapes = Simulation.Shapes;
+        if (shape.Type == Cylinder.Id)
+            RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(shape.Index), new(default, orientation), center, normal, turn, ref moved);
+        if (shape.Type != Compound.Id)
+            return;
+        ref var compound = ref shapes.GetShape<Compound>(shape.Index);
+        for (int i = 0; i < compound.Children.Length; ++i)
+        {
+            ref var child = ref compound.Children[i];
+            if (child.ShapeIndex.Type != Cylinder.Id)
+                continue;
+            var pose = new RigidPose(Exact.Rotate(child.LocalPosition, orientation), Exact.Concatenate(child.LocalOrientation, orientation));
+            RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(child.ShapeIndex.Index), pose, center, normal, turn, ref moved);
+        }
+    }
+}
