@@ -44,6 +44,7 @@ public interface IPoseIntegrator
     /// <param name="pose">Poses of the bodies.</param>
     /// <param name="velocity">Velocities that they will have.</param>
     /// <param name="speedSquared">Squared speeds that they have now, linear plus angular; infinite for kinematic bodies that move at all.</param>
+    /// <param name="gain">How much their linear velocities will have changed, m/s.</param>
     internal void PredictVelocities(
-        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared);
+        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared, out Vector<float> gain);
 }

@@ -166,7 +166,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     }
 
     void IPoseIntegrator.PredictVelocities(
-        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared)
+        int bundle, float dt, int workerIndex, out RigidPoseWide pose, out BodyVelocityWide velocity, out Vector<float> speedSquared, out Vector<float> gain)
     {
         ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
@@ -185,6 +185,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         sound = Soundness.OfVelocities(velocity);
         velocity.Linear = Vector3Wide.Select(sound, velocity.Linear, before.Linear);
         velocity.Angular = Vector3Wide.Select(sound, velocity.Angular, before.Angular);
+        gain = (velocity.Linear - before.Linear).Length();
     }
 
     // Orientations that a game has written and not quite normalised would turn normals that are not of unit length.

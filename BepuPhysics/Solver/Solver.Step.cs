@@ -95,6 +95,7 @@ public sealed unsafe partial class Solver
             return;
         }
         ChooseDirectJoints();
+        PreviousDt = previousSubstepDt * LastSubstepCount;
         var substepDt = BeginStep(dt);
         var scale = previousSubstepDt > 0 ? WarmStartScale(substepDt / previousSubstepDt) : 1;
         previousSubstepDt = substepDt;

@@ -32,6 +32,9 @@ public sealed partial class Solver
     /// <summary>The usual length of a step, s; 0 before the first.</summary>
     internal float UsualDt => usualDt;
 
+    /// <summary>While a step is solved: the length of the one before, s; 0 in the first.</summary>
+    internal float PreviousDt { get; private set; }
+
     bool hasFixedSubstepCount;
 
     /// <summary>

@@ -52,7 +52,7 @@ sealed class LawWorld : IDisposable
     readonly BodyHandle[] handles;
     int steps;
 
-    public LawWorld(LawScene scene, Outlook outlook, LoadPathMode loadPath)
+    public LawWorld(LawScene scene, Outlook outlook)
     {
         (this.scene, this.outlook) = (scene, outlook);
         float scale = outlook.Scale;
@@ -61,7 +61,7 @@ sealed class LawWorld : IDisposable
             Surface = new() { Restitution = scene.Restitution },
         };
         var gravity = new WorldGravity(new() { Gravity = new Vector3(0, -scene.Gravity * scale, 0) });
-        simulation = Simulation.Create(pool, callbacks, gravity, SolveDescription.Default with { LoadPath = loadPath });
+        simulation = Simulation.Create(pool, callbacks, gravity, SolveDescription.Default);
         handles = new BodyHandle[scene.Bodies.Length];
         var order = Enumerable.Range(0, handles.Length);
         foreach (int i in outlook.IsReversed ? order.Reverse() : order)

@@ -61,19 +61,17 @@ public class WorldLawTests(ITestOutputHelper output)
         AssertAlike(scene, new() { Scale = 64 }, new(), 0);
     }
 
-    // The load path holds what rests on what rests, and leaves the rest to the sweeps (decisions/load-path.md): without it here.
     [Theory, MemberData(nameof(Scenes))]
     public void Train_carries_all_alike(string scene)
     {
         foreach (var velocity in new Vector3[] { new(4, 0, -2), new(0, 2, 0) })
-            AssertAlike(
-                scene, new() { Velocity = velocity, HasKinematicFloors = true }, new() { HasKinematicFloors = true }, 2e-3, LoadPathMode.Off);
+            AssertAlike(scene, new() { Velocity = velocity, HasKinematicFloors = true }, new() { HasKinematicFloors = true }, 2e-3);
     }
 
-    void AssertAlike(string name, Outlook one, Outlook other, double tolerance, LoadPathMode loadPath = LoadPathMode.WhereNeeded)
+    void AssertAlike(string name, Outlook one, Outlook other, double tolerance)
     {
-        using var first = new LawWorld(scenes[name], one, loadPath);
-        using var second = new LawWorld(scenes[name], other, loadPath);
+        using var first = new LawWorld(scenes[name], one);
+        using var second = new LawWorld(scenes[name], other);
         double worst = 0;
         for (int i = 0; i < Steps; ++i)
         {

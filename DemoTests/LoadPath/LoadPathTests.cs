@@ -159,26 +159,6 @@ public class LoadPathTests
         Assert.Equal(Hash(LoadPathMode.Off), Hash(mode));
     }
 
-    // Looks at the bodies before or after the stage.
-    sealed class KineticEnergy(Bodies bodies) : ISolverStage
-    {
-        public double Last;
-
-        public int GetBlockCount(SolverPoint point) => point == SolverPoint.LastAfterWarmStart ? 1 : 0;
-
-        public void Execute(SolverPoint point, in Substep substep, int block)
-        {
-            Last = 0;
-            ref var set = ref bodies.ActiveSet;
-            for (int i = 0; i < set.Count; ++i)
-            {
-                var velocity = set.MotionStates[i].Velocity;
-                var inertia = Symmetric3x3.Invert(set.WorldInertias[i].InverseInertiaTensor);
-                Last += (velocity.Linear.LengthSquared() / set.WorldInertias[i].InverseMass + Vector3.Dot(velocity.Angular, inertia * velocity.Angular)) / 2.0;
-            }
-        }
-    }
-
     /// <summary>The law that the stage rests on: whatever the pile, it takes kinetic energy out and puts none in.</summary>
     /// <remarks>PHYSICS_FULL_TESTS: a thousand piles in place of twenty.</remarks>
     [Theory, MemberData(nameof(Modes))]

@@ -12,9 +12,13 @@ public class SupportGraphTests
     const int Ground = -1;
     const int Gap = 3;
 
-    readonly struct Heights(float[] heights) : IHeights
+    readonly struct Heights(float[] heights) : IHeights, IFloors
     {
         public float Of(int body) => heights[body];
+
+        public bool MoveAlike(int kinematic, int other) => kinematic == other;
+
+        public bool RestsOn(int body, int kinematic) => true;
     }
 
     // Each support has three contacts unless said otherwise.
@@ -80,6 +84,17 @@ public class SupportGraphTests
         var (islands, count) = Build(4, [(0, 3), (3, 1), (1, Ground), (2, Ground)]);
         AssertIslands("1 3 0, 2", islands);
         Assert.Equal(4, count);
+    }
+
+    /// <summary>Who stands on floors that move differently rests on none of them; who has a foot on the ground rests on that alone.</summary>
+    [Fact]
+    public void What_rests_on_a_floor_moves_along_with_it()
+    {
+        int lift = SupportLink.Floor(10), other = SupportLink.Floor(11);
+        var (islands, count) = Build(9, [(0, lift), (1, 0), (1, lift), (2, other), (3, 2), (3, 0), (4, Ground), (5, 4), (5, 2), (6, 5), (7, 3), (8, 7)]);
+        AssertIslands("0 1, 2, 4 5 6", islands);
+        Assert.Equal(7, count);
+        Assert.Equal(10, SupportLink.Floor(lift));
     }
 
     [Fact]
@@ -284,7 +299,7 @@ public class SupportGraphTests
         for (int i = 0; i < bodyCount; ++i)
             lines.Append(graph.NodeOf[i]).Append(',');
         foreach (ref var node in graph.Nodes.AsSpan())
-            lines.Append($"|{node.Body} {node.FirstSupport} {node.SupportCount} {node.Radius} {node.Leans} {node.IsRelaxed}");
+            lines.Append($"|{node.Body} {node.Floor} {node.FirstSupport} {node.SupportCount} {node.Radius} {node.Leans} {node.IsRelaxed}");
         foreach (ref var link in graph.Links.AsSpan())
             lines.Append($"|{link.Upper} {link.Lower} {link.Count} {link.Slides}");
         return lines.ToString();

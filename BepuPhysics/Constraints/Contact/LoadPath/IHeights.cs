@@ -6,3 +6,13 @@ interface IHeights
     /// <summary>Height of a body of the active set.</summary>
     float Of(int body);
 }
+
+/// <summary>How what rests moves along with what moves and does not turn.</summary>
+interface IFloors
+{
+    /// <summary>Whether two kinematic bodies move as one.</summary>
+    bool MoveAlike(int kinematic, int other);
+
+    /// <summary>Whether a body rests to who moves along with a kinematic one.</summary>
+    bool RestsOn(int body, int kinematic);
+}

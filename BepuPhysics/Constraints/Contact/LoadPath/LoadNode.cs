@@ -7,6 +7,10 @@ struct LoadNode
 {
     /// <summary>Index in the active set.</summary>
     public int Body;
+    /// <summary>Index of the kinematic body along with which it moves; negative where it rests on what does not move.</summary>
+    public int Floor;
+    /// <summary>What a game has changed of that body's velocity since the last step, m/s.</summary>
+    public Vector3 FloorChange;
     /// <summary>Its supports, one after the other.</summary>
     public int FirstSupport, SupportCount;
     /// <summary>Greatest distance of a contact from the centre, m.</summary>

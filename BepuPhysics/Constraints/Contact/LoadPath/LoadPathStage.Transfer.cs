@@ -71,7 +71,7 @@ sealed unsafe partial class LoadPathStage
         ref var inertia = ref set.WorldInertias[node.Body];
         foreach (ref var support in supports)
             support.Read();
-        LoadTransfer.Find(supports, velocity.Linear * (1 / inertia.InverseMass) + node.Linear,
+        LoadTransfer.Find(supports, (velocity.Linear - FloorVelocity(node)) * (1 / inertia.InverseMass) + node.Linear,
             Symmetric3x3.Invert(inertia.InverseInertiaTensor) * velocity.Angular + node.Angular, node.Radius);
         foreach (ref var support in supports)
         {
@@ -87,8 +87,8 @@ sealed unsafe partial class LoadPathStage
         }
     }
 
-    // As far as it lowers the kinetic energy of the island, and no farther than all of it. Both ends obey what bounds the impulses, and these
-    // bounds are convex: so does all between.
+    // As far as it lowers the kinetic energy of the island, to who moves along with its floor, and no farther than all of it. Both ends obey what bounds
+    // the impulses, and these bounds are convex: so does all between.
     void Apply(int start, int end, Span<LoadSupport> supports)
     {
         ref var set = ref bodies.Awake;
@@ -100,7 +100,7 @@ sealed unsafe partial class LoadPathStage
                 continue;
             ref var velocity = ref set.MotionStates[node.Body].Velocity;
             ref var inertia = ref set.WorldInertias[node.Body];
-            slope += Exact.Dot(velocity.Linear, node.Linear) + Exact.Dot(velocity.Angular, node.Angular);
+            slope += Exact.Dot(velocity.Linear - FloorVelocity(node), node.Linear) + Exact.Dot(velocity.Angular, node.Angular);
             curvature += Exact.LengthSquared(node.Linear) * inertia.InverseMass + Exact.Dot(node.Angular, inertia.InverseInertiaTensor * node.Angular);
         }
         // Not if a number went wrong: the comparison is false then.

@@ -27,7 +27,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     const float ActiveShare = 0.05f;
 
     SupportGraph graph;
-    // Velocities before the first integration: those of the centres, the others are not written.
+    // Velocities of the centres before the first integration; in the place of the angular ones, where there are floors, those of the last step.
     Buffer<BodyVelocity> before;
     // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
     Buffer<SupportLink> found;
@@ -101,7 +101,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 Fill(block, substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
-                FindLoads(block);
+                FindLoads(block, substep.Index);
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
@@ -117,8 +117,14 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     {
         ref var set = ref bodies.Awake;
         var end = FirstOf(block + 1, BodyBlockCount, set.Count);
+        var hasFloors = false;
         for (int i = FirstOf(block, BodyBlockCount, set.Count); i < end; ++i)
+        {
             before[i].Linear = set.MotionStates[i].Velocity.Linear;
+            if (set.LocalInertias[i].InverseMass == 0)
+                hasFloors |= IsFloor(i);
+        }
+        hasFloorsIn[block] = hasFloors;
     }
 
     ContactBundles BundlesOf(int block) =>
@@ -130,7 +136,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     {
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
-        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, spoilt.Memory, QuietSteps * solver.LastSubstepCount,
+        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, spoilt.Memory, HasFloors, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale, substep.Dt);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
@@ -156,7 +162,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return;
         }
         ref var set = ref bodies.Awake;
-        graph.Build(found.Memory, used, set.Count, spoilt, new HeightAgainstGain(set.MotionStates, before), pool);
+        graph.Build(found.Memory, used, set.Count, spoilt, new Motions(set.MotionStates, before, solver.LastSubstepCount), pool);
         MakeRooms();
     }
 
@@ -201,14 +207,11 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             ref var node = ref graph.Nodes[i];
             SetTolerance(ref node, dt);
+            if (node.Floor >= 0)
+                node.FloorChange = Change(bodies.Awake.MotionStates[node.Floor], before[node.Floor]);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
                 graph.Links[j].Spring = ContactMaterialWide.HeldSpring(graph.Links[j].Band);
         }
-    }
-
-    readonly struct HeightAgainstGain(Buffer<MotionState> motions, Buffer<BodyVelocity> before) : IHeights
-    {
-        public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, motions[body].Velocity.Linear - before[body].Linear);
     }
 
     // What a heavy body has left of its velocity is much to a light one below.
@@ -228,12 +231,14 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     }
 
     // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
-    void FindLoads(int block)
+    void FindLoads(int block, int substep)
     {
         var start = FirstOf(block, blockCount, graph.Nodes.Count);
         var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
         if (start == end)
             return;
+        if (HasFloors)
+            PushAlong(start, end, substep);
         for (int island = graph.IslandOf(start); start < end; ++island)
         {
             ref var first = ref graph.Nodes[graph.Islands[island]];
@@ -255,7 +260,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             ref var node = ref graph.Nodes[i];
             ref var velocity = ref set.MotionStates[node.Body].Velocity;
-            var speed = Exact.Length(velocity.Linear) + Exact.Length(velocity.Angular) * node.Radius;
+            var speed = Exact.Length(velocity.Linear - FloorVelocity(node)) + Exact.Length(velocity.Angular) * node.Radius;
             node.HasLoad = speed > node.Tolerance * MathHelper.Min(share, ActiveShare);
             needsWork |= speed > node.Tolerance * share;
             node.Linear = default;

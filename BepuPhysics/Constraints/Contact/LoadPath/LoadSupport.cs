@@ -8,7 +8,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// <summary>A contact patch by which one body rests on another or on what does not move, seen from the upper of the two.</summary>
 unsafe struct LoadSupport
 {
-    /// <summary>Index of the lower body in the active set; negative for what does not move.</summary>
+    /// <summary>Index of the lower body in the active set; negative for what nothing pushes.</summary>
     public int Lower;
     /// <summary>Accumulated impulses of the constraint: its column in its type batch.</summary>
     public float* Impulses;

@@ -6,9 +6,10 @@ namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>Finds the contact constraints of a bundle that carry one of their bodies against what pulls at it, and are quiet.</summary>
 /// <param name="bodies">The bodies, after the first integration.</param>
-/// <param name="before">Their velocities before it, a row each, of which only the first half is read.</param>
+/// <param name="before">Their velocities before it, a row each; in its second half that of the last step, by which floors are told.</param>
 /// <param name="constraints">Their lists of constraints, a row each.</param>
 /// <param name="spoilt">Per body: becomes 1 where something pushes it from the side that is not found.</param>
+/// <param name="hasFloors">Whether a kinematic body moves, or did in the last step: then the second half of each row is read too.</param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
 /// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
@@ -20,7 +21,7 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, float quietSteps, RestTolerance tolerance,
+    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, bool hasFloors, float quietSteps, RestTolerance tolerance,
     float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
@@ -30,7 +31,7 @@ readonly unsafe struct SupportFinder(
     const float LeastSlope = 0.8f;
     // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
     // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
-    const float RestingSteps = 1;
+    internal const float RestingSteps = 1;
     // How much faster than what is quiet a body that leans may be, and the surfaces of its contacts: some steps of acceleration. An arch that is put down falls
     // until it knows its load, and where a stone of it is pushed all others move; let go then it would stand on soft contacts, on which a thin one falls.
     const float LeaningShare = 2;
@@ -89,8 +90,18 @@ readonly unsafe struct SupportFinder(
             carries &= flat;
         isUpperA |= fixedB;
         var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
-        carries &= Vector.LessThan((bodyA.Linear - gainA).LengthSquared(), resting * resting);
-        carries &= Vector.LessThan((bodyB.Linear - gainB).LengthSquared(), resting * resting);
+        var rests = Vector.LessThan((bodyA.Linear - gainA).LengthSquared(), resting * resting) &
+            Vector.LessThan((bodyB.Linear - gainB).LengthSquared(), resting * resting);
+        var moves = Vector<int>.Zero;
+        if (hasB && hasFloors)
+        {
+            // What rests to each other may rest on what moves: the graph knows it.
+            gainB = Vector3Wide.Select(fixedB, bodyB.Linear - ReadEarlier(references[1]), gainB);
+            var together = flat & Vector.LessThan((bodyA.Linear - gainA - (bodyB.Linear - gainB)).LengthSquared(), resting * resting);
+            moves = Vector.AndNot(together, rests);
+            rests |= together;
+        }
+        carries &= rests;
         if (carries == Vector<int>.Zero)
         {
             Spoil(leans, references, hasB);
@@ -98,11 +109,20 @@ readonly unsafe struct SupportFinder(
         }
 
         ReadRest(references[0], ref bodyA);
+        var isFloor = Vector<int>.Zero;
         carries &= Vector.GreaterThan(bodyA.InverseMass, Vector<float>.Zero);
         if (hasB)
         {
             ReadRest(references[1], ref bodyB);
-            var stands = Vector.Equals(bodyB.Linear.LengthSquared() + bodyB.Angular.LengthSquared(), Vector<float>.Zero);
+            var speed = bodyB.Linear.LengthSquared() + bodyB.Angular.LengthSquared();
+            var stands = Vector.Equals(speed, Vector<float>.Zero);
+            if (hasFloors)
+            {
+                // What has just stopped is a floor that moved.
+                var stood = Vector.Equals(gainB.LengthSquared(), Vector<float>.Zero);
+                isFloor = flat & fixedB & Vector.Equals(bodyB.Angular.LengthSquared(), Vector<float>.Zero) & ~(stands & stood);
+                stands = stands & stood | isFloor;
+            }
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
         }
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
@@ -160,7 +180,8 @@ readonly unsafe struct SupportFinder(
         var indexA = references[0] & new Vector<int>(EncodedBody.IndexMask);
         var indexB = hasB ? references[1] & new Vector<int>(EncodedBody.IndexMask) : indexA;
         var upper = Wide.Select(lowerA, indexB, indexA);
-        var lower = Wide.Select(fixedB, new Vector<int>(-1), Wide.Select(lowerA, indexA, indexB));
+        var lower = Wide.Select(fixedB, new Vector<int>(SupportLink.Still), Wide.Select(lowerA, indexA, indexB));
+        lower = Wide.Select(isFloor, new Vector<int>(SupportLink.Still - 1) - indexB, lower);
         int foundCount = 0;
         for (var lanes = Wide.Bits(carries); lanes != 0; lanes &= lanes - 1)
         {
@@ -180,6 +201,7 @@ readonly unsafe struct SupportFinder(
                 IsUpperA = isUpperA[lane] != 0,
                 Slides = slides[lane] != 0,
                 Leans = flat[lane] == 0,
+                Moves = moves[lane] != 0,
             };
         }
         return foundCount;
@@ -252,6 +274,13 @@ readonly unsafe struct SupportFinder(
         body.Linear = read.Linear;
         var half = Transpose.GatherHalf((float*)before, Rows8.Count, rows);
         gain = body.Linear - new Vector3Wide(half.X, half.Y, half.Z);
+    }
+
+    // The velocities of the last step.
+    Vector3Wide ReadEarlier(Vector<int> references)
+    {
+        var half = Transpose.GatherHalf((float*)before + Rows8.Count / 2, Rows8.Count, new RowOffsets(references));
+        return new(half.X, half.Y, half.Z);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

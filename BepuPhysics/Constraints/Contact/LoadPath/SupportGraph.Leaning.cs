@@ -18,12 +18,13 @@ unsafe partial struct SupportGraph
     // What leans on each other, as the stones of an arch, is carried in no order from the ground upwards: such bodies are solved with all of their
     // neighbours at once. Between bodies that rest on the ground without it a steep patch does not count: boxes that stand side by side do not lean.
     // Where a body that leans is pushed by steep patches that are not quiet, or which are an edge or a point, nothing can be said of what it leans on.
-    void FindLeaning(BufferPool pool)
+    void FindLeaning<TMotions>(TMotions motions, BufferPool pool) where TMotions : struct, IFloors
     {
         for (int i = 0; i < leaning.Count; ++i)
         {
             ref var support = ref byUpper[leaning[i]];
-            support.Carries = grounded[support.Upper] == 0 || (support.Lower >= 0 && grounded[support.Lower] == 0);
+            support.Carries = (grounded[support.Upper] == 0 || (support.Lower >= 0 && grounded[support.Lower] == 0)) &&
+                !(hasFloors && (IsOnFloor(support.Upper) || (support.Lower >= 0 && IsOnFloor(support.Lower))));
             if (!support.Carries || support.Lower < 0)
                 continue;
             nextAbove[leaning[i]] = above[support.Lower];
@@ -62,7 +63,7 @@ unsafe partial struct SupportGraph
         // What rests on them is carried, too.
         for (int i = 0; found && i < order.Count; ++i)
         {
-            if (grounded[order[i]] == 0 && IsGrounded(order[i]))
+            if (grounded[order[i]] == 0 && IsGrounded(order[i], motions))
                 grounded[order[i]] = 1;
         }
     }
@@ -139,6 +140,8 @@ unsafe partial struct SupportGraph
     void AddLeaning(int body, BufferPool pool)
     {
         grounded[body] = Leans;
+        if (hasFloors)
+            floors[body] = SupportLink.Still;
         if (positions[body] >= 0)
             return;
         positions[body] = order.Count;

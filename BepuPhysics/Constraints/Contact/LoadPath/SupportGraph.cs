@@ -25,6 +25,7 @@ unsafe partial struct SupportGraph
         public bool Slides;
         public bool Leans;
         public bool IsSpoilt;
+        public bool Moves;
         public bool Carries;
     }
 
@@ -39,6 +40,10 @@ unsafe partial struct SupportGraph
     Buffer<int> above;
     Buffer<int> islandOf;
     Buffer<byte> grounded;
+    // Whether anything rests on a kinematic body that moves.
+    bool hasFloors;
+    // Per body that has its place in the order: what carries it, as in the place of a lower body, or None. Allocated only if there is any floor.
+    Buffer<int> floors;
     // Support with the same lower body that follows, by index in the order of upper bodies.
     Buffer<int> nextAbove;
     QuickList<int> order;
@@ -47,8 +52,8 @@ unsafe partial struct SupportGraph
     // What the graph was built of, beside the supports: it is the same of the same.
     QuickList<(int Start, int Count)> builtOf;
     int builtBodyCount;
-    // Heights change in each step.
-    bool dependsOnHeights;
+    // Heights and velocities change in each step.
+    bool dependsOnMotion;
 
     /// <summary>Bodies, island after island, in each from the ground upwards.</summary>
     internal QuickList<LoadNode> Nodes;
@@ -66,11 +71,11 @@ unsafe partial struct SupportGraph
     /// <param name="pieces">Which of that is in use.</param>
     /// <param name="bodyCount">Bodies of the active set.</param>
     /// <param name="spoilt">Not zero for each body that something unknown pushes from the side.</param>
-    /// <param name="heights">Height of each body, in any unit, by which a circle of supports is cut.</param>
+    /// <param name="motions">Height of each body, in any unit, by which a circle of supports is cut, and who rests on what moves.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal void Build<THeights>(
-        SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, THeights heights, BufferPool pool)
-        where THeights : struct, IHeights
+    internal void Build<TMotions>(
+        SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, TMotions motions, BufferPool pool)
+        where TMotions : struct, IHeights, IFloors
     {
         if (IsBuiltOf(found, pieces, bodyCount, spoilt))
             return;
@@ -81,9 +86,11 @@ unsafe partial struct SupportGraph
         Take(count, bodyCount, pool);
         SortByUpper(found, pieces, bodyCount, spoilt, pool);
         LinkAbove(bodyCount, pool);
-        OrderUpwards(bodyCount, heights, pool);
+        if (hasFloors)
+            pool.TakeAtLeast(bodyCount, out floors);
+        OrderUpwards(bodyCount, motions, pool);
         if (leaning.Count > 0)
-            FindLeaning(pool);
+            FindLeaning(motions, pool);
         MakeNodes(bodyCount, pool);
         builtOf = new QuickList<(int, int)>(pieces.Length, pool);
         foreach (var piece in pieces)
@@ -94,14 +101,14 @@ unsafe partial struct SupportGraph
     // The supports lie by their upper body, each with its place among those found: no two have the same, so they are all.
     readonly bool IsBuiltOf(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt)
     {
-        if (!builtOf.Span.Allocated || dependsOnHeights || bodyCount != builtBodyCount || !builtOf.AsSpan().SequenceEqual(pieces))
+        if (!builtOf.Span.Allocated || dependsOnMotion || bodyCount != builtBodyCount || !builtOf.AsSpan().SequenceEqual(pieces))
             return false;
         for (int i = 0; i < starts[bodyCount]; ++i)
         {
             ref var support = ref byUpper[i];
             ref var link = ref found[support.Found];
             if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount ||
-                link.Slides != support.Slides || link.Leans != support.Leans ||
+                link.Slides != support.Slides || link.Leans != support.Leans || link.Moves != support.Moves ||
                 (link.Leans && IsSpoilt(link, spoilt) != support.IsSpoilt))
             {
                 return false;
@@ -151,6 +158,7 @@ unsafe partial struct SupportGraph
             for (int i = piece.Start; i < piece.Start + piece.Count; ++i)
             {
                 ref var link = ref found[i];
+                hasFloors |= link.Lower < SupportLink.Still;
                 byUpper[next[link.Upper]++] = new()
                 {
                     Found = i,
@@ -159,6 +167,7 @@ unsafe partial struct SupportGraph
                     CarryingCount = (byte)link.CarryingCount,
                     Slides = link.Slides,
                     Leans = link.Leans,
+                    Moves = link.Moves,
                     IsSpoilt = link.Leans && IsSpoilt(link, spoilt),
                 };
             }
@@ -182,8 +191,9 @@ unsafe partial struct SupportGraph
     }
 
     // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
-    void OrderUpwards<THeights>(int bodyCount, THeights heights, BufferPool pool) where THeights : struct, IHeights
+    void OrderUpwards<TMotions>(int bodyCount, TMotions motions, BufferPool pool) where TMotions : struct, IHeights, IFloors
     {
+        dependsOnMotion = hasFloors;
         int participants = 0;
         for (int i = 0; i < bodyCount; ++i)
         {
@@ -199,9 +209,9 @@ unsafe partial struct SupportGraph
         {
             if (taken == order.Count)
             {
-                dependsOnHeights = true;
+                dependsOnMotion = true;
                 if (!byHeight.Allocated)
-                    SortByHeight(bodyCount, heights, pool, out byHeight);
+                    SortByHeight(bodyCount, motions, pool, out byHeight);
                 while (positions[byHeight[lowest]] >= 0 || waiting[byHeight[lowest]] == 0)
                     ++lowest;
                 waiting[byHeight[lowest]] = 0;
@@ -209,7 +219,7 @@ unsafe partial struct SupportGraph
             }
             var body = order[taken];
             positions[body] = taken;
-            grounded[body] = IsGrounded(body) ? (byte)1 : (byte)0;
+            grounded[body] = IsGrounded(body, motions) ? (byte)1 : (byte)0;
             for (int i = above[body]; i >= 0; i = nextAbove[i])
             {
                 var upper = byUpper[i].Upper;
@@ -245,8 +255,10 @@ unsafe partial struct SupportGraph
     }
 
     // What slides on all that it rests on moves.
-    readonly bool IsGrounded(int body)
+    readonly bool IsGrounded<TMotions>(int body, TMotions motions) where TMotions : struct, IFloors
     {
+        if (hasFloors)
+            floors[body] = FloorOf(body, motions);
         int contacts = 0;
         var slides = true;
         for (int i = starts[body]; i < starts[body + 1]; ++i)
@@ -260,7 +272,9 @@ unsafe partial struct SupportGraph
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
-    readonly bool Carries(in Support support) => support.Lower < 0 ||
+    readonly bool Carries(in Support support) => IsBelow(support) && (hasFloors ? SharesFloor(support) : !support.Moves);
+
+    readonly bool IsBelow(in Support support) => support.Lower < 0 ||
         (grounded[support.Lower] != 0 && positions[support.Lower] < positions[support.Upper]);
 
     void MakeNodes(int bodyCount, BufferPool pool)
@@ -316,7 +330,7 @@ unsafe partial struct SupportGraph
                 continue;
             var node = next[place[DisjointSets.Root(islandOf, order[i])]]++;
             NodeOf[order[i]] = node;
-            Nodes[node] = new() { Body = order[i], Leans = grounded[order[i]] == Leans };
+            Nodes[node] = new() { Body = order[i], Floor = hasFloors ? SupportLink.Floor(floors[order[i]]) : -1, Leans = grounded[order[i]] == Leans };
         }
         if (leaning.Count > 0)
             FindRelaxed(islandCount);
@@ -345,6 +359,7 @@ unsafe partial struct SupportGraph
             node = new()
             {
                 Body = node.Body,
+                Floor = node.Floor,
                 FirstSupport = node.FirstSupport,
                 SupportCount = node.SupportCount,
                 Leans = node.Leans,
@@ -385,6 +400,8 @@ unsafe partial struct SupportGraph
             pool.Return(ref NodeOf);
             pool.Return(ref grounded);
             pool.Return(ref nextAbove);
+            if (floors.Allocated)
+                pool.Return(ref floors);
             order.Dispose(pool);
             leaning.Dispose(pool);
             Nodes.Dispose(pool);

@@ -11,7 +11,7 @@ unsafe struct SupportLink
     public float* Impulses;
     /// <summary>Index of the upper body in the active set.</summary>
     public int Upper;
-    /// <summary>Index of the lower body in the active set; negative for what does not move.</summary>
+    /// <summary>Index of the lower body in the active set; negative for what nothing pushes: <see cref="Still"/> or a <see cref="Floor"/>.</summary>
     public int Lower;
     /// <summary>Half the width of the band about zero in which the contacts know no overlap, m.</summary>
     public float Band;
@@ -31,6 +31,14 @@ unsafe struct SupportLink
     public bool Slides;
     /// <summary>Whether the contacts are too steep to hand a load down: their bodies hold each other.</summary>
     public bool Leans;
+    /// <summary>Whether its bodies rest to each other, but not to what does not move.</summary>
+    public bool Moves;
+
+    /// <summary>In the place of a lower body: what does not move.</summary>
+    internal const int Still = -1;
+
+    /// <summary>In the place of a lower body: a kinematic body that moves, or did a step ago, and does not turn. Its own inverse.</summary>
+    internal static int Floor(int kinematic) => Still - 1 - kinematic;
 
     /// <summary>Number of contacts that the upper body rests on.</summary>
     internal readonly int CarryingCount => Count - BitOperations.PopCount((uint)(Open & ~Near));
