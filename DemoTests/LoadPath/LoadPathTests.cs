@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using DemoTests.Support;
 using Xunit;
 

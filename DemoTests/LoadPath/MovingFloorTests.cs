@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using BepuPhysics;
-using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Support;
 using Xunit;

@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Trees;
-using BepuUtilities;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
