@@ -45,8 +45,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         ref var slots = ref Unsafe.AsRef(in bodies);
         ref var inverseInertiaA = ref BodySlots.At(ref slots, 0).InverseInertia;
         ref var inverseInertiaB = ref BodySlots.At(ref slots, TBodies.Count - 1).InverseInertia;
-        turnsFar = TJoint.Kind == RowKind.Motor ? Vector<int>.Zero : IsRigid(prestep) & JointTurn.IsFar(
-            impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
+        var limit = JointTurn.Limit(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
+        // Most joints bear so little that neither can be, however the load lies to the arms.
+        var turnSquared = impulse.LengthSquared() * Wide.Max(TurnSquared(offsetA, inverseInertiaA), TurnSquared(offsetB, inverseInertiaB));
+        var least = MathHelper.Min(limit, GeometricStiffness.LeastTurn(substep));
+        if (Vector.LessThanAll(turnSquared, new Vector<float>(SlightPart * least * least)))
+        {
+            turnsFar = Vector<int>.Zero;
+            stiffnessA = stiffnessB = default;
+            return false;
+        }
+        turnsFar = TJoint.Kind == RowKind.Motor ? Vector<int>.Zero :
+            IsRigid(prestep) & JointTurn.IsFar(impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, limit);
         var force = impulse * new Vector<float>(substep.InverseDt);
         var tensionA = GeometricStiffness.Tension(force, offsetA, inverseInertiaA, substep);
         var tensionB = GeometricStiffness.Tension(-force, offsetB, inverseInertiaB, substep);
@@ -58,6 +68,17 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         stiffnessA = GeometricStiffness.Of(tensionA, offsetA);
         stiffnessB = GeometricStiffness.Of(tensionB, offsetB);
         return true;
+    }
+
+    // Less than one by more than what sums and products of these sizes are rounded by.
+    const float SlightPart = 0.99f;
+
+    // Square of the greatest angular velocity that a unit impulse on the arm can change: the trace is no less than the greatest inverse moment.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> TurnSquared(in Vector3Wide arm, in Symmetric3x3Wide inverseInertia)
+    {
+        var trace = inverseInertia.XX + inverseInertia.YY + inverseInertia.ZZ;
+        return arm.LengthSquared() * (trace * trace);
     }
 
     // Springs and speeds that a game asked for are what it gets.

@@ -22,23 +22,28 @@ static class JointTurn
     const float Far = 0.03f;
     const float Near = 0.005f;
 
+    /// <summary>Change of angular velocity, by the impulse of a joint at rest, from which on its correction turns a body far.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static float Limit(in Substep substep, in SubstepStiffness limits)
+    {
+        var frequencyDt = limits.RigidFrequencyDt;
+        return Far * frequencyDt * (frequencyDt + 2) * substep.InverseDt;
+    }
+
     /// <summary>Lanes in which the impulse of a joint at rest would be that of a correction that turns a body far.</summary>
     /// <param name="impulse">Impulse at the points, world axes; its sign does not matter.</param>
     /// <param name="armA">Arm of A's point, world axes.</param>
     /// <param name="inverseInertiaA">Inverse inertia of A, world axes.</param>
     /// <param name="armB">Arm of B's point.</param>
     /// <param name="inverseInertiaB">Inverse inertia of B.</param>
-    /// <param name="substep">The substep.</param>
-    /// <param name="limits">Stiffness of the joint.</param>
+    /// <param name="limit">The <see cref="Limit"/> of the joint.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<int> IsFar(
         in Vector3Wide impulse, in Vector3Wide armA, in Symmetric3x3Wide inverseInertiaA, in Vector3Wide armB, in Symmetric3x3Wide inverseInertiaB,
-        in Substep substep, in SubstepStiffness limits)
+        float limit)
     {
         var angularA = inverseInertiaA * Vector3Wide.Cross(armA, impulse);
         var angularB = inverseInertiaB * Vector3Wide.Cross(armB, impulse);
-        var frequencyDt = limits.RigidFrequencyDt;
-        var limit = Far * frequencyDt * (frequencyDt + 2) * substep.InverseDt;
         return Vector.GreaterThan(Wide.Max(angularA.LengthSquared(), angularB.LengthSquared()), new Vector<float>(limit * limit));
     }
 

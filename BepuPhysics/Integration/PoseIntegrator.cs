@@ -81,7 +81,6 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             }
             var rows = new RowOffsets(indices);
             ReadBodies(motions, localInertias, rows, out var pose, out var velocity, out var localInertia);
-            var kinematic = IsKinematic(localInertia);
             if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
                 StopAndRead(unsound, indices, ref pose, ref velocity);
             if (stage == IntegrationStage.First)
@@ -101,18 +100,14 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 continue;
             }
             var before = velocity.Linear;
-            IntegrateVelocity(indices, exists, kinematic, pose, localInertia, workerIndex, wideDt, ref velocity);
+            IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, wideDt, ref velocity);
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
                 KeepLostVelocity(origins, rows, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
             var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
+            // The warm start that follows the first pass gathers the stiffness of this step.
             if (stiffness.Allocated)
-            {
-                GeometricStiffness.Apply(ReadStiffness(stiffness, rows), wideDt, ref worldInertia, ref velocity.Angular);
-                // The warm start that follows gathers the stiffness of this step.
-                if (stage == IntegrationStage.First)
-                    Transpose.Scatter(default, (float*)stiffness.Memory, FloatsPerRow, rows);
-            }
+                Stiffen(stiffness, rows, wideDt, stage == IntegrationStage.First, ref worldInertia, ref velocity.Angular);
             if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
             {
                 StopAndRead(unsound, indices, ref pose, ref velocity);
@@ -244,15 +239,22 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         // The momentum stays as the solve has left it.
         if (set.Stiffness.Allocated)
-            GeometricStiffness.Apply(ReadStiffness(set.Stiffness, rows), dt, ref worldInertia, ref angular);
+            Stiffen(set.Stiffness, rows, dt, false, ref worldInertia, ref angular);
         WriteWorldInertia((float*)set.WorldInertias.Memory, rows, worldInertia, localInertia.InverseMass);
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Symmetric3x3Wide ReadStiffness(in Buffer<BodyInertia> stiffness, in RowOffsets rows)
+    // Most bodies hang in nothing, or bear little: then there is nothing to transpose, and nothing to clear.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void Stiffen(
+        in Buffer<BodyInertia> stiffness, in RowOffsets rows, Vector<float> dt, bool clears, ref Symmetric3x3Wide worldInertia, ref Vector3Wide angular)
     {
-        var row = Transpose.Gather((float*)stiffness.Memory, FloatsPerRow, rows);
-        return new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
+        var memory = (float*)stiffness.Memory;
+        if (Transpose.AreZero(memory, rows))
+            return;
+        var row = Transpose.Gather(memory, FloatsPerRow, rows);
+        GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), dt, ref worldInertia, ref angular);
+        if (clears)
+            Transpose.Scatter(default, memory, FloatsPerRow, rows);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -313,8 +315,8 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         row.R6 = rotation.Z;
         Transpose.Scatter(row, displacements, FloatsPerRow, rows);
 
-        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
-        pose.Position = new Vector3Wide(origin.R0, origin.R1, origin.R2) + translation;
+        var origin = Transpose.GatherHalf(origins, FloatsPerRow, rows);
+        pose.Position = new Vector3Wide(origin.X, origin.Y, origin.Z) + translation;
         ref readonly var inverseInertia = ref localInertia.InverseInertiaTensor;
         switch (Callbacks.AngularIntegrationMode)
         {
@@ -346,7 +348,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Vector<float> dt, ref BodyVelocityWide velocity)
     {
         var mask = Callbacks.IntegrateVelocityForKinematics ? exists : Vector.AndNot(exists, kinematic);
-        var changed = velocity;
+        // Part by part: a copy of a whole is made by wider registers than its parts were written by, and waits for that.
+        BodyVelocityWide changed;
+        changed.Linear = new(velocity.Linear.X, velocity.Linear.Y, velocity.Linear.Z);
+        changed.Angular = new(velocity.Angular.X, velocity.Angular.Y, velocity.Angular.Z);
         Callbacks.IntegrateVelocity(indices, pose.Position, pose.Orientation, localInertia, mask, workerIndex, dt, ref changed);
         velocity.Linear = Vector3Wide.Select(mask, changed.Linear, velocity.Linear);
         velocity.Angular = Vector3Wide.Select(mask, changed.Angular, velocity.Angular);

@@ -28,6 +28,10 @@ static class GeometricStiffness
         return Wide.Mask(Vector.GreaterThan(tension * trace, limit), tension);
     }
 
+    /// <summary>Change of angular velocity by an impulse across its arm up to which the same impulse along the arm has no <see cref="Tension"/>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static float LeastTurn(in Substep substep) => ResolvedPart * substep.InverseDt;
+
     /// <summary>Stiffness of a tension at the end of an arm.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Symmetric3x3Wide Of(Vector<float> tension, in Vector3Wide arm)

@@ -76,6 +76,22 @@ public static unsafe partial class Transpose
             ScatterByLanes(values, rows, strideInFloats, offsets.Indices);
     }
 
+    /// <summary>Whether all bits of the rows of eight floats that <see cref="Gather(float*, int, in RowOffsets)"/> would read are zero.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static bool AreZero(float* rows, in RowOffsets offsets)
+    {
+        Check.That(((nuint)rows & 31) == 0);
+        var bits = Vector256<int>.Zero;
+        for (int lane = 0; lane < Vector<float>.Count; lane += 4)
+        {
+            bits |= (Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane)) |
+                Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 1))) |
+                (Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 2)) |
+                Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 3)));
+        }
+        return bits == Vector256<int>.Zero;
+    }
+
     /// <summary>Whether a lane with this index is written: no flag is set.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static bool IsWritten(int rowIndex) => (uint)rowIndex <= RowMask;

@@ -54,6 +54,22 @@ public sealed unsafe class TransposeTests : IDisposable
 
     static ReadOnlySpan<byte> Bits<T>(in T values) where T : unmanaged => MemoryMarshal.AsBytes(new ReadOnlySpan<T>(in values));
 
+    [Fact]
+    public void RowsAreZeroIfNoneOfTheirBitsIsSet()
+    {
+        var samples = new WideSamples(9);
+        for (int sample = 0; sample < 200; ++sample)
+        {
+            AsSpan(rows).Clear();
+            var indices = Indices(samples, RowCount, withFlags: true);
+            Assert.True(Transpose.AreZero(rows, new(indices)));
+            // One bit anywhere, the sign of a zero too.
+            AsSpan(rows)[samples.Integer(RowCount * 8)] = BitConverter.Int32BitsToSingle(1 << samples.Integer(32));
+            var gathered = Transpose.Gather(rows, 8, indices);
+            Assert.Equal(Bits(gathered).IndexOfAnyExcept((byte)0) < 0, Transpose.AreZero(rows, new(indices)));
+        }
+    }
+
     [Theory]
     [InlineData(8), InlineData(16)]
     public void GatherIsTheLaneLoop(int stride)

@@ -18,7 +18,8 @@ public class NodePlacementTests
     static Quaternion RandomTurn(Random random) => Quaternion.Normalize(new Quaternion(Random(random, 1), random.NextSingle() - 0.5f));
 
     // The container is A, the mover B.
-    static ParentPair Pair(Vector3 offset, Quaternion container, Quaternion mover, BodyVelocity containerVelocity, BodyVelocity moverVelocity, float limit) => new()
+    static ParentPair Pair(
+        Vector3 offset, Quaternion container, Quaternion mover, BodyVelocity containerVelocity, BodyVelocity moverVelocity, float limit) => new()
     {
         OffsetB = offset,
         OrientationA = container,
@@ -129,7 +130,8 @@ public class NodePlacementTests
     public void Speeds_beyond_all_numbers_leave_the_limit()
     {
         var pair = Pair(
-            new(3, 0, 0), Quaternion.Identity, Quaternion.Identity, new(new Vector3(3e38f), new Vector3(3e38f)), new(new Vector3(-3e38f), new Vector3(3e38f)), 2);
+            new(3, 0, 0), Quaternion.Identity, Quaternion.Identity, new(new Vector3(3e38f), new Vector3(3e38f)),
+            new(new Vector3(-3e38f), new Vector3(3e38f)), 2);
         var box = Place(pair, new NodeChild { Min = new(-1), Max = new(1) });
         // By the limit for the translation, and once more for what is turned.
         Assert.InRange(box.Min.X, 3 - 1 - 4.01f, 3 - 1 - 2);
