@@ -20,13 +20,13 @@ public class NodePlacementTests
     // The container is A, the mover B.
     static ParentPair Pair(
         Vector3 offset, Quaternion container, Quaternion mover, BodyVelocity containerVelocity, BodyVelocity moverVelocity, float limit) => new()
-    {
-        OffsetB = offset,
-        OrientationA = container,
-        OrientationB = mover,
-        Motion = new(containerVelocity, moverVelocity, limit),
-        SpeculativeMargin = 0,
-    };
+        {
+            OffsetB = offset,
+            OrientationA = container,
+            OrientationB = mover,
+            Motion = new(containerVelocity, moverVelocity, limit),
+            SpeculativeMargin = 0,
+        };
 
     static NodeChild Place(in ParentPair pair, in NodeChild node)
     {
