@@ -217,7 +217,7 @@ sealed unsafe partial class FastPairs
         QuickSort.Sort(near.AsSpan(), ref order);
         for (int i = 0; i < near.Count; ++i)
         {
-            if (LookOf(near[i]) is var other && other > number && !Meet(look.Way, looks[other].Known))
+            if (LookOf(near[i]) is var other && other > number && !BoundingBox.Intersects(look.Way, looks[other].Known))
                 continue;
             Pair(look.Body, self, near[i], dt);
         }
@@ -231,9 +231,6 @@ sealed unsafe partial class FastPairs
         var mover = moverOf[Bodies.Locations[collidable.Slot].Index];
         return mover < 0 ? -1 : movers[mover].Look;
     }
-
-    static bool Meet(in BoundingBox a, in BoundingBox b) =>
-        a.Min.X <= b.Max.X && a.Min.Y <= b.Max.Y && a.Min.Z <= b.Max.Z && b.Min.X <= a.Max.X && b.Min.Y <= a.Max.Y && b.Min.Z <= a.Max.Z;
 
     void Pair(int body, CollidableReference self, CollidableReference other, double dt)
     {
