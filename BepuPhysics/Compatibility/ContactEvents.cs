@@ -96,7 +96,7 @@ public sealed class ContactEvents : IDisposable
     {
         (current, previous) = (previous, current);
         current.Clear();
-        Events.AddSnapshots(current);
+        Events.AddSnapshots(current, simulation!.Statics);
         RecallWoken();
         int before = 0;
         int now = 0;

@@ -103,6 +103,39 @@ public sealed class ContactEventHandlerTests
         }
     }
 
+    sealed class Offsets : IContactEventHandler
+    {
+        public List<Vector3> OfB { get; } = [];
+
+        public void OnPairUpdated<TManifold>(CollidableReference eventSource, CollidablePair pair, ref TManifold contactManifold, int workerIndex)
+            where TManifold : unmanaged, IContactManifold<TManifold> => OfB.Add(Assert.IsType<ConvexContactManifold>(contactManifold).OffsetB);
+    }
+
+    [Theory]
+    [InlineData(CollidableMobility.Static)]
+    [InlineData(CollidableMobility.Kinematic)]
+    [InlineData(CollidableMobility.Dynamic)]
+    public void AManifoldLeadsToTheOtherOfItsPair(CollidableMobility mobility)
+    {
+        using var world = new TestWorld();
+        using var events = new ContactEvents();
+        events.Initialize(world.Simulation);
+        var below = new RigidPose(new Vector3(1, -1, 2));
+        // What comes first in a pair is A.
+        var ball = world.AddDynamic(new Sphere(.5f), 1, new RigidPose(new Vector3(3, .495f, 1)));
+        if (mobility == CollidableMobility.Static)
+            world.AddStatic(new Box(20, 2, 20), below);
+        else if (mobility == CollidableMobility.Kinematic)
+            world.AddKinematic(new Box(20, 2, 20), below);
+        else
+            world.AddDynamic(new Box(20, 2, 20), 1000, below);
+        var offsets = new Offsets();
+        events.Register(ball, offsets);
+        world.Step();
+        events.Flush();
+        Assert.InRange((Assert.Single(offsets.OfB) - new Vector3(-2, -1.495f, 1)).Length(), 0, 1e-6f);
+    }
+
     [Fact]
     public void AHandlerMayRemoveWhatItHearsOf()
     {

@@ -18,7 +18,7 @@ public sealed unsafe partial class CollisionEvents
         if (!copy.Restores)
             return;
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = sensed.Count = 0;
-        stage.Manifolds.Count = contacts.Count = 0;
+        stage.Manifolds.Count = stage.Pairs.Count = contacts.Count = 0;
         solver.OptionalStages.Remove(stage);
         if (IsUsed)
             solver.OptionalStages.Add(stage);

@@ -1,7 +1,5 @@
-using BepuPhysics.Collidables;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
-using BepuPhysics.Constraints.Contact;
-using BepuUtilities;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;
@@ -15,7 +13,7 @@ public sealed unsafe partial class CollisionEvents
     // In the order of pairs. The second takes the result of the next merge.
     QuickList<ListenedPair> pairs;
     QuickList<ListenedPair> spare;
-    // Of the manifolds that the stage sums up.
+    // Of all manifolds of the pairs; those of a pair are written where something is told of it.
     QuickList<EventContact> contacts;
     QuickList<ContactEvent> began;
     QuickList<ContactEvent> ended;
@@ -42,7 +40,7 @@ public sealed unsafe partial class CollisionEvents
     internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = 0;
-        stage.Manifolds.Count = contacts.Count = 0;
+        stage.Manifolds.Count = stage.Pairs.Count = contacts.Count = 0;
         isSettled &= isAtRest && added.Count == 0 && turned.Count == 0 && removalsSeen == traits.RemovalCount;
         if (isSettled)
             return;
@@ -59,13 +57,22 @@ public sealed unsafe partial class CollisionEvents
             var order = new ListenedPair.Order();
             QuickSort.Sort(added.Span, added.Count, ref order);
         }
-        Merge(ref cache);
+        var contactCount = Merge(ref cache);
         added.Count = 0;
+        (stage.Pairs, stage.HitSpeed) = (pairs, hitSpeed);
+        if (contactCount == 0)
+            return;
+        if (!contacts.Span.Allocated)
+            contacts = new QuickList<EventContact>(contactCount, pool);
+        contacts.EnsureCapacity(contactCount, pool);
+        contacts.Count = contactCount;
     }
 
-    void Merge(ref PairCache cache)
+    // Returns the number of contacts.
+    int Merge(ref PairCache cache)
     {
         spare.Count = 0;
+        int contactCount = 0;
         int known = 0;
         int fresh = 0;
         while (known < pairs.Count || fresh < added.Count)
@@ -74,7 +81,7 @@ public sealed unsafe partial class CollisionEvents
             var pair = order <= 0 ? pairs[known++] : added[fresh];
             var isNoted = order >= 0;
             var isSensed = false;
-            pair.MayPass = pair.HasPassed = false;
+            pair.MayPass = pair.HasPassed = pair.Overlaps = pair.IsMeasured = false;
             // A pair is noted for each of its constraints.
             for (; isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0; ++fresh)
             {
@@ -87,10 +94,10 @@ public sealed unsafe partial class CollisionEvents
                 RememberAsleep(pair);
                 continue;
             }
-            pair.BounceImpulse = 0;
+            pair.BounceImpulse = pair.ApproachSpeed = 0;
             pair.FirstManifold = stage.Manifolds.Count;
             pair.IsAsleep = pair.IsSensor && !isNoted && Sleeps(pair.Pair);
-            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isSensed : ListContacts(ref pair, ref cache));
+            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isSensed : ListManifolds(ref pair, ref cache, ref contactCount));
             pair.ManifoldCount = stage.Manifolds.Count - pair.FirstManifold;
             if (pair.Exists || pair.MayPass)
                 pair.Mask = MaskOf(pair.Pair);
@@ -98,41 +105,32 @@ public sealed unsafe partial class CollisionEvents
                 Add(ref spare, pair);
         }
         (pairs, spare) = (spare, pairs);
+        return contactCount;
     }
 
-    // Lists the contacts that a pair has, if it still is one.
-    bool ListContacts(ref ListenedPair pair, ref PairCache cache)
+    // Lists the manifolds that a pair has, if it still is one, and counts their contacts.
+    bool ListManifolds(ref ListenedPair pair, ref PairCache cache, ref int contactCount)
     {
-        var index = cache.Pairs.IndexOf(pair.Pair);
-        if (index < 0)
+        var guess = pair.IndexInCache;
+        pair.IndexInCache = guess < cache.Pairs.Count ? cache.IndexOf(pair.Pair, guess) : cache.Pairs.IndexOf(pair.Pair);
+        if (pair.IndexInCache < 0)
             return false;
         var start = stage.Manifolds.Count;
-        ref var set = ref bodies.SetOf(pair.Pair.A.BodyHandle, out var indexA);
-        pair.CenterOfA = set.MotionStates[indexA].Pose.Position;
-        for (var manifolds = cache.ManifoldsOf(index); manifolds.MoveNext();)
+        for (var manifolds = cache.ManifoldsOf(pair.IndexInCache); manifolds.MoveNext();)
         {
             ref var manifold = ref manifolds.Current;
             if (!manifold.HasConstraint)
                 continue;
             var count = ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId);
-            Add(ref stage.Manifolds, new() { Constraint = manifold.Constraint, ContactCount = count, FirstContact = contacts.Count });
-            var rows = new ContactRows(solver, bodies, manifold.Constraint, count);
-            pair.OffsetB = rows.OffsetB;
-            // There the constraint may have the place of friction.
-            if (pair.Pair.B.Mobility == CollidableMobility.Kinematic)
-                pair.OffsetB = bodies.SetOf(pair.Pair.B.BodyHandle, out var indexB).MotionStates[indexB].Pose.Position - pair.CenterOfA;
-            for (int i = 0; i < count; ++i)
+            Add(ref stage.Manifolds, new()
             {
-                Add(ref contacts, new()
-                {
-                    Position = pair.CenterOfA + rows.Arm(i),
-                    Normal = rows.Normal,
-                    Depth = rows.Depth(i),
-                    FeatureId = manifold.Features[i],
-                    ChildA = manifolds.Children.A,
-                    ChildB = manifolds.Children.B,
-                });
-            }
+                Constraint = manifold.Constraint,
+                Cached = (CachedManifold*)Unsafe.AsPointer(ref manifold),
+                Children = manifolds.Children,
+                ContactCount = count,
+                FirstContact = contactCount,
+            });
+            contactCount += count;
         }
         return stage.Manifolds.Count > start;
     }
@@ -185,15 +183,26 @@ public sealed unsafe partial class CollisionEvents
                 ++asleep;
                 continue;
             }
-            var described = Describe(pair, out var touches);
-            if (pair.Touches && !touches)
-                Tell(ref ended, EventMask.End, pair, described);
-            else if (pair.Touches)
-                Tell(ref persisting, EventMask.Persist, pair, described);
-            else if (touches)
-                Tell(ref began, EventMask.Begin, pair, described);
-            if (described.Impulse > 0 && described.ApproachSpeed >= hitSpeed)
-                Tell(ref hits, EventMask.Hit, pair, described);
+            var told = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor, Impulse = pair.BounceImpulse, ApproachSpeed = pair.ApproachSpeed };
+            Sum(pair, ref told);
+            var touches = told.Impulse > 0 || pair.Overlaps || (pair.IsSensor && (pair.Exists || pair.HasPassed));
+            var kinds = (pair.Touches, touches) switch
+            {
+                (true, false) => EventMask.End,
+                (true, true) => EventMask.Persist,
+                (false, true) => EventMask.Begin,
+                _ => EventMask.None,
+            };
+            if (told.Impulse > 0 && told.ApproachSpeed >= hitSpeed)
+                kinds |= EventMask.Hit;
+            kinds &= pair.Mask;
+            // Those who hear of all are shown contacts that do not touch, too.
+            if (kinds != EventMask.None || (pair.Mask & EventMask.Persist) != 0)
+                Describe(pair, ref told);
+            Tell(ref ended, kinds & EventMask.End, told);
+            Tell(ref persisting, kinds & EventMask.Persist, told);
+            Tell(ref began, kinds & EventMask.Begin, told);
+            Tell(ref hits, kinds & EventMask.Hit, told);
             pair.Touches = touches;
             // What has passed ends in the next step, unless it is still there.
             if (pair.Exists || pair.HasPassed)
@@ -204,43 +213,46 @@ public sealed unsafe partial class CollisionEvents
         removalsSeen = traits.RemovalCount;
     }
 
-    void Tell(ref QuickList<ContactEvent> list, EventMask kind, in ListenedPair pair, in ContactEvent contactEvent)
+    void Tell(ref QuickList<ContactEvent> list, EventMask kind, in ContactEvent contactEvent)
     {
-        if ((pair.Mask & kind) != 0)
+        if (kind != EventMask.None)
             Add(ref list, contactEvent);
     }
 
-    ContactEvent Describe(in ListenedPair pair, out bool touches)
+    // Adds up what the manifolds of a pair pushed.
+    void Sum(in ListenedPair pair, ref ContactEvent told)
     {
-        var result = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor, Impulse = pair.BounceImpulse, ApproachSpeed = float.NegativeInfinity };
-        touches = pair.BounceImpulse > 0 || (pair.IsSensor && (pair.Exists || pair.HasPassed));
+        if (!pair.IsMeasured)
+            return;
+        for (int i = pair.FirstManifold; i < pair.FirstManifold + pair.ManifoldCount; ++i)
+        {
+            ref var manifold = ref stage.Manifolds[i];
+            told.FrictionImpulse += manifold.Friction;
+            for (int j = 0; j < manifold.ContactCount; ++j)
+                told.Impulse += manifold.Normals[j];
+        }
+    }
+
+    // Writes the contacts of a pair, and says which is the strongest.
+    void Describe(in ListenedPair pair, ref ContactEvent told)
+    {
         if (pair.ManifoldCount == 0)
+            return;
+        told.FirstContact = stage.Manifolds[pair.FirstManifold].FirstContact;
+        for (int i = pair.FirstManifold; i < pair.FirstManifold + pair.ManifoldCount; ++i)
         {
-            result.ApproachSpeed = 0;
-            return result;
+            ref var manifold = ref stage.Manifolds[i];
+            stage.Describe(pair, manifold, contacts.Span.AsSpan().Slice(manifold.FirstContact, manifold.ContactCount));
+            told.ContactCount += manifold.ContactCount;
         }
-        result.FirstContact = stage.Manifolds[pair.FirstManifold].FirstContact;
-        var strongest = result.FirstContact;
-        for (int i = 0; i < pair.ManifoldCount; ++i)
+        var strongest = told.FirstContact;
+        for (int i = strongest + 1; i < told.FirstContact + told.ContactCount; ++i)
         {
-            ref var manifold = ref stage.Manifolds[pair.FirstManifold + i];
-            result.FrictionImpulse += manifold.Friction;
-            result.ApproachSpeed = MathHelper.Max(result.ApproachSpeed, manifold.ApproachSpeed);
-            result.ContactCount += manifold.ContactCount;
-            for (int j = manifold.FirstContact; j < manifold.FirstContact + manifold.ContactCount; ++j)
-            {
-                ref var contact = ref contacts[j];
-                contact.Impulse = manifold.Normals[j - manifold.FirstContact];
-                result.Impulse += contact.Impulse;
-                touches |= contact.Depth > 0 || contact.Impulse > 0;
-                if (IsStronger(contact, contacts[strongest]))
-                    strongest = j;
-            }
+            if (IsStronger(contacts[i], contacts[strongest]))
+                strongest = i;
         }
-        result.Position = contacts[strongest].Position;
-        result.Normal = contacts[strongest].Normal;
-        result.Depth = contacts[strongest].Depth;
-        return result;
+        ref var shown = ref contacts[strongest];
+        (told.Position, told.Normal, told.Depth) = (shown.Position, shown.Normal, shown.Depth);
     }
 
     static bool IsStronger(in EventContact a, in EventContact b) => a.Impulse != b.Impulse ? a.Impulse > b.Impulse : a.Depth > b.Depth;
@@ -264,6 +276,7 @@ public sealed unsafe partial class CollisionEvents
         Release(ref persisting);
         ReleaseSleep();
         Release(ref stage.Manifolds);
+        stage.Pairs = default;
         Release(ref contacts);
     }
 
@@ -280,6 +293,7 @@ public sealed unsafe partial class CollisionEvents
         began = ended = hits = persisting = default;
         AbandonSleep();
         stage.Manifolds = default;
+        stage.Pairs = default;
         contacts = default;
     }
 }

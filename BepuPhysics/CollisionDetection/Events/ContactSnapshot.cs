@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -44,13 +45,18 @@ struct ContactSnapshot
 
 public sealed unsafe partial class CollisionEvents
 {
-    /// <summary>Lists all pairs that are listened to and have contacts that are awake, touching or not, as the last step has left them.</summary>
-    internal void AddSnapshots(List<ContactSnapshot> snapshots)
+    /// <summary>
+    /// Lists all pairs that are listened to for <see cref="EventMask.Persist"/> and have contacts that are awake, touching or not, as the last step
+    /// has left them.
+    /// </summary>
+    /// <param name="snapshots">Takes them, in the order of pairs.</param>
+    /// <param name="statics">Where statics are.</param>
+    internal void AddSnapshots(List<ContactSnapshot> snapshots, Statics statics)
     {
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            if (pair.IsSensor || pair.ManifoldCount == 0)
+            if (pair.IsSensor || pair.ManifoldCount == 0 || (pair.Mask & EventMask.Persist) == 0)
                 continue;
             var snapshot = new ContactSnapshot
             {
@@ -59,6 +65,8 @@ public sealed unsafe partial class CollisionEvents
                 IsConvex = pair.ManifoldCount == 1,
             };
             snapshot.Contacts.OffsetB = pair.OffsetB;
+            if (pair.Pair.B.Mobility == CollidableMobility.Static && statics.StaticExists(pair.Pair.B.StaticHandle))
+                snapshot.Contacts.OffsetB = statics[pair.Pair.B.StaticHandle].Pose.Position - pair.CenterOfA;
             for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)
             {
                 ref var manifold = ref stage.Manifolds[j];

@@ -18,10 +18,18 @@ struct ListenedPair
     public bool Exists;
     /// <summary>Whether it is one of a sensor, and none of the two is awake: nothing is told of it until one is.</summary>
     public bool IsAsleep;
-    public int FirstManifold;
-    public int ManifoldCount;
     /// <summary>Whether it is one of a sensor and of a way that is swept, and whether that way has met the sensor in this step.</summary>
     public bool MayPass, HasPassed;
+    /// <summary>Whether a contact was deeper than zero when collisions were detected.</summary>
+    public bool Overlaps;
+    /// <summary>Whether impulses are summed: not where nothing could be told that depends on them.</summary>
+    public bool IsMeasured;
+    /// <summary>Where the cache had it in the last step, as a guess where to look first.</summary>
+    public int IndexInCache;
+    /// <summary>Its manifolds in this step.</summary>
+    public int FirstManifold, ManifoldCount;
+    /// <summary>Greatest speed at which surfaces approach before the step, zero without manifolds.</summary>
+    public float ApproachSpeed;
     /// <summary>Where the centre of A was when collisions were detected, and that of B relative to it.</summary>
     public Vector3 CenterOfA, OffsetB;
     /// <summary>Sum of the impulses of this step's bounces.</summary>
@@ -51,11 +59,15 @@ struct ListenedPair
 unsafe struct ListenedManifold
 {
     public ConstraintHandle Constraint;
+    /// <summary>What the cache remembers of it, which holds while the solver runs.</summary>
+    public CachedManifold* Cached;
+    public ChildIds Children;
     /// <summary>The first of its impulses while the solver runs; they lie a vector apart.</summary>
     public float* Impulses;
     public int ContactCount;
     public int FirstContact;
-    public float ApproachSpeed;
+    /// <summary>Depths of the contacts when collisions were detected.</summary>
+    public FourFloats Depths;
     /// <summary>Sums over the substeps: along the normal, contact by contact, and of friction.</summary>
     public FourFloats Normals;
     public Vector3 Friction;

@@ -55,6 +55,13 @@ readonly ref struct ContactRows
     /// <summary>Velocity of B; zero for a static.</summary>
     internal BodyVelocity VelocityB => B >= 0 ? set.MotionStates[B].Velocity : default;
 
+    /// <summary>Position of A.</summary>
+    internal Vector3 PositionOfA => set.MotionStates[A].Pose.Position;
+
+    /// <summary>Position of B relative to A as the bodies are; zero for a static, whose place nobody asks.</summary>
+    // In the description there may be the place of friction.
+    internal Vector3 PositionOfBFromA => B >= 0 ? set.MotionStates[B].Pose.Position - PositionOfA : default;
+
     /// <summary>Inverse inertia of A in world axes.</summary>
     internal BodyInertia InertiaA => set.WorldInertias[A];
 
