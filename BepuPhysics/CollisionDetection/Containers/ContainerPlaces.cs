@@ -113,7 +113,10 @@ static unsafe class ContainerPlaces
         container.GetChild(index, shapes, scratch, out var child);
         typeId = child.TypeId;
         shape = child.Shape;
-        cone = child.Cone;
+        // Field by field, as it was written a moment ago: a wider load would have to wait for that.
+        cone.Cosines = child.Cone.Cosines;
+        cone.Sines = child.Cone.Sines;
+        cone.FreeMask = child.Cone.FreeMask;
         if (child.Name.Exists)
             name = child.Name;
         pose = new(Exact.Rotate(child.Pose.Position, orientation), Exact.Concatenate(child.Pose.Orientation, orientation));

@@ -74,10 +74,6 @@ static class SeamRounds
                 TriangleNeighbours.AddDirections(ref memory.Tests, view, set.Stage == SeamStage.DirectionsOfA, pool);
                 ++set.Stage;
                 break;
-            case SeamStage.ChoiceOfB or SeamStage.ChoiceOfA:
-                TriangleNeighbours.AddChoice(ref memory.Tests, view, pool);
-                ++set.Stage;
-                break;
             case SeamStage.NormalsOfB or SeamStage.NormalsOfA:
                 TriangleNeighbours.Take(memory.Tests, view, set.Stage == SeamStage.NormalsOfA);
                 ++set.Stage;

@@ -5,10 +5,10 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>What is next for a set of children that agree.</summary>
 enum SeamStage
 {
-    /// <summary>Looks triangles of B that are touched beyond their neighbours up along directions; then chooses of these; then takes what is there.</summary>
-    DirectionsOfB, ChoiceOfB, NormalsOfB,
+    /// <summary>Looks triangles of B that are touched beyond their neighbours up along directions; then chooses of these, and takes what is there.</summary>
+    DirectionsOfB, NormalsOfB,
     /// <summary>The same for those of A.</summary>
-    DirectionsOfA, ChoiceOfA, NormalsOfA,
+    DirectionsOfA, NormalsOfA,
     /// <summary>Brings the children in order.</summary>
     Order,
     /// <summary>Finds the next child that may be accepted.</summary>
