@@ -47,7 +47,7 @@ unsafe struct BodyAgreement(BufferPool pool)
     public int Add(in SeamChild child, int pair, int group, int remembered, BufferPool pool)
     {
         ref var set = ref memory.Sets[memory.Sets.Count - 1];
-        if (set.Count > 0 && !ChildAgreement.HasOneNormal(results[set.First].Manifold.Normal, child.Result.Manifold.Normal))
+        if (set.Count > 0 && !ChildAgreement.HasEqualNormal(results[set.First].Manifold.Normal, child.Result.Manifold.Normal))
             set.Stage = SeamStage.Order;
         memory.Touching.Add(new() { Slot = set.Count, Class = child.Class, Pair = pair, Group = group, Remembered = remembered }, pool);
         placed.Add(child.Placed, pool);

@@ -44,6 +44,8 @@ struct RankedChild
     public int Remembered;
     /// <summary>Where the pairs of one body agree: only those whose other sides move alike do.</summary>
     public int Group;
+    /// <summary>Of those that may yield: one more than the place of the last leader that they were asked to yield to.</summary>
+    public int Asked;
 
     /// <summary>Order in which children are accepted.</summary>
     public struct Order : IComparerRef<RankedChild>
@@ -81,6 +83,16 @@ static class ChildAgreement
 
     // Cosine of 1e-3 rad: normals nearer to each other are one.
     const float SameNormal = 1 - 5e-7f;
+
+    // Distance of two unit normals up to which one says nothing that the other does not. At 20 m/s a body is thrown up by 1 mm/s by a normal that is off by
+    // so much.
+    const float EqualNormal = 5e-5f;
+
+    // Cosine of 1e-2 rad: normals nearer to each other may be those of one face, as two tests have found it.
+    const float NearNormal = 1 - 5e-5f;
+
+    // Fewer contacts are those of an edge, or of a point.
+    const int LeastFaceCount = 3;
 
     // Nobody yields to what points the other way, however thin he is: that way leads through.
     const float LeastCosine = -0.5f;
@@ -133,9 +145,14 @@ static class ChildAgreement
                 set.Stage = SeamStage.Followers;
                 break;
             case SeamStage.Followers:
+                var count = tests.Count;
                 for (int i = set.Tests.First; i < set.Tests.End; ++i)
                     Follow(view, tests[i]);
-                set.Stage = SeamStage.Next;
+                // Those that have taken the normal offer it to others.
+                if (set.Tests.Count > 0)
+                    AddFollowers(ref tests, view, pool);
+                if (tests.Count == count)
+                    set.Stage = SeamStage.Next;
                 break;
             default:
                 throw new UnreachableException();
@@ -196,20 +213,27 @@ static class ChildAgreement
     /// <summary>Whether two normals are nearer to each other than those of one surface may be.</summary>
     public static bool HasOneNormal(in Vector3 a, in Vector3 b) => Exact.Dot(a, b) > SameNormal;
 
+    /// <summary>Whether two normals are the same, to within what changes nothing.</summary>
+    public static bool HasEqualNormal(in Vector3 a, in Vector3 b) => Exact.DistanceSquared(a, b) <= EqualNormal * EqualNormal;
+
     // Whether the normal of a leader is offered to a child: by the leader itself, or by another child with its normal. A body is moved as a whole, but what one
     // leg stands on says nothing of what another meets that stands on nothing.
     static bool IsOffered(in RankedChild child, in RankedChild leader, SeamView view)
     {
-        if (SharesChild(child, leader, view))
+        if (MayOffer(leader, child) && SharesChild(child, leader, view))
             return true;
         ref readonly var normal = ref view.Result(leader).Manifold.Normal;
         foreach (ref var other in view.Ranked)
         {
-            if (other.Group == leader.Group && HasOneNormal(view.Result(other).Manifold.Normal, normal) && SharesChild(child, other, view))
+            if (other.Group == leader.Group && MayOffer(other, child) && HasOneNormal(view.Result(other).Manifold.Normal, normal) &&
+                SharesChild(child, other, view))
                 return true;
         }
         return false;
     }
+
+    // Children of one pair have agreed when those of several do.
+    static bool MayOffer(in RankedChild leader, in RankedChild child) => child.Pair == 0 || child.Pair != leader.Pair;
 
     static bool SharesChild(in RankedChild a, in RankedChild b, SeamView view)
     {
@@ -225,11 +249,12 @@ static class ChildAgreement
     // Whether one child, in the order of children, may yield to another at all.
     static bool MayYield(in RankedChild child, in RankedChild other, SeamView view)
     {
-        if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group || (child.Pair != 0 && child.Pair == other.Pair))
+        if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group)
             return false;
         ref var result = ref view.Result(child);
         ref var accepted = ref view.Result(other);
-        return Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) is >= LeastCosine and <= SameNormal && IsOffered(child, other, view);
+        return Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) >= LeastCosine &&
+            !HasEqualNormal(result.Manifold.Normal, accepted.Manifold.Normal) && IsOffered(child, other, view);
     }
 
     // Depth by which a child may be deeper than what it yields to.
@@ -291,8 +316,9 @@ static class ChildAgreement
                 continue;
             if (ranked[i].Depth < child.Depth - tolerance)
                 break;
-            AddFollower(ref tests, view, index, i, tolerance, pool);
-            AddFollower(ref tests, view, i, index, tolerance, pool);
+            var areNear = Exact.Dot(view.Result(ranked[i]).Manifold.Normal, view.Result(child).Manifold.Normal) > NearNormal;
+            AddFollower(ref tests, view, index, i, tolerance, pool, areNear);
+            AddFollower(ref tests, view, i, index, tolerance, pool, areNear);
         }
     }
 
@@ -301,7 +327,7 @@ static class ChildAgreement
         var last = view.Set.Tests;
         for (int i = last.First; i < last.End; i += 2)
         {
-            if (tests[i].IsWithinDepth && !tests[i + 1].IsWithinDepth)
+            if (tests[i].IsWithinDepth && (!tests[i + 1].IsWithinDepth || IsOfFace(tests[i], tests[i + 1])))
             {
                 Follow(view, tests[i]);
                 return true;
@@ -309,6 +335,11 @@ static class ChildAgreement
         }
         return false;
     }
+
+    // Of two that would yield to each other, with normals that may be those of one face: whether only the rival's is. The end of what is round, or an edge of
+    // what leans, that is over the border of a child has a normal that leans by a little, and is as deep as what lies on the face of the next.
+    static bool IsOfFace(in DirectedPair test, in DirectedPair rival) =>
+        HasEqualNormal(test.Normal, rival.Face) && !HasEqualNormal(rival.Normal, test.Face) && Exact.Dot(test.Normal, rival.Normal) > NearNormal;
 
     // Lets all that come later yield to a child. Whether its rivals do is known.
     static void Accept(ref DirectedTests tests, SeamView view, BufferPool pool)
@@ -343,8 +374,11 @@ static class ChildAgreement
         for (int i = index + 1; i < view.Ranked.Length; ++i)
         {
             var isRival = known < view.Set.Tests.End && tests[known].Owner == i;
+            if (view.Ranked[i].Asked == index + 1)
+                continue;
             if (isRival || MayYield(view.Ranked[i], view.Ranked[index], view))
             {
+                view.Ranked[i].Asked = index + 1;
                 var tolerance = ToleranceOf(view.Ranked[i], view);
                 // A rival was allowed what the leader is, which may be another child of the body.
                 if (isRival && tests[known].GreatestDepth == view.Ranked[index].Overlap + tolerance)
@@ -356,11 +390,11 @@ static class ChildAgreement
         }
     }
 
-    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, float tolerance, BufferPool pool)
+    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, float tolerance, BufferPool pool, bool findsFace = false)
     {
         ref var placed = ref view.Placed(view.Ranked[follower]);
         var normal = view.Result(view.Ranked[leader]).Manifold.Normal;
-        tests.Add(placed, normal, view.Ranked[leader].Overlap + tolerance, placed.SpeculativeMargin, follower, pool);
+        tests.Add(placed, normal, view.Ranked[leader].Overlap + tolerance, placed.SpeculativeMargin, follower, pool, findsFace);
     }
 
     static void Follow(SeamView view, in DirectedPair test)
@@ -369,6 +403,11 @@ static class ChildAgreement
             return;
         ref var child = ref view.Ranked[test.Owner];
         child.HasYielded = true;
-        view.Result(child).Replace(test);
+        ref var result = ref view.Result(child);
+        // What lies on its face to within what it leans goes on with the contacts that its pair remembers.
+        if (result.Manifold.Count >= LeastFaceCount && HasOneNormal(result.Manifold.Normal, test.Normal))
+            result.Manifold.Normal = test.Normal;
+        else
+            result.Replace(test);
     }
 }

@@ -11,6 +11,12 @@ struct DirectedPair
     public float GreatestDepth;
     /// <summary>By how much A has to move along the direction to be off B, m; negative where it is apart.</summary>
     public float Depth;
+    /// <summary>Whether the face of A, or of B, that faces the direction is wanted.</summary>
+    public bool FindsFaceOfA, FindsFaceOfB;
+    /// <summary>
+    /// Unit normal of that face, from B to A, if it is wanted and within 1e-2 rad of the direction; the direction if there is none.
+    /// </summary>
+    public Vector3 Face;
     /// <summary>What the pair is of.</summary>
     public int Owner;
     /// <summary>The contacts along the direction, relative to A; none where the depth is greater than wanted.</summary>

@@ -70,11 +70,15 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         var done = Vector<int>.AllBitsSet;
         var normal = Vector3Wide.Zero;
         var greatest = Vector<float>.Zero;
+        var (findsFaceOfA, findsFaceOfB) = (false, false);
         for (int lane = 0; lane < count; ++lane)
         {
             ref var pair = ref pairs[Lane(ref bundle.PairIds, lane)];
             Lanes.Write(Lane(ref bundle.FlipMask, lane) != 0 ? -pair.Normal : pair.Normal, ref normal, lane);
             Lane(ref greatest, lane) = pair.GreatestDepth;
+            var isFlipped = Lane(ref bundle.FlipMask, lane) != 0;
+            findsFaceOfA |= isFlipped ? pair.FindsFaceOfB : pair.FindsFaceOfA;
+            findsFaceOfB |= isFlipped ? pair.FindsFaceOfA : pair.FindsFaceOfB;
             Lane(ref done, lane) = 0;
         }
         bundle.Pose.GetLocal(out var axesA, out var localAxesB, out var localOffsetB);
@@ -85,13 +89,15 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         // Where the direction itself has decided, or nothing but the depth is asked for, no other is looked along.
         var isOpen = Vector.AndNot(~Vector.LessThanOrEqual(depth, greatest) & Vector.GreaterThan(greatest, new Vector<float>(float.MinValue)), done);
         var looksOn = Vector.LessThanAny(isOpen, Vector<int>.Zero);
+        var (faceOfA, faceOfB) = (localNormal, localNormal);
+        if (TFeatureA.MaximumVertexCount > 2 && (looksOn || findsFaceOfA))
+            faceOfA = -Facing<TShapeWideA, TFeatureA>(bundle.A, -localNormal, done);
+        if (TFeatureB.MaximumVertexCount > 2 && (looksOn || findsFaceOfB))
+            faceOfB = Matrix3x3Wide.TransposeTimes(localAxesB, Facing<TShapeWideB, TFeatureB>(bundle.B, localAxesB * localNormal, done));
         if (TFeatureA.MaximumVertexCount > 2 && looksOn)
-            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, -Facing<TShapeWideA, TFeatureA>(bundle.A, -localNormal, done), done, ref least);
+            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, faceOfA, done, ref least);
         if (TFeatureB.MaximumVertexCount > 2 && looksOn)
-        {
-            var facing = Facing<TShapeWideB, TFeatureB>(bundle.B, localAxesB * localNormal, done);
-            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, Matrix3x3Wide.TransposeTimes(localAxesB, facing), done, ref least);
-        }
+            MeasureAlong(bundle.A, bundle.B, localOffsetB, localAxesB, faceOfB, done, ref least);
         var isWithin = Vector.AndNot(Vector.LessThanOrEqual(least, greatest), done);
         FaceManifold<TShapeWideA, TFeatureA, TShapeWideB, TFeatureB>.BuildAlong(bundle.A, bundle.B, localOffsetB, localAxesB, localNormal, depth,
             point, isWithin, bundle.SpeculativeMargin, axesA, out wide);
@@ -101,7 +107,20 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
             pair.Depth = Lane(ref depth, lane);
             pair.IsWithinDepth = Lane(ref isWithin, lane) != 0;
             Read(ref wide, ref bundle, lane, ref pair.Manifold);
+            if (pair.FindsFaceOfA | pair.FindsFaceOfB)
+                ReadFace(ref bundle, lane, axesA, faceOfA, faceOfB, ref pair);
         }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void ReadFace(ref PairBundle<TShapeWideA, TShapeWideB> bundle, int lane, in Matrix3x3Wide axesA, in Vector3Wide faceOfA, in Vector3Wide faceOfB,
+        ref DirectedPair pair)
+    {
+        var isFlipped = Lane(ref bundle.FlipMask, lane) != 0;
+        var face = Matrix3x3Wide.TransposeTimes(axesA, pair.FindsFaceOfA != isFlipped ? faceOfA : faceOfB);
+        pair.Face = Lanes.Read<Vector3, Vector3Wide>(ref face, lane);
+        if (isFlipped)
+            pair.Face = -pair.Face;
     }
 
     // The unit normal of the face that faces a direction; the direction itself where there is none that is nearly across it.

@@ -32,7 +32,9 @@ unsafe struct DirectedTests(BufferPool pool)
     /// <param name="speculativeMargin">Greatest distance at which a contact exists, m.</param>
     /// <param name="owner">What the pair is of.</param>
     /// <param name="pool">Source of memory.</param>
-    public void Add(in PlacedChildren children, in Vector3 normal, float greatestDepth, float speculativeMargin, int owner, BufferPool pool)
+    /// <param name="findsFace">Whether the face of what is not the mover is wanted.</param>
+    public void Add(in PlacedChildren children, in Vector3 normal, float greatestDepth, float speculativeMargin, int owner, BufferPool pool,
+        bool findsFace = false)
     {
         var registry = DirectedTasks.Registry;
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
@@ -48,6 +50,8 @@ unsafe struct DirectedTests(BufferPool pool)
         pair.Normal = normal;
         pair.GreatestDepth = greatestDepth;
         pair.Owner = owner;
+        pair.FindsFaceOfA = findsFace && children.MoverIsB;
+        pair.FindsFaceOfB = findsFace && !children.MoverIsB;
         waiting |= 1ul << taskIndex;
         ref var batch = ref batches[taskIndex];
         fixed (byte* a = children.ShapeA.Bytes, b = children.ShapeB.Bytes)

@@ -145,8 +145,10 @@ static unsafe class FaceCorners
         ref var first = ref First(view);
         ref var placed = ref view.Placed(first);
         var type = placed.MoverIsB ? placed.TypeB : placed.TypeA;
-        // Within a pair a disc goes on with the corners that the pair remembers, and these are others.
-        if (placed.MoverIsB || (type != ConvexHull.Id && (type != Cylinder.Id || first.Pair == 0)))
+        // Within a pair a disc goes on with the corners that the pair remembers, and these are others. A box shows its corners on each of several boxes, but on
+        // a triangle that cuts some of them off it shows others.
+        var isOfPair = first.Pair == 0;
+        if (placed.MoverIsB || (type != ConvexHull.Id && (type != Cylinder.Id || isOfPair) && (type != Box.Id || !isOfPair)))
             return false;
         var least = LeastWay * placed.InnerRadius();
         if (Exact.LengthSquared(placed.Motion.Way) < least * least)

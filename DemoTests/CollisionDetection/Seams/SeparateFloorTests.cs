@@ -58,6 +58,27 @@ public class SeparateFloorTests(ITestOutputHelper output)
     public void What_leans_keeps_its_speed(int seed) =>
         Assert.Equal("", Compare(SeparateFloor.Boxes, SeamMover.Compound, friction: 0, speed: 1, LevelSeeds.Of(seed), relativeError: 1e-5f));
 
+    /// <summary>
+    /// The end of what is round that is over the border of a part by a hair, or a face that leans on that, has the normal of the floor, and the place that goes
+    /// with it: one that leans by half a thousandth throws up by a centimetre a second what comes at 20 m/s.
+    /// </summary>
+    // Before, by 5.8 to 17.3 mm/s; the last one stopped while those who took a normal did not offer it to others at once.
+    [Theory]
+    [InlineData(SeparateFloor.Junctions, SeamMover.Sphere, 0, 20, 90008)]
+    [InlineData(SeparateFloor.Boxes, SeamMover.SlidingCapsule, 0, 20, 86003)]
+    [InlineData(SeparateFloor.Fields, SeamMover.RollingCylinder, 0, 20, 74002)]
+    [InlineData(SeparateFloor.Boxes, SeamMover.StandingCylinder, .5f, 20, 72002)]
+    [InlineData(SeparateFloor.Junctions, SeamMover.StandingCylinder, 0, 20, 90002)]
+    [InlineData(SeparateFloor.Fields, SeamMover.Compound, .5f, 20, 73005)]
+    public void What_is_over_a_border_by_a_hair_has_the_normal_of_the_floor(SeparateFloor floor, SeamMover mover, float friction, float speed, int seed) =>
+        Assert.Equal("", Compare(floor, mover, friction, speed, LevelSeeds.Of(seed)));
+
+    /// <summary>Of a box each triangle chooses four contacts, and not always the corners of the box: it slides over them as over a plane.</summary>
+    // Before, by 6.7 and 6.0 mm/s.
+    [Theory, InlineData(5, 73004), InlineData(10, 86003)]
+    public void A_box_over_triangles_lies_on_its_corners(float speed, int seed) =>
+        Assert.Equal("", Compare(SeparateFloor.Meshes, SeamMover.TurnedBox, friction: .5f, speed, LevelSeeds.Of(seed)));
+
     string Compare(SeparateFloor floor, SeamMover mover, float friction, float speed, int seed, float relativeError = 1e-3f)
     {
         var stepCount = (int)(Math.Min(20 / speed, 2) * 60);
