@@ -142,10 +142,10 @@ static class ForeseenContacts
                 set.Stage = SeamStage.Next;
                 return;
             }
-            // What is not there at the end of the step has a plane that does not stop it before that.
+            // What is not there at the end of the step has a plane that does not stop it before that, however it grazes.
             if (touches || foresight.TestCount == MaximumTestCount || foresight.Time + gap / approach >= 1)
             {
-                if (approach > Graze * Exact.Length(foresight.Way) || HasLeaderAlong(view, foresight.Manifold.Normal))
+                if (!touches || approach > Graze * Exact.Length(foresight.Way) || HasLeaderAlong(view, foresight.Manifold.Normal))
                     Take(ref view.Result(child), ref child, placed, foresight, approach);
                 set.Stage = SeamStage.Prepared;
                 return;
