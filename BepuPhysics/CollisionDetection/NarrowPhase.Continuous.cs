@@ -24,6 +24,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     const float NearPart = .02f;
     const float ExactnessPart = 1e-3f;
     const float ProgressionPart = 1e-2f;
+    // Rounds in which an impact is to be foreseen; of what takes more the ways are swept all the same.
+    const int MaximumForeseenRoundCount = 1024;
 
     /// <summary>Poses of two collidables from the position of the first.</summary>
     struct ImpactPoses
@@ -97,7 +99,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             MaximumT = dt * (double)Lookahead,
             Accuracy = new ImpactAccuracy(
                 LimitTime(continuity.MinimumSweepTimestep, ProgressionPart * inner / speed),
-                LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed), ImpactAccuracy.Default.MaximumRoundCount),
+                LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed), MaximumForeseenRoundCount),
         };
         var filter = new ChildFilter(this, workerIndex, tested.Pair);
         var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));

@@ -20,7 +20,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly WorldLock World;
     internal PairCache Pairs;
     private protected readonly Restitution Restitution;
-    private protected readonly FastPairs FastPairs;
+    internal readonly FastPairs FastPairs;
     readonly LoadPathStage loadPath;
     private protected Buffer<CollidablePair> pairOfConstraint;
     internal AgreedPairs AgreedPairs;

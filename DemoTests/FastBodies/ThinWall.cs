@@ -58,6 +58,9 @@ sealed class ThinWall : IDisposable
     /// <summary>How many lost more than a hundredth of their way.</summary>
     public int DelayedCount { get; private set; }
 
+    /// <summary>Rounds that sweeps took in any step at most.</summary>
+    public long GreatestRoundCount { get; private set; }
+
     public ThinWall(Shot shot, Wall wall, float speed, ContinuousDetection continuity, int count, ulong seed, float restitution = 0, int threads = 1)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
@@ -199,6 +202,7 @@ sealed class ThinWall : IDisposable
         for (int step = 0; step < count; ++step)
         {
             Simulation.Timestep(Dt, dispatcher);
+            GreatestRoundCount = Math.Max(GreatestRoundCount, Simulation.NarrowPhase.FastPairs.RoundCount);
             for (int i = 0; i < shots.Count; ++i)
                 passed[i] |= HeightOf(i) < 0;
         }

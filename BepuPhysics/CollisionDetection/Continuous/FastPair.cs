@@ -38,6 +38,8 @@ struct FastPair
     public DoubleVector3 ArmA, ArmB;
     /// <summary>Impacts in this substep.</summary>
     public int ImpactCount;
+    /// <summary>Rounds that its sweeps have taken in this step.</summary>
+    public int RoundCount;
 
     /// <summary>Whether the callbacks were asked about the pair, and whether they let it pass.</summary>
     public bool IsAsked, Passes;

@@ -29,6 +29,9 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     const int SlidingCount = 8;
     const int StoppingCount = 16;
     const int MaximumCount = 32;
+    // Rounds in which a sweep of two parts is to end: hardly any takes more, but those that begin as good as in touch, and turn against each other all the
+    // time. Of these thinner cores are tried, which are farther apart.
+    const int MaximumRoundCount = 256;
 
     // From how many pairs on other threads take part, and pairs in a block of theirs.
     const int LeastForThreads = 16;
@@ -53,6 +56,18 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
 
     /// <summary>Number of pairs that were stopped in the last step, as impacts did not end.</summary>
     internal int StopCount { get; private set; }
+
+    /// <summary>Rounds of all sweeps of the last step, which is what they cost.</summary>
+    internal long RoundCount
+    {
+        get
+        {
+            var count = 0L;
+            for (int i = 0; i < pairs.Count; ++i)
+                count += pairs[i].RoundCount;
+            return count;
+        }
+    }
 
     /// <summary>Begins a step: nothing is watched.</summary>
     /// <param name="dt">Length of the step, s.</param>
@@ -279,7 +294,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         var motion = new SweepMotion
         {
             MaximumT = dt - from,
-            Accuracy = ImpactAccuracy.Default with { TouchingDistance = TouchingPart * pair.Inner },
+            Accuracy = new(0, 0, MaximumRoundCount) { TouchingDistance = TouchingPart * pair.Inner },
             LinearA = linearA,
             LinearB = linearB,
             OffsetB = positionB - positionA,
@@ -289,14 +304,14 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         SweepHit hit = default;
         if (pair.IsSensor)
         {
-            Sweep(pair, motion, temporary, out hit);
+            Sweep(ref pair, motion, temporary, out hit);
             pair.Time = hit.Overlaps ? from : hit.Exists ? from + hit.T : FastPair.Never;
             return;
         }
         motion.MostThinnerOf = pair.SmallerInner;
         motion.ThinnerPart = SkinParts[0];
-        Sweep(pair, motion, temporary, out hit);
-        if (hit.Overlaps && !TrySweepThinner(pair, motion, temporary, out hit))
+        Sweep(ref pair, motion, temporary, out hit);
+        if ((hit.Overlaps || hit.RanOut) && !TrySweepThinner(ref pair, motion, temporary, out hit))
             return;
         if (!hit.Exists)
             return;
@@ -307,19 +322,20 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     }
 
     // Whether shapes are apart at all is told without a way.
-    bool TrySweepThinner(in FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
+    bool TrySweepThinner(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         var way = motion.MaximumT;
         hit = default;
         foreach (var part in SkinParts[1..])
         {
             (motion.ThinnerPart, motion.MaximumT) = (part, 0);
-            Sweep(pair, motion, temporary, out hit);
+            Sweep(ref pair, motion, temporary, out hit);
             if (hit.Overlaps)
                 continue;
             motion.MaximumT = way;
-            Sweep(pair, motion, temporary, out hit);
-            return !hit.Overlaps;
+            Sweep(ref pair, motion, temporary, out hit);
+            if (!hit.RanOut)
+                return !hit.Overlaps;
         }
         return false;
     }
@@ -354,11 +370,12 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         axes = mover.AxesAt(time);
     }
 
-    void Sweep(in FastPair pair, in SweepMotion motion, BufferPool temporary, out SweepHit hit)
+    void Sweep(ref FastPair pair, in SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         var children = new AllChildren();
         SweepPairs.Test(motion, pair.ShapeA.Type, PointerTo(pair.ShapeA), pair.ShapeB.Type, PointerTo(pair.ShapeB), ref children, simulation.Shapes,
             temporary, out hit);
+        pair.RoundCount += hit.RoundCount;
     }
 
     struct AllChildren : ISweepFilter

@@ -5,7 +5,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <param name="convergenceThreshold">
 /// Time that the greatest speed of the shapes turns into a distance at which they count as touching, s.
 /// </param>
-/// <param name="maximumRoundCount">Greatest number of rounds; a pair that takes more has no impact.</param>
+/// <param name="maximumRoundCount">Greatest number of rounds; a pair that takes more has no impact, and it is said that they ran out.</param>
 readonly struct ImpactAccuracy(double minimumProgression, double convergenceThreshold, int maximumRoundCount)
 {
     /// <summary>Nothing is missed, touching is by size, and the limit is one that no pair of the tests comes near to.</summary>
@@ -32,4 +32,8 @@ struct Impact
     public DoubleVector3 Place;
     /// <summary>Whether the shapes overlap or touch at the time zero.</summary>
     public bool Overlaps;
+    /// <summary>Whether rounds ran out: nothing was found, and nothing is known of the rest of the time.</summary>
+    public bool RanOut;
+    /// <summary>Number of rounds that it took.</summary>
+    public int RoundCount;
 }

@@ -47,6 +47,12 @@ struct ImpactBody
     /// <summary>Speed of the turn, rad/s; zero where it moves nothing.</summary>
     public readonly double Speed => speed;
 
+    /// <summary>Angular velocity, rad/s; it moves nothing where <see cref="Speed"/> is zero.</summary>
+    public readonly DoubleVector3 Angular => angular;
+
+    /// <summary>What is left of it, without the spin about an axis about which the shape is round, rad/s.</summary>
+    public readonly DoubleVector3 Moving => ownSpin == 0 ? angular : angular - Axes.Y * ownSpin;
+
     /// <summary>Greatest speed that turning gives a point of the core, m/s.</summary>
     public readonly double SurfaceSpeed => speed > 0 ? speed * aroundAxis : 0;
 
@@ -182,7 +188,7 @@ struct ImpactBody
             quadratic = 0.5 * greatest * speed;
             return;
         }
-        var moving = angular - Axes.Y * ownSpin;
+        var moving = Moving;
         var across = DoubleVector3.Cross(n, moving);
         var acrossSize = across.Length;
         var movingSpeed = moving.Length;

@@ -5,12 +5,56 @@ namespace BepuPhysics.CollisionDetection;
 // How far the time may go on.
 ref partial struct ImpactPair
 {
+    // How many times farther a body that turns reaches than the other one is away, from which on it counts how the other one moves in its frame.
+    const double FarReach = 16;
+
     /// <summary>A time in which the shapes cannot cross a gap along the normal; infinite where they never can.</summary>
     readonly double LongestSafe(double width)
     {
         var closing = DoubleVector3.Dot(linear, normal);
         if (!a.Turns && !b.Turns)
             return closing > 0 ? width / closing : double.PositiveInfinity;
+        var dt = LongestSafeBySpeeds(width, closing);
+        var offset = offsetB - centerA;
+        if (IsFarReaching(a, b, offset))
+            dt = Math.Max(dt, LongestSafeInFrame(a, b, normal, offset, -linear, width));
+        if (IsFarReaching(b, a, offset))
+            dt = Math.Max(dt, LongestSafeInFrame(b, a, -normal, -offset, linear, width));
+        return dt;
+    }
+
+    readonly bool IsFarReaching(in ImpactBody body, in ImpactBody other, in DoubleVector3 offset) =>
+        body.Turns && !b.Core.IsPlane && body.Reach > FarReach * (offset.Length + other.Reach);
+
+    /// <summary>As <see cref="LongestSafe"/>, in the frame of a body that turns: the ends of a long one are fast, but not near what is beside its middle.</summary>
+    /// <remarks>
+    /// In that frame the body rests, and so does the plane. A point p of the other one, from the centre of the body, moves with v - w x p, along the plane's
+    /// normal at a rate that is greatest at a farthest point of the other shape; what Coriolis and centrifugal accelerations, the other one's own turn, and
+    /// the change of w (the body's spin about the axis about which it is round is none of its frame) make of it is a bound for p that is twice as far.
+    /// </remarks>
+    /// <param name="body">The body.</param>
+    /// <param name="other">The other one.</param>
+    /// <param name="n">Unit direction from the one to the other.</param>
+    /// <param name="offset">Centre of the other body from that of the body, m.</param>
+    /// <param name="velocity">Velocity of the other body against the body, m/s.</param>
+    /// <param name="width">The gap, m.</param>
+    static double LongestSafeInFrame(in ImpactBody body, in ImpactBody other, in DoubleVector3 n, in DoubleVector3 offset, in DoubleVector3 velocity,
+        double width)
+    {
+        var frame = body.Moving;
+        var turn = other.Turns ? frame - other.Angular : frame;
+        var across = DoubleVector3.Cross(n, turn);
+        var size = across.Length;
+        var closing = DoubleVector3.Dot(n, DoubleVector3.Cross(frame, offset) - velocity) + (size > 0 ? other.Extent(across * (1 / size)) * size : 0);
+        double frameSpeed = frame.Length, speed = velocity.Length, away = offset.Length + other.Reach;
+        var own = other.Speed * other.Reach;
+        var acceleration = own * other.Speed + 2 * frameSpeed * (speed + own) + frameSpeed * (frameSpeed + body.Speed) * 2 * away;
+        var dt = SolveQuadratic(0.5 * acceleration, closing, width);
+        return speed > 0 ? Math.Min(dt, away / speed) : dt;
+    }
+
+    readonly double LongestSafeBySpeeds(double width, double closing)
+    {
         double greatest = closing, linearPart = closing, quadratic = 0, revolved = width;
         Add(a, normal, ref linearPart, ref quadratic, ref greatest, ref revolved);
         Add(b, -normal, ref linearPart, ref quadratic, ref greatest, ref revolved);

@@ -100,6 +100,7 @@ ref partial struct ImpactPair
         double t = start, lastT = start;
         for (int round = 0; round < accuracy.MaximumRoundCount; ++round)
         {
+            ++impact.RoundCount;
             if (round > 0)
             {
                 Place(t);
@@ -112,6 +113,7 @@ ref partial struct ImpactPair
             if (!(t <= maximumT))
                 return false;
         }
+        impact.RanOut = true;
         return false;
     }
 

@@ -63,6 +63,10 @@ struct SweepHit
     public DoubleVector3 Normal;
     /// <summary>Place in world axes, from the position of A at the time zero, m.</summary>
     public DoubleVector3 Place;
+    /// <summary>Whether the rounds of two parts ran out, so that nothing is known of them.</summary>
+    public bool RanOut;
+    /// <summary>Rounds that all parts took together.</summary>
+    public int RoundCount;
     // The parts that touch; of several at once, those with the lowest numbers count, so that no order of tests shows.
     int childA, childB;
 
@@ -95,6 +99,8 @@ struct SweepHit
         var found = isFlipped
             ? ImpactPair.Find(ref b, ref a, -motion.OffsetB, -relative, maximumT, motion.Accuracy, out var impact)
             : ImpactPair.Find(ref a, ref b, motion.OffsetB, relative, maximumT, motion.Accuracy, out impact);
+        RoundCount += impact.RoundCount;
+        RanOut |= impact.RanOut;
         if (!found || (Exists && impact.T == T && (partA > childA || (partA == childA && partB > childB))))
             return;
         Exists = true;
