@@ -129,6 +129,22 @@ public class MovingFloorTests(ITestOutputHelper output)
         }
     }
 
+    /// <summary>Down at once is an impact: the stack falls freely for some steps, and lands with the speed of the lift.</summary>
+    [Theory, InlineData(0.1f, 1e-3), InlineData(0.2f, 0.02), InlineData(0.3f, 0.02)]
+    public void A_lift_that_starts_downwards_at_once_puts_its_load_down(float speed, double most)
+    {
+        using var lift = new LiftWorld(time => new Vector3(0, time < 1 ? 0 : -speed, 0)).With("twenty");
+        double lowest = 0;
+        while (lift.Time < 6)
+        {
+            lift.Step();
+            for (int box = 0; box < lift.Count; ++box)
+                lowest = Math.Max(lowest, 0.5 + box - lift.Place(box).Y);
+        }
+        output.WriteLine($"{speed} m/s: lower by {lowest:e2} m");
+        Assert.InRange(lowest, 0, most);
+    }
+
     [Theory, InlineData(0.11f), InlineData(0.12f)]
     public void What_falls_on_the_ground_falls_on_a_lift(float aside)
     {

@@ -83,8 +83,22 @@ sealed unsafe partial class LoadPathStage
             // Against what pulls at the body it is only pressed on.
             var against = MathHelper.Min(0, Exact.Dot(change, gain));
             var greatest = GreatestChange * substepCount;
-            return Exact.LengthSquared(before[body].Linear - before[kinematic].Angular) < SupportFinder.RestingSteps * SupportFinder.RestingSteps * squared &&
+            return Rests(before[body].Linear - before[kinematic].Angular, gain, squared) &&
                 Exact.LengthSquared(change) * squared - against * against <= greatest * greatest * squared * squared;
+        }
+
+        // As it is found for what rests on the ground.
+        bool Rests(Vector3 velocity, Vector3 gain, float squared)
+        {
+            var resting = SupportFinder.RestingSteps * SupportFinder.RestingSteps * squared;
+            if (Exact.LengthSquared(velocity) < resting)
+                return true;
+            var fall = Exact.Dot(velocity, gain);
+            if (!(fall > 0))
+                return false;
+            fall = MathHelper.Min(fall / squared, SupportFinder.FallingShare * QuietSteps * substepCount);
+            var aside = MathHelper.Min(resting, fall * fall * squared * SupportFinder.StraightShare * SupportFinder.StraightShare);
+            return Exact.LengthSquared(velocity - gain * fall) < aside;
         }
 
         Vector3 Gain(int body) => motions[body].Velocity.Linear - before[body].Linear;

@@ -32,6 +32,11 @@ readonly unsafe struct SupportFinder(
     // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
     // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
     internal const float RestingSteps = 1;
+    // A fall along what pulls at a body is no sway: up to so many times what is quiet, what falls has just been put down, and its momentum is a load like any
+    // other. Left to the sweeps, a stack that lands with .05 m/s would sink in as far as its weight presses soft contacts, since each of them stops only what
+    // stands already. What falls over moves aside as it falls, and is let go: up to this part of the fall it falls straight.
+    internal const float FallingShare = 4;
+    internal const float StraightShare = 0.1f;
     // How much faster than what is quiet a body that leans may be, and the surfaces of its contacts: some steps of acceleration. An arch that is put down falls
     // until it knows its load, and where a stone of it is pushed all others move; let go then it would stand on soft contacts, on which a thin one falls.
     const float LeaningShare = 2;
@@ -90,14 +95,14 @@ readonly unsafe struct SupportFinder(
             carries &= flat;
         isUpperA |= fixedB;
         var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
-        var rests = Vector.LessThan((bodyA.Linear - gainA).LengthSquared(), resting * resting) &
-            Vector.LessThan((bodyB.Linear - gainB).LengthSquared(), resting * resting);
+        var rests = Rests(bodyA.Linear - gainA, gainA, resting) & Rests(bodyB.Linear - gainB, gainB, resting);
         var moves = Vector<int>.Zero;
         if (hasB && hasFloors)
         {
-            // What rests to each other may rest on what moves: the graph knows it.
+            // What moves nearly alike may rest on what moves: the graph knows it, and asks each of both.
             gainB = Vector3Wide.Select(fixedB, bodyB.Linear - ReadEarlier(references[1]), gainB);
-            var together = flat & Vector.LessThan((bodyA.Linear - gainA - (bodyB.Linear - gainB)).LengthSquared(), resting * resting);
+            var most = resting + resting + new Vector<float>(FallingShare * quietSteps) * fastest;
+            var together = flat & Vector.LessThan((bodyA.Linear - gainA - (bodyB.Linear - gainB)).LengthSquared(), most * most);
             moves = Vector.AndNot(together, rests);
             rests |= together;
         }
@@ -216,6 +221,17 @@ readonly unsafe struct SupportFinder(
         var impulse = normal * load + *(Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count));
         var left = body.Linear + impulse * (body.InverseMass * new Vector<float>(warmStartScale));
         return Vector.LessThan(left.Length() + body.Angular.Length() * radius, tolerance.Of(gain, radius));
+    }
+
+    // Slow, or falling slowly and straight. Where nothing pulls at a body its gain is zero, and nothing is a fall.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    Vector<int> Rests(in Vector3Wide velocity, in Vector3Wide gain, Vector<float> resting)
+    {
+        var squared = gain.LengthSquared();
+        var fall = Vector3Wide.Dot(velocity, gain) / Wide.Max(squared, new Vector<float>(float.Epsilon));
+        fall = Wide.Clamp(fall, Vector<float>.Zero, new Vector<float>(FallingShare * quietSteps));
+        var aside = Wide.Min(resting * resting, fall * fall * squared * new Vector<float>(StraightShare * StraightShare));
+        return Vector.LessThan(velocity.LengthSquared(), resting * resting) | Vector.LessThan((velocity - gain * fall).LengthSquared(), aside);
     }
 
     static Vector<int> Pushes(int count, Vector<float>* impulses)
