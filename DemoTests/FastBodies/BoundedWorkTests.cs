@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using Xunit;
