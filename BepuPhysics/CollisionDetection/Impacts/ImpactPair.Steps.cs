@@ -26,7 +26,9 @@ ref partial struct ImpactPair
     readonly bool IsFarReaching(in ImpactBody body, in ImpactBody other, in DoubleVector3 offset) =>
         body.Turns && !b.Core.IsPlane && body.Reach > FarReach * (offset.Length + other.Reach);
 
-    /// <summary>As <see cref="LongestSafe"/>, in the frame of a body that turns: the ends of a long one are fast, but not near what is beside its middle.</summary>
+    /// <summary>
+    /// As <see cref="LongestSafe"/>, in the frame of a body that turns: the ends of a long one are fast, but not near what is beside its middle.
+    /// </summary>
     /// <remarks>
     /// In that frame the body rests, and so does the plane. A point p of the other one, from the centre of the body, moves with v - w x p, along the plane's
     /// normal at a rate that is greatest at a farthest point of the other shape; what Coriolis and centrifugal accelerations, the other one's own turn, and
