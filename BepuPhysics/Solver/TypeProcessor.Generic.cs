@@ -24,13 +24,15 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         var places = PlaceMask;
+        Unsafe.SkipInit(out LineAligned<Slots> memory);
+        var slots = memory.Pointer;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out var rows, out var slots);
-            TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(rows, bodies, TConstraint.WarmStartAccess, ref slots);
+            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out slots->Rows, out slots->Bodies);
+            TConstraint.WarmStart(ref slots->Bodies, substep, ref prestep[i], ref impulses[i]);
+            Scatter(slots->Rows, bodies, TConstraint.WarmStartAccess, ref slots->Bodies);
             if (TConstraint.CarriesPointLoad && substep.Index == 0)
-                LookAtLoad(references, bodies, substep, slots, prestep[i], impulses[i]);
+                LookAtLoad(references, bodies, substep, slots->Bodies, prestep[i], impulses[i]);
         }
     }
 
@@ -41,11 +43,13 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         var places = PlaceMask;
+        Unsafe.SkipInit(out LineAligned<Slots> memory);
+        var slots = memory.Pointer;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out var rows, out var slots);
-            TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
-            Scatter(rows, bodies, TConstraint.SolveAccess, ref slots);
+            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out slots->Rows, out slots->Bodies);
+            TConstraint.Solve(ref slots->Bodies, substep, ref prestep[i], ref impulses[i]);
+            Scatter(slots->Rows, bodies, TConstraint.SolveAccess, ref slots->Bodies);
         }
     }
 
@@ -111,6 +115,13 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     struct SlotRows
     {
         public RowOffsets A, B, C, D;
+    }
+
+    // What of a bundle's bodies is in memory.
+    struct Slots
+    {
+        public TBodies Bodies;
+        public SlotRows Rows;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
