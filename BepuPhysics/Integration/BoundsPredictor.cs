@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using System.Threading;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
@@ -62,6 +63,10 @@ unsafe struct BoundsPredictor : IStagedWork
             ripe += activities[i].Note(speeds[i]);
         var collidables = set.Collidables.Memory + start;
         Span<int> shapeIndices = stackalloc int[Vector<float>.Count];
+        Unsafe.SkipInit(out Vector<float> radius);
+        Unsafe.SkipInit(out Vector<float> expansion);
+        Unsafe.SkipInit(out Vector3Wide min);
+        Unsafe.SkipInit(out Vector3Wide max);
         int done = 0;
         for (int first = 0; first < count; ++first)
         {
@@ -69,18 +74,24 @@ unsafe struct BoundsPredictor : IStagedWork
                 continue;
             // All lanes of this shape type at once. The others have no shape.
             var type = collidables[first].Shape.Type;
-            int lanes = 0;
+            var before = done;
             for (int i = 0; i < Vector<float>.Count; ++i)
             {
                 var same = i >= first && i < count && collidables[i].BroadPhaseIndex >= 0 && collidables[i].Shape.Type == type;
                 shapeIndices[i] = same ? collidables[i].Shape.Index : -1;
                 if (same)
-                    lanes |= 1 << i;
+                    done |= 1 << i;
             }
-            done |= lanes;
-            Shapes.GetBatch(type).GetBounds(shapeIndices, pose.Orientation, out var maximumRadius, out var maximumAngularExpansion, out var min, out var max);
-            Write(lanes, collidables, pose.Position, velocity, gain, maximumRadius, maximumAngularExpansion, min, max);
+            Shapes.GetBatch(type).GetBounds(shapeIndices, pose.Orientation, out var typeRadius, out var typeExpansion, out var typeMin, out var typeMax);
+            // Nearly always the only type.
+            var isOfType = before == 0 ? new Vector<int>(-1) : Vector.GreaterThanOrEqual(new Vector<int>(shapeIndices), Vector<int>.Zero);
+            radius = Wide.Select(isOfType, typeRadius, radius);
+            expansion = Wide.Select(isOfType, typeExpansion, expansion);
+            min = Vector3Wide.Select(isOfType, typeMin, min);
+            max = Vector3Wide.Select(isOfType, typeMax, max);
         }
+        if (done != 0)
+            Write(done, collidables, pose.Position, velocity, gain, radius, expansion, min, max);
         return ripe;
     }
 
@@ -93,24 +104,53 @@ unsafe struct BoundsPredictor : IStagedWork
         var reach = velocity.Linear.Length() * dt + turning;
         var missing = Wide.Max(Vector<float>.Zero, gain * dt * new Vector<float>(LeastFall) - reach);
         reach += missing;
-        var sweep = velocity.Linear * dt;
-        min += position;
-        max += position;
-        for (int i = 0; i < Vector<float>.Count; ++i)
+        // What each body says of its bounds, in its lane.
+        Vector<float> least = default, most = default, unbounded = default;
+        for (int left = lanes; left != 0; left &= left - 1)
         {
-            if ((lanes & 1 << i) == 0)
-                continue;
-            ref var collidable = ref collidables[i];
-            collidable.SpeculativeMargin = MathHelper.Max(collidable.MinimumSpeculativeMargin, MathHelper.Min(collidable.MaximumSpeculativeMargin, reach[i]));
-            // Discrete detection leaves a body no more room than the margin in which its contacts are looked for.
-            var limit = collidable.Continuity.AllowExpansionBeyondSpeculativeMargin ? float.MaxValue : collidable.SpeculativeMargin;
-            var grow = new Vector3(MathHelper.Min(limit, turning[i] + missing[i] + collidable.MinimumSpeculativeMargin));
-            var swept = new Vector3(Limit(sweep.X[i], limit), Limit(sweep.Y[i], limit), Limit(sweep.Z[i], limit));
-            BroadPhase.GetActiveBoundsPointers(collidable.BroadPhaseIndex, out var minPointer, out var maxPointer);
-            *minPointer = new Vector3(min.X[i], min.Y[i], min.Z[i]) - grow + Exact.Min(swept, Vector3.Zero);
-            *maxPointer = new Vector3(max.X[i], max.Y[i], max.Z[i]) + grow + Exact.Max(swept, Vector3.Zero);
+            var i = BitOperations.TrailingZeroCount(left);
+            ((float*)&least)[i] = collidables[i].MinimumSpeculativeMargin;
+            ((float*)&most)[i] = collidables[i].MaximumSpeculativeMargin;
+            ((float*)&unbounded)[i] = collidables[i].Continuity.AllowExpansionBeyondSpeculativeMargin ? float.MaxValue : 0;
+        }
+        var margin = Wide.Max(least, Wide.Min(most, reach));
+        // Discrete detection leaves a body no more room than the margin in which its contacts are looked for.
+        var limit = Wide.Select(Vector.GreaterThan(unbounded, Vector<float>.Zero), unbounded, margin);
+        var grow = Wide.Min(limit, turning + missing + least);
+        var sweep = velocity.Linear * dt;
+        Sweep(position.X, sweep.X, limit, grow, ref min.X, ref max.X);
+        Sweep(position.Y, sweep.Y, limit, grow, ref min.Y, ref max.Y);
+        Sweep(position.Z, sweep.Z, limit, grow, ref min.Z, ref max.Z);
+        // Lane by lane as the tree holds them: a component taken out of a register by itself is as much work as this for all of them.
+        Unsafe.SkipInit(out LineAligned<Rows8> memory);
+        var rows = (float*)memory.Pointer;
+        Rows8 row;
+        row.R0 = min.X;
+        row.R1 = min.Y;
+        row.R2 = min.Z;
+        row.R3 = margin;
+        row.R4 = max.X;
+        row.R5 = max.Y;
+        row.R6 = max.Z;
+        row.R7 = Vector<float>.Zero;
+        Transpose.Scatter(row, rows, Rows8.Count, Vector<int>.Indices);
+        for (int left = lanes; left != 0; left &= left - 1)
+        {
+            var i = BitOperations.TrailingZeroCount(left);
+            var bounds = rows + i * Rows8.Count;
+            collidables[i].SpeculativeMargin = bounds[3];
+            BroadPhase.GetActiveBoundsPointers(collidables[i].BroadPhaseIndex, out var minPointer, out var maxPointer);
+            *minPointer = *(Vector3*)bounds;
+            *maxPointer = *(Vector3*)(bounds + 4);
         }
     }
 
-    static float Limit(float value, float limit) => MathHelper.Max(-limit, MathHelper.Min(limit, value));
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Sweep(
+        Vector<float> position, Vector<float> sweep, Vector<float> limit, Vector<float> grow, ref Vector<float> min, ref Vector<float> max)
+    {
+        var swept = Wide.Max(-limit, Wide.Min(limit, sweep));
+        min = min + position - grow + Wide.Min(swept, Vector<float>.Zero);
+        max = max + position + grow + Wide.Max(swept, Vector<float>.Zero);
+    }
 }
