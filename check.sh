@@ -14,6 +14,8 @@ trap 'rm -rf "$work"' EXIT
 passed=0
 failed=0
 failures=()
+names=()
+processors="$(getconf _NPROCESSORS_ONLN)"
 
 pass() { passed=$((passed + 1)); }
 
@@ -23,19 +25,45 @@ fail() {
     echo "FAILED: $1"
 }
 
-# step NAME COMMAND...: one result, with its time; the output is shown where it fails.
-step() {
-    local name="$1" start=$SECONDS log="$work/step.log"
+# begin NAME COMMAND...: runs in the background as soon as a processor is free; settle waits for all and shows them in order, each with
+# its time, and its output where it fails.
+begin() {
+    local id=${#names[@]}
+    names+=("$1")
     shift
-    if "$@" > "$log" 2>&1; then
-        pass
-        printf '%-44s passed  %4d s\n' "$name" $((SECONDS - start))
-        return 0
-    fi
-    tail -n 80 "$log"
-    fail "$name"
-    printf '%-44s FAILED  %4d s\n' "$name" $((SECONDS - start))
-    return 1
+    rm -f "$work/$id.result"
+    while (($(jobs -rp | wc -l) >= processors)); do sleep 0.05; done
+    {
+        local start=$SECONDS status=0
+        "$@" > "$work/$id.log" 2>&1 || status=$?
+        echo "$status $((SECONDS - start))" > "$work/$id.result"
+    } &
+}
+
+settle() {
+    local id status seconds bad=0
+    wait
+    for id in "${!names[@]}"; do
+        # Who was killed wrote no result.
+        read -r status seconds 2> /dev/null < "$work/$id.result" || { status=1 seconds=0; }
+        if ((status == 0)); then
+            pass
+            printf '%-44s passed  %4d s\n' "${names[id]}" "$seconds"
+        else
+            bad=1
+            tail -n 80 "$work/$id.log"
+            fail "${names[id]}"
+            printf '%-44s FAILED  %4d s\n' "${names[id]}" "$seconds"
+        fi
+    done
+    names=()
+    return $bad
+}
+
+# step NAME COMMAND...: one result, alone.
+step() {
+    begin "$@"
+    settle
 }
 
 finish() {
@@ -99,16 +127,18 @@ run_scenes() {
     demos list > "$work/list" || { fail "list of scenes"; return; }
     [[ -s "$work/list" ]] || fail "list of scenes is empty"
     for name in $(awk '{ print $1 }' "$work/list"); do
-        step "scene $name" demos run "$name" --steps 20
+        begin "scene $name" demos run "$name" --steps 20
     done
+    settle
     if [[ -z "$folder" && -f ../shared/tools/make-scenes ]] && command -v python3 > "$work/which"; then
         folder="$work/scenes"
         step "make scenes" python3 ../shared/tools/make-scenes "$folder" || return
     fi
     [[ -n "$folder" ]] || return
     for file in "$folder"/*.scene; do
-        [[ -f "$file" ]] && step "scene $(basename "$file")" demos run "$file" --steps 20
+        [[ -f "$file" ]] && begin "scene $(basename "$file")" demos run "$file" --steps 20
     done
+    settle
 }
 
 # The invariants that inner loops rely on: they vanish from release builds, so nothing else ever asks them.
@@ -129,26 +159,29 @@ run_debug_build() {
         --property:GenerateDocumentationFile=false -- "$@"
 }
 
-run_with_checks() {
+# Most of these use one processor each.
+run_scenes_with_checks() {
     local name
-    step "build with checks" build_with_checks || return
-    step "tests with checks" test_with_checks
     for name in $(awk '{ print $1 }' "$work/list"); do
-        step "scene $name with checks" dotnet artifacts/bin/Demos/release_checks/Demos.dll run "$name" --steps 20
+        begin "scene $name with checks" dotnet artifacts/bin/Demos/release_checks/Demos.dll run "$name" --steps 20
     done
-    # Without optimization too, as somebody who looks for a fault would.
-    step "scene in a debug build" run_debug_build run pile --steps 5
 }
 
-# Every benchmark once, in this process: whether it runs, not how fast it is.
-run_benchmarks() { step "benchmarks, once each" dotnet artifacts/bin/Benchmarks/release/Benchmarks.dll smoke; }
+# Every benchmark once, in one process: whether it runs, not how fast it is.
+run_benchmarks() { dotnet artifacts/bin/Benchmarks/release/Benchmarks.dll smoke; }
 
 step "build" build || finish
 step "pack" pack
 run_tests
 run_scenes
-run_with_checks
-run_benchmarks
+if step "build with checks" build_with_checks; then
+    step "tests with checks" test_with_checks
+    run_scenes_with_checks
+fi
+begin "benchmarks, once each" run_benchmarks
 # White space; style and order are held by the build and by StyleTests.
-step "format" dotnet format whitespace --verify-no-changes --no-restore
+begin "format" dotnet format whitespace --verify-no-changes --no-restore
+settle
+# Without optimization too, as somebody who looks for a fault would.
+step "scene in a debug build" run_debug_build run pile --steps 5
 finish

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Runtime.Intrinsics;
@@ -83,14 +82,14 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     /// <param name="options">Options of the run.</param>
     internal void AssertSameForAnyLanes(string name, SceneDescription? scene, int steps, params string[] options)
     {
-        var four = RunChild(name, scene, steps, 128, out int lanes, options: options);
+        var four = RunChild(name, scene, steps, LaneRunner.Four, out int lanes, options);
         Assert.Equal(4, lanes);
         // The stand-in is the same on every processor; true vectors of 512 bits are asked for besides, where there are any.
-        AssertSame(four, RunChild(name, scene, steps, 128, out lanes, SixteenLanesRunner.Path, options), $"{name} with 16 lanes, against 4,");
+        AssertSame(four, RunChild(name, scene, steps, LaneRunner.StandIn, out lanes, options), $"{name} with 16 lanes, against 4,");
         Assert.Equal(16, lanes);
         if (Vector256.IsHardwareAccelerated)
         {
-            AssertSame(four, RunChild(name, scene, steps, 256, out lanes, options: options), $"{name} with 8 lanes, against 4,");
+            AssertSame(four, RunChild(name, scene, steps, LaneRunner.Eight, out lanes, options), $"{name} with 8 lanes, against 4,");
             Assert.Equal(8, lanes);
         }
         else
@@ -99,7 +98,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         }
         if (Vector512.IsHardwareAccelerated)
         {
-            AssertSame(four, RunChild(name, scene, steps, 512, out lanes, options: options), $"{name} with vectors of 512 bits, against 4 lanes,");
+            AssertSame(four, RunChild(name, scene, steps, LaneRunner.Sixteen, out lanes, options), $"{name} with vectors of 512 bits, against 4 lanes,");
             Assert.Equal(16, lanes);
         }
         else
@@ -130,34 +129,20 @@ public sealed class DeterminismTests(ITestOutputHelper output)
     }
 
     static List<(int Step, string Hash)> RunChild(
-        string name, SceneDescription? scene, int steps, int bits, out int lanes, string? runner = null, string[]? options = null)
+        string name, SceneDescription? scene, int steps, LaneRunner runner, out int lanes, string[]? options = null)
     {
         string json = Path.GetTempFileName(), file = Path.GetTempFileName() + ".scene";
         try
         {
             if (scene is not null)
                 File.WriteAllText(file, SmallScenes.Write(scene));
-            var start = new ProcessStartInfo(Environment.GetEnvironmentVariable("DOTNET_HOST_PATH") ?? "dotnet")
-            {
-                RedirectStandardOutput = true,
-                RedirectStandardError = true,
-            };
-            string[] arguments =
+            int status = runner.Run(
             [
-                runner ?? Path.Combine(AppContext.BaseDirectory, "Demos.dll"), "run", scene is null ? name : file,
-                "--steps", steps.ToString(CultureInfo.InvariantCulture),
-                "--hash-every", "1", "--json", json, .. options ?? [],
-            ];
-            foreach (string argument in arguments)
-                start.ArgumentList.Add(argument);
-            start.Environment["DOTNET_MaxVectorTBitWidth"] = bits.ToString(CultureInfo.InvariantCulture);
-            using var process = Process.Start(start)!;
-            // Both are read to their ends, so that no full pipe stops the child.
-            var error = process.StandardError.ReadToEndAsync();
-            string messages = process.StandardOutput.ReadToEnd();
-            process.WaitForExit();
+                "run", scene is null ? name : file, "--steps", steps.ToString(CultureInfo.InvariantCulture), "--hash-every", "1", "--json", json,
+                .. options ?? [],
+            ], out string messages);
             // A status of 2 says that bodies were lost: what falls freely for five seconds is.
-            Assert.True(process.ExitCode is 0 or 2, $"{name} with vectors of {bits} bits ended with {process.ExitCode}: {error.Result}{messages}");
+            Assert.True(status is 0 or 2, $"{name} with {runner.Name} ended with {status}: {messages}");
             var root = JsonDocument.Parse(File.ReadAllBytes(json)).RootElement;
             lanes = root.GetProperty("lanes").GetInt32();
             var hashes = new List<(int, string)>();

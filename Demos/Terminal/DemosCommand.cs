@@ -38,8 +38,11 @@ public static class DemosCommand
     public static int Run(string[] args, TextWriter output, TextWriter error)
     {
         var root = new RootCommand("Runs physics scenes without a window and reports what they cost and how well they held.");
+        // Not the default handler: it would give a defect of ours the exit status of bad input.
+        var configuration = new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false };
         root.Subcommands.Add(ListCommand());
         root.Subcommands.Add(RunCommand());
+        root.Subcommands.Add(BatchCommand.Create(line => root.Parse(line).Invoke(configuration)));
         root.Subcommands.Add(TradeCommand.Create((parsed, action) => Guard(parsed, _ => action())));
         root.Subcommands.Add(TradeCommand.CreateWorker());
         root.Subcommands.Add(JointTablesCommand.Create((parsed, action) => Guard(parsed, _ => action())));
@@ -50,8 +53,6 @@ public static class DemosCommand
         foreach (Command command in EngineCommands.Create((parsed, action) => Guard(parsed, _ => action())))
             root.Subcommands.Add(command);
         root.SetAction(parsed => Guard(parsed, report => RunScene(SceneLibrary.DefaultScene, new RunSettings(), null, report)));
-        // Not the default handler: it would give a defect of ours the exit status of bad input.
-        var configuration = new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false };
         return root.Parse(args).Invoke(configuration);
     }
 

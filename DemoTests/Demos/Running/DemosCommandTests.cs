@@ -63,6 +63,22 @@ public sealed class DemosCommandTests : IDisposable
         Assert.False(System.IO.File.Exists(json));
     }
 
+    [Fact]
+    public void A_batch_runs_line_by_line_and_ends_with_the_greatest_status()
+    {
+        using var output = new StringWriter { NewLine = "\n" };
+
+        int status = BatchCommand.Run(new StringReader("2 steps\n\n1 step\n"), output, line =>
+        {
+            output.WriteLine($"ran {line}");
+            return line[0] - '0';
+        });
+
+        Assert.Equal(2, status);
+        Assert.Equal("ran 2 steps\nexit status 2\nran 1 step\nexit status 1\n", output.ToString());
+        Assert.Equal(DemosCommand.Finished, BatchCommand.Run(TextReader.Null, output, _ => DemosCommand.BadInput));
+    }
+
     [Theory]
     [InlineData("run", "no-such-scene")]
     [InlineData("run", "no-such-file.scene")]
