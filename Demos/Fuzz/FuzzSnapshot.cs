@@ -12,6 +12,7 @@ sealed class FuzzSnapshot(BufferPool pool) : IDisposable
     readonly List<BodyHandle> bodies = [];
     readonly List<StaticHandle> statics = [];
     readonly List<ConstraintHandle> constraints = [];
+    readonly List<BodyHandle> unsoundMotions = [], unsoundInertias = [];
     ulong state, hash;
 
     public void Save(FuzzWorld world)
@@ -20,6 +21,7 @@ sealed class FuzzSnapshot(BufferPool pool) : IDisposable
         Set(bodies, world.Bodies.Live);
         Set(statics, world.Statics.Live);
         Set(constraints, world.Constraints.Live);
+        world.SaveUnsound(unsoundMotions, unsoundInertias);
         (state, hash) = (FuzzFingerprint.OfSnapshot(world.Simulation), world.Simulation.StateHash());
     }
 
@@ -29,6 +31,7 @@ sealed class FuzzSnapshot(BufferPool pool) : IDisposable
         Set(world.Bodies.Live, bodies);
         Set(world.Statics.Live, statics);
         Set(world.Constraints.Live, constraints);
+        world.RestoreUnsound(unsoundMotions, unsoundInertias);
         if (world.Simulation.StateHash() != hash)
             throw new FuzzFailure("another hash after a restore");
         if (FuzzFingerprint.OfSnapshot(world.Simulation) != state)

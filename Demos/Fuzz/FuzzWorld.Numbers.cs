@@ -53,6 +53,29 @@ sealed partial class FuzzWorld
             ForgetUntil(began, unsoundInertias);
     }
 
+    /// <summary>Which bodies wait for a step to look at them: a snapshot that is taken now holds their numbers.</summary>
+    public void SaveUnsound(List<BodyHandle> motions, List<BodyHandle> inertias)
+    {
+        motions.Clear();
+        motions.AddRange(unsoundMotions.Keys);
+        inertias.Clear();
+        inertias.AddRange(unsoundInertias.Keys);
+    }
+
+    /// <summary>To be called when a snapshot was restored: what was written before it was taken is there again.</summary>
+    public void RestoreUnsound(List<BodyHandle> motions, List<BodyHandle> inertias)
+    {
+        Restore(unsoundMotions, motions);
+        Restore(unsoundInertias, inertias);
+    }
+
+    void Restore(Dictionary<BodyHandle, int> unsound, List<BodyHandle> saved)
+    {
+        unsound.Clear();
+        foreach (BodyHandle body in saved)
+            unsound.Add(body, stages);
+    }
+
     static void ForgetUntil(int stage, Dictionary<BodyHandle, int> unsound)
     {
         foreach ((BodyHandle body, int written) in unsound)

@@ -1,4 +1,3 @@
-using System.Numerics;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -6,16 +5,13 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.Collidables;
 
 /// <summary>Tests a ray against children of a compound, and tells the compound's handler about the hits with the number of the piece.</summary>
-unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in RigidPose pose, in RayData ray, Shapes shapes, in TRayHitHandler handler)
-    : IRayLeafTester where TRayHitHandler : struct, IShapeRayHitHandler
+unsafe struct ChildRayTester(Buffer<CompoundChild> children, in RigidPose pose, in RayData ray, Shapes shapes, PieceHits hits) : IRayLeafTester
 {
     readonly Buffer<CompoundChild> children = children;
     readonly RigidPose pose = pose;
     readonly RayData ray = ray;
     readonly Shapes shapes = shapes;
-    ChildHits hits = new() { Handler = handler };
-
-    public readonly TRayHitHandler Handler => hits.Handler;
+    PieceHits hits = hits;
 
     public void Test(int index, ref float maximumT, BufferPool pool)
     {
@@ -23,7 +19,7 @@ unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in 
         // What is made of children asks for each of them.
         if (ContainerChildren.IsContainer(child))
             hits.FirstPiece = ContainerChildren.Pieces(children).Of(index, 0);
-        else if (hits.Handler.AllowTest(index))
+        else if (hits.AllowsPiece(index))
             hits.FirstPiece = index;
         else
             return;
@@ -34,16 +30,4 @@ unsafe struct ChildRayTester<TRayHitHandler>(Buffer<CompoundChild> children, in 
 
     // The tree's ray is the same one in the frame of the compound.
     void IRayLeafTester.TestLeaf(int leafIndex, RayData* rayData, float* maximumT, BufferPool pool) => Test(leafIndex, ref *maximumT, pool);
-
-    // A convex shape is its own child of number zero.
-    struct ChildHits : IShapeRayHitHandler
-    {
-        public TRayHitHandler Handler;
-        public int FirstPiece;
-
-        public bool AllowTest(int childIndex) => Handler.AllowTest(FirstPiece + childIndex);
-
-        public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, int childIndex) =>
-            Handler.OnRayHit(ray, ref maximumT, t, normal, FirstPiece + childIndex);
-    }
 }

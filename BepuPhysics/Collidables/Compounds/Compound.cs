@@ -99,10 +99,11 @@ public unsafe struct Compound : ICompoundShape, IContainer
     public readonly void RayTest<TRayHitHandler>(in RigidPose pose, in RayData ray, ref float maximumT, Shapes shapeBatches, BufferPool pool,
         ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler
     {
-        var tester = new ChildRayTester<TRayHitHandler>(Children, pose, ray, shapeBatches, hitHandler);
+        var handler = hitHandler;
+        var tester = new ChildRayTester(Children, pose, ray, shapeBatches, PieceHits.For(ref handler));
         for (int i = 0; i < Children.Length; ++i)
             tester.Test(i, ref maximumT, pool);
-        hitHandler = tester.Handler;
+        hitHandler = handler;
     }
 
     /// <inheritdoc/>

@@ -61,12 +61,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     }
 
     /// <summary>Begins a step: nothing is watched.</summary>
-    internal void BeginStep()
-    {
-        pairs.Count = 0;
-        isLinked = false;
-        anyMeets = false;
-    }
+    internal void BeginStep() => pairs.Count = 0;
 
     /// <summary>No longer watches a contact constraint that is removed between collision detection and the solver.</summary>
     internal void Forget(ConstraintHandle constraint)
@@ -93,7 +88,13 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         groups = default;
     }
 
-    bool ISolverStage.BeginStep() => pairs.Count > 0;
+    // Where a game calls the stages of a step by itself, it may solve again what it has removed bodies from in between.
+    bool ISolverStage.BeginStep()
+    {
+        isLinked = false;
+        anyMeets = false;
+        return pairs.Count > 0;
+    }
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
