@@ -145,6 +145,91 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
         Assert.Equal("3000", Run(folder, "constraint").Trim());
     }
 
+    // Takes minutes, a linker, and the compiler from the feed that the machine knows.
+    [Theory]
+    [InlineData("")]
+    [InlineData("-p:IlcInstructionSet=native")]
+    public void Compiled_ahead_of_time_a_world_has_the_same_bits(string option)
+    {
+        if (Environment.GetEnvironmentVariable("PHYSICS_FULL_TESTS") is not { Length: > 0 })
+            return;
+        var folder = packages.CreateFolder("ahead" + option.Length);
+        WriteProject(folder, "ahead");
+        File.WriteAllText(Path.Combine(folder, "Program.cs"), AheadProgram);
+        var source = $"-p:RestoreAdditionalProjectSources={packages.Folder} -p:RestorePackagesPath={Path.Combine(folder, "cache")}";
+        Packages.Dotnet($"build -c Release -o run --disable-build-servers {source}", folder);
+        var expected = Packages.Dotnet(Path.Combine("run", "ahead.dll"), folder);
+        // What would be missing there at run time is a warning.
+        Packages.Dotnet($"publish -c Release -p:PublishAot=true -warnaserror -o native --disable-build-servers {source} {option}", folder);
+        Assert.Equal(expected, Packages.Run(Path.Combine(folder, "native", "ahead"), "", folder));
+    }
+
+    // Rays into compounds in compounds, a mesh, a joint, contacts of several kinds, sleep, a snapshot, threads.
+    const string AheadProgram = """
+        using System.Numerics;
+        using BepuPhysics;
+        using BepuPhysics.Collidables;
+        using BepuPhysics.Constraints;
+        using BepuPhysics.Trees;
+        using BepuUtilities;
+        using BepuUtilities.Memory;
+
+        using var pool = new BufferPool();
+        using var dispatcher = new ThreadDispatcher(2);
+        using var simulation = Simulation.Create(
+            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(), new SolveDescription(1, 4));
+        pool.Take(2, out Buffer<Triangle> triangles);
+        triangles[0] = new(new(-50, 0, -50), new(50, 0, -50), new(-50, 0, 50));
+        triangles[1] = new(new(50, 0, -50), new(50, 0, 50), new(-50, 0, 50));
+        simulation.Statics.Add(new StaticDescription(Vector3.Zero, simulation.Shapes.Add(new Mesh(triangles, Vector3.One, pool))));
+        var box = simulation.Shapes.Add(new Box(1, .5f, .7f));
+        var inner = Of(new(new RigidPose(new(0, .3f, 0)), box), new(new RigidPose(new(.6f, 0, 0)), simulation.Shapes.Add(new Sphere(.4f))));
+        var outer = Of(new(new RigidPose(new(-.5f, 0, 0)), inner), new(new RigidPose(new(1, 0, 0)), simulation.Shapes.Add(new Cylinder(.3f, .8f))));
+        var previous = default(BodyHandle);
+        for (int i = 0; i < 20; ++i)
+        {
+            var body = simulation.Bodies.Add(BodyDescription.CreateDynamic(
+                new Vector3(i % 3, 1 + 1.5f * i, i % 2), new Box(2, 1, 1).ComputeInertia(1 + i), i % 2 == 0 ? outer : inner, .01f));
+            if (i % 5 == 4)
+                simulation.Solver.Add(previous, body, new BallSocket { LocalOffsetA = new(0, .75f, 0), LocalOffsetB = new(0, -.75f, 0), SpringSettings = new(30, 1) });
+            previous = body;
+        }
+        using var saved = new SimulationSnapshot(pool);
+        for (int i = 0; i < 600; ++i)
+        {
+            if (i == 100)
+                simulation.Save(saved);
+            simulation.Timestep(1 / 60f, i % 2 == 0 ? dispatcher : null);
+        }
+        Console.WriteLine($"{simulation.StateHash():x16}");
+        var hits = new Hits();
+        simulation.RayCast(new Vector3(.5f, 40, .5f), new Vector3(0, -1, 0), 100, pool, ref hits);
+        Console.WriteLine($"{hits.Count} {hits.Sum:r}");
+        simulation.Restore(saved);
+        simulation.Timestep(1 / 60f);
+        Console.WriteLine($"{simulation.StateHash():x16}");
+
+        TypedIndex Of(params CompoundChild[] parts)
+        {
+            pool.Take(parts.Length, out Buffer<CompoundChild> children);
+            parts.CopyTo(children.AsSpan());
+            return simulation.Shapes.Add(new Compound(children));
+        }
+
+        struct Hits : IRayHitHandler
+        {
+            public int Count;
+            public float Sum;
+            public bool AllowTest(CollidableReference collidable) => true;
+            public bool AllowTest(CollidableReference collidable, int childIndex) => true;
+            public void OnRayHit(in RayData ray, ref float maximumT, float t, Vector3 normal, CollidableReference collidable, int childIndex)
+            {
+                ++Count;
+                Sum += t * (1 + childIndex);
+            }
+        }
+        """;
+
     // What dotnet new console writes.
     void WriteProject(string folder, string name) => File.WriteAllText(Path.Combine(folder, name + ".csproj"), $"""
         <Project Sdk="Microsoft.NET.Sdk">

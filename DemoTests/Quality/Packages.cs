@@ -47,9 +47,13 @@ public sealed class Packages : IDisposable
 
     /// <summary>Runs a command of the SDK, and returns what it wrote.</summary>
     /// <exception cref="InvalidOperationException">It failed; the message has its output.</exception>
-    public static string Dotnet(string arguments, string folder)
+    public static string Dotnet(string arguments, string folder) => Run("dotnet", arguments, folder);
+
+    /// <summary>Runs a program, and returns what it wrote.</summary>
+    /// <exception cref="InvalidOperationException">It failed; the message has its output.</exception>
+    public static string Run(string program, string arguments, string folder)
     {
-        var start = new ProcessStartInfo("dotnet", arguments)
+        var start = new ProcessStartInfo(program, arguments)
         {
             WorkingDirectory = folder,
             RedirectStandardOutput = true,
@@ -67,7 +71,7 @@ public sealed class Packages : IDisposable
         var output = process.StandardOutput.ReadToEnd();
         process.WaitForExit();
         if (process.ExitCode != 0)
-            throw new InvalidOperationException($"dotnet {arguments} ended with {process.ExitCode}:\n{output}\n{error.Result}");
+            throw new InvalidOperationException($"{program} {arguments} ended with {process.ExitCode}:\n{output}\n{error.Result}");
         return output;
     }
 
