@@ -131,6 +131,8 @@ public sealed partial class Simulation
         try
         {
             Solver.Step(dt, PoseIntegrator, threadDispatcher);
+            // Who is stopped loses contacts that these tell of.
+            NarrowPhase.EndEvents();
             // Sweeps and bounces after the last integration: nothing else has looked at what they made of velocities.
             if (Solver.EndsWithVelocities)
                 Quarantine.StopUnsound();
@@ -145,7 +147,6 @@ public sealed partial class Simulation
         {
             Quarantine.Collect();
         }
-        NarrowPhase.EndEvents();
     }
 
     static void CheckDt(float dt)
