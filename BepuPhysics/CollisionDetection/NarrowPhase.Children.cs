@@ -232,7 +232,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 old = known;
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
-                if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
+                if (tested.MayRoll && result.Children.IsPatch && result.Manifold.Count > 0)
+                {
+                    moved = result.Manifold;
+                    LeadAlong(tested.Pair, record->Patch.Normal, ref result.Manifold);
+                    if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
+                    {
+                        record->Patch.Write(moved);
+                        continue;
+                    }
+                    result.Manifold = moved;
+                }
+                else if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
                 {
                     if (result.Children.IsPatch)
                         record->Patch.Write(result.Manifold);

@@ -176,6 +176,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             margin = tested.SpeculativeMargin;
         }
         tested.MayHaveRims = MayHaveRims(tested, collidableA.Shape, shapeB);
+        tested.MayRoll = task.Expands && MayRoll(tested, collidableA.Shape);
         if (task.Expands)
         {
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);

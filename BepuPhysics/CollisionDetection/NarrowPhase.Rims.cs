@@ -10,8 +10,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
     // Time from the beginning of the step for which contacts at rims are, s. Substeps see depths as they are when they begin: in the mean that is then.
     float rimTime;
+    // Time of the step, s.
+    float stepTime;
 
-    void BeginRims(float dt) => rimTime = (dt - Simulation.Solver.ForeseeSubstepDt(dt)) * 0.5f;
+    void BeginRims(float dt)
+    {
+        stepTime = dt;
+        rimTime = (dt - Simulation.Solver.ForeseeSubstepDt(dt)) * 0.5f;
+    }
 
     // Contacts where a pair will touch are those of another time.
     static bool MayHaveRims(in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB) => !tested.IsImpact && (MayHaveRims(shapeA) || MayHaveRims(shapeB));

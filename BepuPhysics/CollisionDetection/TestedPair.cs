@@ -31,6 +31,9 @@ struct TestedPair
     /// <summary>Whether contacts may run around the rims of cylinders.</summary>
     public bool MayHaveRims;
 
+    /// <summary>Whether A is round, and may roll along a curved surface that stands.</summary>
+    public bool MayRoll;
+
     /// <summary>Time at which it will touch, s from the beginning of the step.</summary>
     public float ImpactTime;
 

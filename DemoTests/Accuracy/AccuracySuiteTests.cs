@@ -10,7 +10,7 @@ namespace DemoTests.Accuracy;
 /// <summary>Families of the suite that have no tests beside their cases, and that no family is left out.</summary>
 public class AccuracySuiteTests(ITestOutputHelper output)
 {
-    [Theory, SuiteData("C4", "C5", "C6", "J1", "J3", "X5", "X6")]
+    [Theory, SuiteData("C4", "C5", "C6", "C7", "J1", "J3", "X5", "X6")]
     public void Case(string name) => SuiteCases.Judge(name, output);
 
     [Fact]

@@ -15,6 +15,7 @@ static class AccuracySuite
         .. SlopeCases.All,
         .. RollingCases.All,
         .. CylinderRollingCases.All,
+        .. TroughCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,

@@ -43,6 +43,9 @@ struct PatchSet
     /// <summary>Cosine of 4 degrees: normals that are nearer to each other are one patch.</summary>
     public const float SameNormal = 0.99756405f;
 
+    // Cosine of 2 degrees, for single contacts.
+    const float SameSingleNormal = 0.99939083f;
+
     // Cosine of the greatest angle by which a patch may have turned in a step.
     const float LeastTurnCosine = 0.9f;
 
@@ -177,7 +180,9 @@ struct PatchSet
                 if (other > cosine)
                     (cosine, best) = (other, i);
             }
-            if (cosine < SameNormal && count < Capacity)
+            // What touches at a point has no use for a second contact along one normal, and needs the plane that is ahead.
+            var isSame = cosine >= (best >= 0 && manifold.Count == 1 && results[this[best].Slot].Manifold.Count == 1 ? SameSingleNormal : SameNormal);
+            if (!isSame && count < Capacity)
             {
                 best = count++;
                 this[best] = new() { Normal = manifold.Normal, Slot = child.Slot };
