@@ -1,7 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
-using BepuUtilities;
 
 namespace BepuPhysics.Collidables;
 
