@@ -19,7 +19,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     private protected readonly BufferPool Pool;
     private protected readonly WorldLock World;
     internal PairCache Pairs;
-    private protected readonly Restitution Restitution;
+    internal readonly Restitution Restitution;
     internal readonly FastPairs FastPairs;
     readonly LoadPathStage loadPath;
     private protected Buffer<CollidablePair> pairOfConstraint;

@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
+using DemoTests.Scenes;
 using Xunit;
 using Xunit.Abstractions;
 
@@ -53,6 +54,31 @@ public sealed unsafe class BoundedWorkTests(ITestOutputHelper output)
         Assert.True(ImpactPair.Find(ref still, ref turning, -offset, default, 1, ImpactAccuracy.Default, out impact));
         Assert.InRange(impact.T, expected - 1e-6, expected);
         Assert.InRange(impact.RoundCount, 1, most);
+    }
+
+    /// <summary>
+    /// Balls that are stopped in a crowd push each other on by ever less, down to rounding: a pair is not stopped again in the same substep for a small part
+    /// of the speed at which it was.
+    /// </summary>
+    [Fact]
+    public void ACrowdIsStoppedInFewImpacts()
+    {
+        const float size = 2.5f;
+        using var room = new ClosedRoom(Flyer.Ball, RoomWalls.HalfSpaces, 500, size, 50, 2);
+        var restitution = room.Simulation.NarrowPhase.Restitution;
+        var (impacts, pairs) = (0, 0);
+        for (int i = 0; i < 10; ++i)
+        {
+            room.Step(1, TestWorld.Dt);
+            Assert.Equal(0, room.OutsideCount);
+            for (int j = 0; j < restitution.PairCount; ++j)
+            {
+                impacts += restitution.ImpactCountOf(j);
+                pairs += restitution.ImpactCountOf(j) > 0 ? 1 : 0;
+            }
+        }
+        output.WriteLine($"{impacts} impacts of {pairs} pairs");
+        Assert.InRange(impacts, 1, 5 * pairs);
     }
 
     /// <summary>

@@ -13,6 +13,14 @@ struct BouncingPair
     public BodyVelocity GainA;
     /// <summary>As <see cref="GainA"/>, of B.</summary>
     public BodyVelocity GainB;
+    /// <summary>Where the constraint is in this step.</summary>
+    public ContactPlace Place;
+    /// <summary>Rows of the contacts along the normal: the same in all substeps.</summary>
+    public FourRows Rows;
+    /// <summary>What the integration of a substep adds to the speed at each contact, or to that along the normal, either way, m/s.</summary>
+    public FourFloats Gained;
+    /// <summary>Whether the constraint carries a load in this substep.</summary>
+    public bool IsLoaded;
     /// <summary>When the surfaces meet, s from the beginning of the substep; negative where they did before, and nobody looked.</summary>
     public float Time;
     /// <summary>Speed at which they then approach, m/s.</summary>

@@ -6,7 +6,7 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>The rows of one contact constraint and the bodies that it connects, one contact at a time: for stages that visit few constraints.</summary>
-readonly ref struct ContactRows
+readonly unsafe ref struct ContactRows
 {
     // The first float of the description and of the impulses; what follows lies a vector apart.
     readonly ref float prestep;
@@ -21,32 +21,21 @@ readonly ref struct ContactRows
     /// <summary>Whether nothing moves B.</summary>
     internal readonly bool IsFixedB;
     /// <summary>Unit normal from B to A.</summary>
-    internal readonly Vector3 Normal;
+    internal Vector3 Normal => Read(ContactPrestepLayout.Normal(contactCount));
     /// <summary>Position of B relative to A.</summary>
-    internal readonly Vector3 OffsetB;
+    internal Vector3 OffsetB => Read(ContactPrestepLayout.OffsetB(contactCount));
 
     internal ContactRows(Solver solver, Bodies bodies, ConstraintHandle constraint, int contactCount)
-        : this(solver, bodies, ref solver.TypeBatchAt(solver.Locations[constraint.Slot]), solver.Locations[constraint.Slot].IndexInTypeBatch, contactCount)
+        : this(bodies, new ContactPlace(solver, constraint), contactCount)
     { }
 
-    internal ContactRows(Solver solver, Bodies bodies, ref TypeBatch typeBatch, int indexInTypeBatch, int contactCount)
+    internal ContactRows(Bodies bodies, scoped in ContactPlace place, int contactCount)
     {
-        var processor = solver.Processor(typeBatch.TypeId);
-        prestep = ref processor.PrestepFloat(ref typeBatch, indexInTypeBatch, 0);
-        impulses = ref processor.Impulse(ref typeBatch, indexInTypeBatch, 0);
+        prestep = ref *place.Prestep;
+        impulses = ref *place.Impulses;
         this.contactCount = contactCount;
         set = ref bodies.ActiveSet;
-        A = processor.BodyReference(ref typeBatch, indexInTypeBatch, 0) & EncodedBody.IndexMask;
-        B = -1;
-        IsFixedB = true;
-        if (processor.BodiesPerConstraint > 1)
-        {
-            var reference = processor.BodyReference(ref typeBatch, indexInTypeBatch, 1);
-            B = reference & EncodedBody.IndexMask;
-            IsFixedB = (reference & EncodedBody.KinematicFlag) != 0;
-        }
-        Normal = Read(ContactPrestepLayout.Normal(contactCount));
-        OffsetB = Read(ContactPrestepLayout.OffsetB(contactCount));
+        (A, B, IsFixedB) = (place.A, place.B, place.IsFixedB);
     }
 
     /// <summary>Velocity of A.</summary>

@@ -16,3 +16,10 @@ struct FourVectors
 {
     Vector3 first;
 }
+
+/// <summary>One row per contact of a manifold.</summary>
+[InlineArray(4)]
+struct FourRows
+{
+    ContactRow first;
+}

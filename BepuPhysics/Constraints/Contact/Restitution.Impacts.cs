@@ -69,7 +69,8 @@ sealed unsafe partial class Restitution
                 var time = Pairs[first].Time;
                 impact.Begin(time, dt);
                 Join(first);
-                for (int i = 0; i < impact.PairCount; ++i)
+                // What does not bounce is by itself.
+                for (int i = 0; i < impact.PairCount && Pairs[first].Coefficient > 0; ++i)
                     JoinNeighbours(impact.Pair(i), time, dt);
                 impact.Solve();
                 for (int i = 0; i < impact.PairCount; ++i)

@@ -33,6 +33,9 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     const float PartingSteps = 8;
     // Part of the weight of either body from which on a contact carries a load: a body that rests on many contacts gives each a part.
     const float LoadingShare = 1 / 16f;
+    // Part of the speed at which two bodies were stopped below which they are not stopped again in the same substep: neighbours push each other on by ever
+    // less, and the solver stops what is left. What does not give way stops all: it is met at corners, with something else in turn.
+    const float StoppedShare = 1 / 16f;
     // Speed of approach over speed of the bodies that may be rounding.
     const float RoundingShare = 1e-6f;
 
@@ -47,6 +50,9 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
 
     /// <summary>Number of contact constraints that are watched.</summary>
     internal int PairCount => pairs.Count;
+
+    /// <summary>Impacts of a constraint in the last substep in which its group had any.</summary>
+    internal int ImpactCountOf(int index) => pairs[index].ImpactCount;
 
     /// <summary>What the bounces of a constraint have pushed along its normal in the last step, N s.</summary>
     /// <param name="index">Which of those that are watched.</param>
@@ -127,6 +133,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         for (int i = block * PairsPerBlock; i < end; ++i)
         {
             ref var pair = ref pairs[i];
+            if (point == SolverPoint.BeforeSubsteps)
+                pair.Place = new(solver, pair.Constraint);
             var contacts = Contacts(pair);
             if (point == SolverPoint.BeforeSubsteps)
             {
@@ -141,8 +149,10 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             {
                 pair.GainA = Difference(contacts.VelocityA, pair.GainA);
                 pair.GainB = Difference(contacts.VelocityB, pair.GainB);
+                Begin(ref pair, contacts);
             }
             pair.Stopped = 0;
+            pair.IsLoaded = IsLoaded(pair, contacts);
             Predict(ref pair, contacts, substep.Dt);
             // Whichever block writes it writes the same.
             if (pair.Time < BouncingPair.Never || pair.Overlaps)
@@ -150,7 +160,20 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         }
     }
 
-    ContactRows Contacts(in BouncingPair pair) => new(solver, bodies, pair.Constraint, pair.ContactCount);
+    ContactRows Contacts(in BouncingPair pair) => new(bodies, pair.Place, pair.ContactCount);
+
+    // What is the same in all substeps.
+    static void Begin(ref BouncingPair pair, in ContactRows contacts)
+    {
+        // In a pile that falls nobody falls against another, and yet its contacts rest on the floor below.
+        var along = MathHelper.Max(
+            MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal)));
+        for (int i = 0; i < pair.ContactCount; ++i)
+        {
+            pair.Rows[i] = contacts.NormalRow(i);
+            pair.Gained[i] = MathHelper.Max(MathF.Abs(pair.Rows[i].Along(pair.GainA, pair.GainB)), along);
+        }
+    }
 
     static BodyVelocity Difference(in BodyVelocity a, in BodyVelocity b) => new(a.Linear - b.Linear, a.Angular - b.Angular);
 
@@ -161,14 +184,12 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pair.Speed = 0;
         pair.Overlap = 0;
         pair.Overlaps = false;
-        var isLoaded = IsLoaded(pair, contacts);
-        var earliest = isLoaded ? 0 : -dt * solver.LastSubstepCount;
+        var earliest = pair.IsLoaded ? 0 : -dt * solver.LastSubstepCount;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
-            var row = contacts.NormalRow(i);
-            var gap = contacts.Gap(i, row);
-            var speed = -row.Along(contacts.VelocityA, contacts.VelocityB);
-            if (gap < 0 && !isLoaded)
+            var gap = contacts.Gap(i, pair.Rows[i]);
+            var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
+            if (gap < 0 && !pair.IsLoaded)
             {
                 pair.Overlaps = true;
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
@@ -176,7 +197,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
                 var left = MathHelper.Min(0, speed) * parting - gap;
                 pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(left, contacts.MaximumRecoveryVelocity * dt));
             }
-            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, row)))
+            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, pair.Gained[i])) ||
+                (pair.B >= 0 && !(speed > StoppedShare * pair.Stopped)))
                 continue;
             var time = MathHelper.Max(earliest, gap / speed);
             if (pair.Stopped > 0)
@@ -188,12 +210,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         }
     }
 
-    float RestingSpeed(in BouncingPair pair, in ContactRows contacts, in ContactRow row)
+    float RestingSpeed(in BouncingPair pair, in ContactRows contacts, float gained)
     {
-        // In a pile that falls nobody falls against another, and yet its contacts rest on the floor below.
-        var gained = MathHelper.Max(
-            MathF.Abs(row.Along(pair.GainA, pair.GainB)),
-            MathHelper.Max(MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal))));
         var moving = MathF.Sqrt(Exact.LengthSquared(contacts.VelocityA.Linear) + Exact.LengthSquared(contacts.VelocityB.Linear));
         // What does not come back from its impact may make it at any speed but that at which it rests.
         var substeps = pair.Coefficient > 0 ? RestingSteps * solver.LastSubstepCount : RestingSteps;

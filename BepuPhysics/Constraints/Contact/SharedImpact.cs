@@ -70,8 +70,10 @@ unsafe struct SharedImpact(BufferPool pool)
     QuickList<Meeting> patches = new(4, pool);
     float time;
     float dt;
-    // Greatest speed of approach.
-    float speed;
+    // Greatest speed of approach, and in any row.
+    float speed, greatestSpeed;
+    // Whether any pair bounces.
+    bool bounces;
 
     internal void Dispose()
     {
@@ -87,7 +89,8 @@ unsafe struct SharedImpact(BufferPool pool)
     {
         this.time = time;
         this.dt = dt;
-        speed = 0;
+        speed = greatestSpeed = 0;
+        bounces = false;
         bodies.Count = rows.Count = patches.Count = 0;
     }
 
@@ -130,11 +133,12 @@ unsafe struct SharedImpact(BufferPool pool)
         var a = PlaceOf(contacts.A, contacts.InertiaA, contacts.VelocityA, false);
         var b = PlaceOf(contacts.B, contacts.InertiaB, contacts.VelocityB, contacts.IsFixedB);
         var first = rows.Count;
+        bounces |= pair.Coefficient > 0;
         // The velocity has gained what the acceleration of the whole substep gives. A parabola has gained half of that when the substep begins.
         var notYet = 0.5f - time / dt;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
-            var row = contacts.NormalRow(i);
+            var row = pair.Rows[i];
             var velocity = row.Along(contacts.VelocityA, contacts.VelocityB);
             if (!(contacts.Gap(i, row) - pair.Reach(MathHelper.Max(-velocity, 0), dt) <= 0))
                 continue;
@@ -169,6 +173,7 @@ unsafe struct SharedImpact(BufferPool pool)
 
     void AddRow(in ContactRow along, Vector3 arm, int a, int b, float before)
     {
+        greatestSpeed = MathHelper.Max(greatestSpeed, MathF.Abs(before));
         var inverseMass = along.Along(along.ResponseOfA(bodies[a].Inertia, 1), along.ResponseOfB(bodies[b].Inertia, 1));
         rows.Add(new() { Along = along, Arm = arm, A = a, B = b, Before = before, InverseMass = inverseMass }, pool);
     }
@@ -180,16 +185,21 @@ unsafe struct SharedImpact(BufferPool pool)
         Settle(rows.Count > 1 ? MaximumSweeps : 1);
         if (AddFriction())
             Settle(MaximumSweeps);
-        for (int i = 0; i < patches.Count; ++i)
-            Return(patches[i]);
-        for (int i = 0; i < FrictionSweeps; ++i)
-            SolveFriction();
+        if (bounces)
+        {
+            for (int i = 0; i < patches.Count; ++i)
+                Return(patches[i]);
+            for (int i = 0; i < FrictionSweeps; ++i)
+                SolveFriction();
+        }
         Sum();
     }
 
     readonly void Settle(int sweeps)
     {
-        while (sweeps-- > 0 && MathHelper.Max(SolveNormals(), SolveFriction()) > RoundingShare * speed)
+        // What grazes slides much faster than it approaches, and so does its rounding. Only what bounces needs to be finer.
+        var rounding = RoundingShare * (bounces ? speed : greatestSpeed);
+        while (sweeps-- > 0 && MathHelper.Max(SolveNormals(), SolveFriction()) > rounding)
         {
         }
     }
