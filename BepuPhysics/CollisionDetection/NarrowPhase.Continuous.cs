@@ -63,7 +63,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var dt = workers[workerIndex].Batcher.Dt;
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
         if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed, out var gate))
+        {
+            FastPairs.NoteSlow(tested.Pair);
             return false;
+        }
         // A sensor is passed: nothing is foreseen of it.
         tested.IsExact = !tested.IsSensor;
         if (!SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
@@ -71,22 +74,40 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner, IsSensor = tested.IsSensor }, workers[workerIndex].Pool);
         if (tested.IsSensor)
             return false;
-        // What slides along several things that do not give way agrees with all of them.
-        if (tested.IsAtSeam)
-            return false;
-        if (shapeB.Type == HalfSpace.Id && tested.Pair.B.Mobility == CollidableMobility.Static)
-            gate.SetPlane(Simulation.Shapes.GetShape<HalfSpace>(shapeB.Index), poseB.Orientation);
+        if (tested.Pair.B.Mobility == CollidableMobility.Static)
+            FastPairs.SetStill(ref gate, tested.Pair.B, shapeB, poseB);
         if (!gate.MayMeet(new(poseA.Position), new(poseB.Position), new(velocityA.Linear), new(velocityB.Linear), dt * (double)Lookahead))
         {
             tested.SpeculativeMargin = MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
             return false;
         }
+        // What slides along several things that do not give way agrees with all of them.
+        if (tested.IsAtSeam)
+            return false;
         var continuity = ContinuityOf(tested.Pair.A);
         var other = ContinuityOf(tested.Pair.B);
         if (other.Mode == ContinuousDetectionMode.Continuous && (continuity.Mode != ContinuousDetectionMode.Continuous ||
             other.MinimumSweepTimestep < continuity.MinimumSweepTimestep))
             continuity = other;
         var offsetB = poseB.Position - poseA.Position;
+        var maximumT = dt * (double)Lookahead;
+        var convergence = LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed);
+        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
+        void* pointerA = batchA.GetPointer(shapeA.Index), pointerB = batchB.GetPointer(shapeB.Index);
+        var balls = new BallWays();
+        var moves = tested.Pair.B.Mobility != CollidableMobility.Static;
+        if (balls.TrySet(shapeA.Type, pointerA, shapeB.Type, pointerB, poseB.Orientation, moves))
+        {
+            DoubleVector3 linearA = new(velocityA.Linear), linearB = new(velocityB.Linear);
+            var touching = Math.Max(convergence * speed, ImpactPair.TouchingPart * inner);
+            if (!balls.TryFind(0, new(offsetB), linearA, linearB, touching, out var time) ||
+                !Touches(ref tested, time <= maximumT, time, inner))
+                return false;
+            // Nobody asks how a ball is turned.
+            placed.A = new(default, poseA.Orientation);
+            placed.B = new((new DoubleVector3(offsetB) + (linearB - linearA) * time).ToSingle(), poseB.Orientation);
+            return true;
+        }
         var motion = new SweepMotion
         {
             OrientationA = DoubleMatrix3x3.FromQuaternion(poseA.Orientation),
@@ -96,28 +117,28 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             AngularA = new(velocityA.Angular),
             AngularB = new(velocityB.Angular),
             OffsetB = new(offsetB),
-            MaximumT = dt * (double)Lookahead,
+            MaximumT = maximumT,
             Accuracy = new ImpactAccuracy(
                 LimitTime(continuity.MinimumSweepTimestep, ProgressionPart * inner / speed),
-                LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed), MaximumForeseenRoundCount),
+                convergence, MaximumForeseenRoundCount),
         };
         var filter = new ChildFilter(this, workerIndex, tested.Pair);
-        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
-        SweepPairs.Test(motion, shapeA.Type, batchA.GetPointer(shapeA.Index), shapeB.Type, batchB.GetPointer(shapeB.Index), ref filter,
+        SweepPairs.Test(motion, shapeA.Type, pointerA, shapeB.Type, pointerB, ref filter,
             Simulation.Shapes, workers[workerIndex].Pool, out var hit);
-        if (hit.Overlaps)
+        if (hit.Overlaps || !Touches(ref tested, hit.Exists, hit.T, inner))
             return false;
-        if (!hit.Exists)
-        {
-            tested.SpeculativeMargin = MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
-            return false;
-        }
-        tested.IsImpact = true;
-        tested.ImpactTime = (float)hit.T;
-        tested.SpeculativeMargin = MarginPart * inner;
         placed.A = new(default, BodyTurn.Turn(poseA.Orientation, motion.AngularA, hit.T));
         placed.B = new((motion.OffsetB + (motion.LinearB - motion.LinearA) * hit.T).ToSingle(), BodyTurn.Turn(poseB.Orientation, motion.AngularB, hit.T));
         return true;
+    }
+
+    // What does not touch has contacts only where it is as good as touching.
+    static bool Touches(ref TestedPair tested, bool touches, double time, float inner)
+    {
+        tested.IsImpact = touches;
+        tested.ImpactTime = touches ? (float)time : 0;
+        tested.SpeculativeMargin = touches ? MarginPart * inner : MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
+        return touches;
     }
 
     bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner, out float speed,
@@ -204,6 +225,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void WatchFastPairs()
     {
         FastPairs.BeginStep(workers[0].Batcher.Dt);
+        if (SkippedPairCount > 0)
+            FastPairs.KnowNoneSlow();
         order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Fast, i);

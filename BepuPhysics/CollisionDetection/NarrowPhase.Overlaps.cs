@@ -46,6 +46,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Array.Resize(ref workers, count);
         readsEarly = count > 1;
         BeginRims(dt);
+        FastPairs.BeginDetection();
         try
         {
             if (crowd.CountsFirst)

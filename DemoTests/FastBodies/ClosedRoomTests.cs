@@ -84,6 +84,33 @@ public class ClosedRoomTests
         Assert.True(a < b, $"{a} and {b} have passed each other.");
     }
 
+    /// <summary>
+    /// Two fly one behind the other, as fast, so that nobody watches them; a post stops the first one, within the bounds that it has had from the beginning.
+    /// The second one passes the post by a centimetre, and meets the first.
+    /// </summary>
+    [Fact]
+    public void WhoIsStoppedIsMetByWhoFollows()
+    {
+        const float radius = .1f;
+        var ball = new Sphere(radius);
+        using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
+        world.AddStatic(new Box(1, 1, 1), new RigidPose(new Vector3(.5f, -.49f, 0)));
+        // Not at once: in the first step with fast pairs nobody knows yet who is slow.
+        Add(world, ball, new Vector3(100, 0, 0), new Vector3(150, 0, 0));
+        Add(world, ball, new Vector3(110, 0, 0), new Vector3(-150, 0, 0));
+        var first = Follow(world, ball, new Vector3(-3.1f, 0, 0));
+        var second = Follow(world, ball, new Vector3(-3.8f, .12f, 0));
+        world.Step(2);
+        Assert.InRange(world.Bodies[first].Pose.Position.X, -radius - .1f * radius, radius);
+        // It left the line at which it would have gone on.
+        Assert.True(world.Bodies[second].Pose.Position.Y > .13f, $"{world.Bodies[second].Pose.Position}");
+    }
+
+    // Nothing is foreseen of who is more than a centimetre away.
+    static BodyHandle Follow(TestWorld world, in Sphere ball, Vector3 position) => world.Bodies.Add(BodyDescription.CreateDynamic(
+        position, new BodyVelocity(new Vector3(150, 0, 0)), ball.ComputeInertia(1),
+        new CollidableDescription(world.Simulation.Shapes.Add(ball), .01f, ContinuousDetection.Continuous()), -1));
+
     static BodyHandle Add(TestWorld world, in Sphere ball, Vector3 position, Vector3 velocity) => world.Bodies.Add(BodyDescription.CreateDynamic(
         position, new BodyVelocity(velocity), ball.ComputeInertia(1),
         new CollidableDescription(world.Simulation.Shapes.Add(ball), ContinuousDetection.Continuous()), -1));

@@ -44,6 +44,8 @@ struct FastBody
     public int Look;
     /// <summary>Whether its shape is a ball.</summary>
     public bool IsBall;
+    /// <summary>Whether it may have neighbours whom nobody watches: it looks for them even where it has not left its bounds.</summary>
+    public bool MayHaveOthers;
     /// <summary>Whether an impact has changed its way.</summary>
     public bool HasChanged;
 

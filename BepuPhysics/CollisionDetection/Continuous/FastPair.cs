@@ -30,6 +30,12 @@ struct FastPair
 
     /// <summary>Which ways may meet at all; known from the first sweep on.</summary>
     public WayGate Gate;
+    /// <summary>What it is if it is one of balls; known from the first sweep on.</summary>
+    public BallWays Balls;
+    /// <summary>Whether the gate or the balls are known.</summary>
+    public bool IsKnown;
+    /// <summary>Whether it stays apart in this step as far as its motion was foreseen.</summary>
+    public bool StaysApart;
     /// <summary>When the cores of the shapes meet, s from the beginning of the substep.</summary>
     public double Time;
     /// <summary>Unit normal from B to A at that time.</summary>

@@ -86,6 +86,7 @@ sealed unsafe partial class FastPairs
             Radius = radius,
             TurningRadius = inner < radius ? radius : 0,
             Look = -1,
+            MayHaveOthers = MayBeSlow(set.IndexToHandle[body]),
             IsBall = shape.Exists && shape.Type == Sphere.Id,
             UnforeseenSpeed = UnforeseenPart * inner / stepDt,
             ForeseenLinear = new(motion.Velocity.Linear),
@@ -177,6 +178,8 @@ sealed unsafe partial class FastPairs
         look = default;
         if (!mover.IsUnforeseen)
             return false;
+        if (knowsApart)
+            LookAtPairsOf(body);
         mover.ForeseenLinear = mover.Linear;
         mover.ForeseenSpin = mover.Angular.Length;
         var leaf = Bodies.ActiveSet.Collidables[mover.Index].BroadPhaseIndex;
@@ -189,6 +192,9 @@ sealed unsafe partial class FastPairs
         look.Body = body;
         look.Way = new(Exact.Min(from, to) - reach, Exact.Max(from, to) + reach);
         look.Known = tree.GetBounds(leaf);
+        // Whatever meets its bounds was found before, and is watched.
+        if (!mover.MayHaveOthers && BoundingBox.Contains(look.Known, look.Way))
+            return false;
         tree.UpdateBounds(leaf, Exact.Min(look.Way.Min, look.Known.Min), Exact.Max(look.Way.Max, look.Known.Max));
         return true;
     }
@@ -236,9 +242,15 @@ sealed unsafe partial class FastPairs
     {
         NarrowPhase.SortCollidableReferencesForPair(self, other, out _, out _, out var a, out var b);
         var pair = new FastPair { Pair = new(a, b), Time = FastPair.Never };
-        if (IsWatched(body, pair.Pair) || !TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) || !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B)
-            || !narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
+        if (IsWatched(body, pair.Pair) || !TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) ||
+            !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B))
             return;
+        if (!narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
+        {
+            HaveOthers(pair.A);
+            HaveOthers(pair.B);
+            return;
+        }
         var number = pairs.Count;
         pair.NextOfA = LinkLate(ref pair.A, number, dt);
         pair.NextOfB = LinkLate(ref pair.B, number, dt);
@@ -275,6 +287,7 @@ sealed unsafe partial class FastPairs
             return next;
         ref var end = ref Bodies.ActiveSet.MotionStates[index];
         ref var mover = ref movers[body];
+        mover.MayHaveOthers = true;
         mover.CheckedPosition = end.Pose.Position - end.Velocity.Linear * (float)dt;
         mover.CheckedOrientation = BodyTurn.Turn(end.Pose.Orientation, new(end.Velocity.Angular), -dt);
         mover.Begin(end, dt);

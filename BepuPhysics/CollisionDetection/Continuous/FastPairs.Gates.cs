@@ -7,18 +7,32 @@ sealed unsafe partial class FastPairs
 {
     void SetGate(ref FastPair pair)
     {
+        pair.IsKnown = true;
+        // A sensor is met by whole shapes.
+        if (!pair.IsSensor && pair.Balls.TrySet(
+            pair.ShapeA.Type, PointerTo(pair.ShapeA), pair.ShapeB.Type, PointerTo(pair.ShapeB), pair.PoseB.Orientation, pair.B >= 0))
+            return;
         pair.SmallerInner = SmallerInner(pair);
         pair.Gate.Set(ReachOf(pair, pair.ShapeA), ReachOf(pair, pair.ShapeB), TouchingPart * pair.Inner);
-        if (pair.Pair.B.Mobility != CollidableMobility.Static)
-            return;
-        if (pair.ShapeB.Type == HalfSpace.Id)
+        if (pair.Pair.B.Mobility == CollidableMobility.Static)
+            SetStill(ref pair.Gate, pair.Pair.B, pair.ShapeB, pair.PoseB);
+    }
+
+    /// <summary>Says where the B of a gate is, if it does not move.</summary>
+    /// <param name="gate">The gate.</param>
+    /// <param name="still">The static.</param>
+    /// <param name="shape">Its shape.</param>
+    /// <param name="pose">Where it is.</param>
+    internal void SetStill(ref WayGate gate, CollidableReference still, TypedIndex shape, in RigidPose pose)
+    {
+        if (shape.Type == HalfSpace.Id)
         {
-            pair.Gate.SetPlane(*(HalfSpace*)PointerTo(pair.ShapeB), pair.PoseB.Orientation);
+            gate.SetPlane(*(HalfSpace*)PointerTo(shape), pose.Orientation);
             return;
         }
-        ref var still = ref simulation.Statics.StaticsBuffer[simulation.Statics.Indices[pair.Pair.B.Slot]];
-        var bounds = simulation.BroadPhase.StaticTree.GetBounds(still.BroadPhaseIndex);
-        pair.Gate.SetStatic(new(bounds.Min), new(bounds.Max));
+        var leaf = simulation.Statics.StaticsBuffer[simulation.Statics.Indices[still.Slot]].BroadPhaseIndex;
+        var bounds = simulation.BroadPhase.StaticTree.GetBounds(leaf);
+        gate.SetStatic(new(bounds.Min), new(bounds.Max));
     }
 
     // A half-space has no inner radius, and reaches farthest.

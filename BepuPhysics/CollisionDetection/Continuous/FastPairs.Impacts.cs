@@ -56,6 +56,22 @@ sealed unsafe partial class FastPairs
         SweepAgain(bodyB, time, dt);
     }
 
+    void End(ref FastBody mover, double dt)
+    {
+        ref var set = ref Bodies.ActiveSet;
+        ref var motion = ref set.MotionStates[mover.Index];
+        ref var displacement = ref set.Displacements[mover.Index];
+        displacement.Linear += (mover.PositionAt(dt) - new DoubleVector3(motion.Pose.Position)).ToSingle();
+        displacement.Angular += BodyTurn.Between(motion.Pose.Orientation, mover.EndOrientation, default).ToSingle();
+        motion.Pose.Position = set.Origins[mover.Index].Position + displacement.Linear;
+        motion.Pose.Orientation = mover.EndOrientation;
+        motion.Velocity = mover.Velocity;
+        set.WorldInertias[mover.Index].InverseInertiaTensor =
+            Symmetric3x3.RotateInverseInertia(mover.Inertia.InverseInertiaTensor, motion.Pose.Orientation);
+        mover.CheckedPosition = motion.Pose.Position;
+        mover.CheckedOrientation = motion.Pose.Orientation;
+    }
+
     void GoOn(int body, double dt)
     {
         if (body < 0)

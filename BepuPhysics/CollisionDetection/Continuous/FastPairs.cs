@@ -1,7 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -43,6 +42,8 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     QuickList<int> firstPairs = new(16, pool);
     // Movers of the active set's bodies; -1 for the others.
     QuickList<int> moverOf = new(16, pool);
+    // Of each handle: whether its body is in a marked pair that is too slow to be watched. Nothing where there was no fast pair in the last step.
+    QuickList<bool> slow = new(16, pool);
     // Movers whose way an impact has changed in the substep.
     QuickList<int> changed = new(16, pool);
     // When pairs meet in the substep.
@@ -74,6 +75,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     internal void BeginStep(float dt = 0)
     {
         stepDt = dt;
+        knowsApart = false;
         pairs.Count = SharedBlockCount = 0;
         ImpactCount = StopCount = 0;
     }
@@ -109,6 +111,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         firstPairs.Dispose(pool);
         moverOf.Dispose(pool);
         changed.Dispose(pool);
+        slow.Dispose(pool);
         if (near.Span.Allocated)
             near.Dispose(pool);
         if (looks.Span.Allocated)
@@ -126,6 +129,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         firstPairs = default;
         moverOf = default;
         changed = default;
+        slow = default;
         near = default;
         looks = default;
         found = default;
@@ -172,8 +176,14 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     {
         for (int i = StartOf(block, blockCount, pairs.Count); i < StartOf(block + 1, blockCount, pairs.Count); ++i)
         {
-            pairs[i].ImpactCount = 0;
-            Find(ref pairs[i], 0, dt, workerPool);
+            ref var pair = ref pairs[i];
+            pair.ImpactCount = 0;
+            if (!pair.IsKnown && !pair.Passes)
+            {
+                SetGate(ref pair);
+                pair.StaysApart = StaysApart(pair, dt);
+            }
+            Find(ref pair, 0, dt, workerPool);
         }
     }
 
@@ -252,6 +262,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             SweepAll(0, 1, dt, pool);
             LookAll(0, 1);
         }
+        knowsApart = true;
         times.Clear(pairs.Count, pool);
         for (int i = 0; i < pairs.Count; ++i)
             times.Note(i, pairs[i].Time);
@@ -264,29 +275,21 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             End(ref movers[changed[i]], dt);
     }
 
-    void End(ref FastBody mover, double dt)
-    {
-        ref var set = ref Bodies.ActiveSet;
-        ref var motion = ref set.MotionStates[mover.Index];
-        ref var displacement = ref set.Displacements[mover.Index];
-        displacement.Linear += (mover.PositionAt(dt) - new DoubleVector3(motion.Pose.Position)).ToSingle();
-        displacement.Angular += BodyTurn.Between(motion.Pose.Orientation, mover.EndOrientation, default).ToSingle();
-        motion.Pose.Position = set.Origins[mover.Index].Position + displacement.Linear;
-        motion.Pose.Orientation = mover.EndOrientation;
-        motion.Velocity = mover.Velocity;
-        set.WorldInertias[mover.Index].InverseInertiaTensor =
-            Symmetric3x3.RotateInverseInertia(mover.Inertia.InverseInertiaTensor, motion.Pose.Orientation);
-        mover.CheckedPosition = motion.Pose.Position;
-        mover.CheckedOrientation = motion.Pose.Orientation;
-    }
-
     void Find(ref FastPair pair, double from, double dt, BufferPool temporary)
     {
         pair.Time = FastPair.Never;
-        if (pair.Passes || pair.ImpactCount >= MaximumCount)
+        if (pair.Passes || pair.StaysApart || pair.ImpactCount >= MaximumCount)
             return;
-        if (!pair.Gate.IsSet)
+        if (!pair.IsKnown)
             SetGate(ref pair);
+        if (pair.Balls.Exists)
+            FindOfBalls(ref pair, from, dt);
+        else
+            FindOfAny(ref pair, from, dt, temporary);
+    }
+
+    void FindOfAny(ref FastPair pair, double from, double dt, BufferPool temporary)
+    {
         PlaceCentre(pair.A, pair.PoseA, from, out var linearA, out var positionA);
         PlaceCentre(pair.B, pair.PoseB, from, out var linearB, out var positionB);
         if (!pair.Gate.MayMeet(positionA, positionB, linearA, linearB, dt - from))

@@ -17,9 +17,6 @@ struct WayGate
     DoubleVector3 first, second;
     bool isPlane, isStatic;
 
-    /// <summary>Whether it is known what passes.</summary>
-    public bool IsSet;
-
     /// <summary>Says how far the shapes reach.</summary>
     /// <param name="a">From the centre of A, m.</param>
     /// <param name="b">From that of B, m; infinite if it is a half-space.</param>
@@ -29,7 +26,6 @@ struct WayGate
         reach = (a + b) * (1 + Slack) + touching;
         reachOfA = a * (1 + 16 * Slack) + 2 * touching;
         isPlane = isStatic = false;
-        IsSet = true;
     }
 
     /// <summary>Says that B is a half-space that does not move.</summary>
@@ -60,22 +56,26 @@ struct WayGate
     /// <param name="linearA">Velocity of A, m/s.</param>
     /// <param name="linearB">Velocity of B, m/s.</param>
     /// <param name="dt">The time, s.</param>
-    public readonly bool MayMeet(in DoubleVector3 a, in DoubleVector3 b, in DoubleVector3 linearA, in DoubleVector3 linearB, double dt)
+    /// <param name="spare">By how much they may come nearer than that says, m.</param>
+    public readonly bool MayMeet(
+        in DoubleVector3 a, in DoubleVector3 b, in DoubleVector3 linearA, in DoubleVector3 linearB, double dt, double spare = 0)
     {
         if (isPlane)
         {
             var height = DoubleVector3.Dot(first, a - b);
-            return Math.Min(height, height + DoubleVector3.Dot(first, linearA) * dt) <= reachOfA;
+            return Math.Min(height, height + DoubleVector3.Dot(first, linearA) * dt) <= reachOfA + spare;
         }
         if (isStatic)
         {
             var end = a + linearA * dt;
-            if (IsBeside(a.X, end.X, first.X, second.X) || IsBeside(a.Y, end.Y, first.Y, second.Y) || IsBeside(a.Z, end.Z, first.Z, second.Z))
+            var nearest = reachOfA + spare;
+            if (IsBeside(a.X, end.X, first.X, second.X, nearest) || IsBeside(a.Y, end.Y, first.Y, second.Y, nearest) ||
+                IsBeside(a.Z, end.Z, first.Z, second.Z, nearest))
                 return false;
         }
-        return ImpactBalls.FirstMeeting(b - a, linearA - linearB, reach) <= dt;
+        return ImpactBalls.FirstMeeting(b - a, linearA - linearB, reach + spare) <= dt;
     }
 
-    readonly bool IsBeside(double start, double end, double min, double max) =>
-        Math.Max(start, end) + reachOfA < min || Math.Min(start, end) - reachOfA > max;
+    static bool IsBeside(double start, double end, double min, double max, double reach) =>
+        Math.Max(start, end) + reach < min || Math.Min(start, end) - reach > max;
 }
