@@ -6,9 +6,9 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-// What rolls along a curved surface is held by the plane that it touches a part of the step later. The solver keeps the plane of a contact for a step. With that
-// of the beginning a ball in a bowl goes straight on into the wall and is lifted out of it in the next step, against its weight and for nothing: it gains the part
-// g dt / r of its energy in a second, of whatever surface it follows with a radius r.
+// What rolls along a curved surface is held by the plane that it touches a part of the step later. The solver keeps the plane of a contact
+// for a step. With that of the beginning a ball in a bowl goes straight on into the wall and is lifted out of it in the next step, against its
+// weight and for nothing: it gains the part g dt / r of its energy in a second, of whatever surface it follows with a radius r.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
     // Sine of the greatest angle between a surface and the axis of a cylinder that rolls on its side.

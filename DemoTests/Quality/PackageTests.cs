@@ -191,7 +191,12 @@ public partial class PackageTests(Packages packages) : IClassFixture<Packages>
             var body = simulation.Bodies.Add(BodyDescription.CreateDynamic(
                 new Vector3(i % 3, 1 + 1.5f * i, i % 2), new Box(2, 1, 1).ComputeInertia(1 + i), i % 2 == 0 ? outer : inner, .01f));
             if (i % 5 == 4)
-                simulation.Solver.Add(previous, body, new BallSocket { LocalOffsetA = new(0, .75f, 0), LocalOffsetB = new(0, -.75f, 0), SpringSettings = new(30, 1) });
+                simulation.Solver.Add(previous, body, new BallSocket
+                {
+                    LocalOffsetA = new(0, .75f, 0),
+                    LocalOffsetB = new(0, -.75f, 0),
+                    SpringSettings = new(30, 1),
+                });
             previous = body;
         }
         using var saved = new SimulationSnapshot(pool);
