@@ -40,6 +40,8 @@ public class RowTests
             if (bench.Processor.LimitOf(0) != RowLimit.Positive)
                 Settle(bench);
             var rows = bench.Rows(Substep);
+            if (LetsGo(bench, typeId))
+                continue;
             for (int row = 0; row < rows.Length; ++row)
             {
                 if (bench.Processor.LimitOf(row) is RowLimit.Friction or RowLimit.Twist || isMotor)
@@ -62,6 +64,29 @@ public class RowTests
             }
         }
         Assert.True(compared > 0 != isMotor && skipped * 10 <= compared, $"{skipped} had no derivative, {compared} had.");
+    }
+
+    // Gears and racks let go of a twist whose axes are within half a radian of pointing against each other.
+    static bool LetsGo(RowBench bench, int typeId)
+    {
+        (string OfBody, string OfHousing, int Body)[] twists = RandomDescriptions.NameOf(typeId) switch
+        {
+            nameof(Gear) =>
+            [
+                (nameof(Gear.LocalBasisA), nameof(Gear.LocalHousingBasisA), 0), (nameof(Gear.LocalBasisB), nameof(Gear.LocalHousingBasisB), 1),
+            ],
+            nameof(Rack) => [(nameof(Rack.LocalBasisA), nameof(Rack.LocalHousingBasis), 0)],
+            _ => [],
+        };
+        // The square of the cosine of half the angle between them: 1/16, and what differences reach.
+        return twists.Any(twist => (1 + Vector3.Dot(Axis(twist.OfBody, twist.Body), Axis(twist.OfHousing, 2))) / 2 < 0.064f);
+
+        Vector3 Axis(string basis, int body)
+        {
+            var place = JointTypes.All.Single(type => type.Id == typeId).PlaceOf(basis, out _);
+            var local = new Quaternion(bench.Prestep(place), bench.Prestep(place + 1), bench.Prestep(place + 2), bench.Prestep(place + 3));
+            return Vector3.Transform(Vector3.UnitZ, Quaternion.Concatenate(local, bench.Poses[body].Orientation));
+        }
     }
 
     /// <summary>J M^-1 J^T is K, and an impulse of one acts as M^-1 J^T.</summary>

@@ -23,17 +23,19 @@ struct HousedRow : IJacobian<HousedRow, ThreeBodies, Rows1, Rows1>
     /// <param name="localHousingBasis">Basis in the housing's frame.</param>
     /// <param name="factor">Factor on the Jacobian.</param>
     /// <param name="angular">Angular Jacobian of the body; of the housing it is the opposite.</param>
+    /// <param name="held">The part that is held of what the row measures, and in the Jacobian already: not all where axes point against each other.</param>
     /// <returns>The angle, radians, within half a turn; without the factor.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<float> Turn(
         in SolverBodyWide body, in SolverBodyWide housing, in QuaternionWide localBasis, in QuaternionWide localHousingBasis, Vector<float> factor,
-        out Vector3Wide angular)
+        out Vector3Wide angular, out Vector<float> held)
     {
         Unsafe.SkipInit(out TwoBodies pair);
         pair.A.Orientation = housing.Orientation;
         pair.B.Orientation = body.Orientation;
         TwistAngle.Measure(pair, localHousingBasis, localBasis, out var twist);
-        angular = twist.Axis(factor);
+        held = twist.Held;
+        angular = twist.Axis(factor * held);
         return twist.Angle;
     }
 

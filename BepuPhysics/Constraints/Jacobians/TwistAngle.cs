@@ -16,6 +16,10 @@ struct TwistAngle
     // Square of the cosine of half the angle between the twist axes: (sin 1.8 degrees)^2. There, t is 32 times as long as at rest.
     const float LeastDefined = 1e-3f;
 
+    // The same where a row that holds the twist to something else begins to let go of it: half a radian from axes that point against each other, where t is 4
+    // times as long as at rest.
+    const float LeastHeld = 1f / 16;
+
     QuaternionWide basisA;
     QuaternionWide q;
 
@@ -40,6 +44,22 @@ struct TwistAngle
         }
     }
 
+    /// <summary>The part of a twist that a row may hold to something else than the twist itself: all of it, down to none where there is no twist.</summary>
+    // t, and the angle with it, would run away from what they are held to in the fraction of a turn in which axes swing past being opposite: no substep follows
+    // that, and the impulse of the one before, on a t that is ten times as long, throws what it turns.
+    internal readonly Vector<float> Held
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => Wide.Min(Vector<float>.One, Defined * new Vector<float>(1 / LeastHeld));
+    }
+
+    // Square of the cosine of half the angle between the twist axes.
+    readonly Vector<float> Defined
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => q.Z * q.Z + q.W * q.W;
+    }
+
     /// <summary>An angle less whole turns: what is left is within half a turn, either way.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<float> WithinHalfATurn(Vector<float> angle) =>
@@ -49,7 +69,7 @@ struct TwistAngle
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal readonly Vector3Wide Axis(Vector<float> factor)
     {
-        var defined = q.Z * q.Z + q.W * q.W;
+        var defined = Defined;
         var scale = Wide.Mask(Vector.GreaterThan(defined, new Vector<float>(LeastDefined)), factor / defined);
         return basisA * (new Vector3Wide(q.X * q.Z + q.Y * q.W, q.Y * q.Z - q.X * q.W, defined) * scale);
     }

@@ -80,12 +80,12 @@ readonly struct GearJoint : IJacobianJoint<ThreeBodies, GearWide, HousedRow, Row
     {
         var scale = Vector<float>.One / Wide.Max(Vector.Abs(prestep.TeethA), Vector.Abs(prestep.TeethB));
         var angleA = HousedRow.Turn(
-            bodies.A, bodies.C, prestep.LocalBasisA, prestep.LocalHousingBasisA, prestep.TeethA * scale, out geometry.AngularA);
+            bodies.A, bodies.C, prestep.LocalBasisA, prestep.LocalHousingBasisA, prestep.TeethA * scale, out geometry.AngularA, out var heldA);
         var angleB = HousedRow.Turn(
-            bodies.B, bodies.C, prestep.LocalBasisB, prestep.LocalHousingBasisB, prestep.TeethB * scale, out geometry.AngularB);
+            bodies.B, bodies.C, prestep.LocalBasisB, prestep.LocalHousingBasisB, prestep.TeethB * scale, out geometry.AngularB, out var heldB);
         geometry.AngularC = -(geometry.AngularA + geometry.AngularB);
         geometry.LinearA = geometry.LinearB = Vector3Wide.Zero;
-        geometry.Value = TwistAngle.WithinHalfATurn(prestep.TeethA * angleA + prestep.TeethB * angleB) * scale;
+        geometry.Value = TwistAngle.WithinHalfATurn(prestep.TeethA * angleA + prestep.TeethB * angleB) * (scale * (heldA * heldB));
     }
 
     /// <inheritdoc/>

@@ -83,7 +83,7 @@ readonly struct RackJoint : IJacobianJoint<ThreeBodies, RackWide, HousedRow, Row
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static void Prepare(in ThreeBodies bodies, in RackWide prestep, out HousedRow geometry)
     {
-        var angle = HousedRow.Turn(bodies.A, bodies.C, prestep.LocalBasisA, prestep.LocalHousingBasis, -prestep.Radius, out geometry.AngularA);
+        var angle = HousedRow.Turn(bodies.A, bodies.C, prestep.LocalBasisA, prestep.LocalHousingBasis, -prestep.Radius, out geometry.AngularA, out var held);
         var axis = bodies.C.Orientation * prestep.LocalHousingAxis;
         var offsetB = bodies.B.Orientation * prestep.LocalOffsetB;
         // The positions are subtracted first: far from the origin their difference is still exact.
@@ -93,7 +93,7 @@ readonly struct RackJoint : IJacobianJoint<ThreeBodies, RackWide, HousedRow, Row
         geometry.AngularB = Vector3Wide.Cross(offsetB, axis);
         geometry.AngularC = -(geometry.AngularA + Vector3Wide.Cross(offsetC, axis));
         var way = Vector3Wide.Dot(axis, offsetC - bodies.C.Orientation * prestep.LocalHousingOffset);
-        geometry.Value = TwistAngle.WithinHalfATurn(prestep.Teeth * (way / prestep.Radius - angle)) * (prestep.Radius / prestep.Teeth);
+        geometry.Value = TwistAngle.WithinHalfATurn(prestep.Teeth * (way / prestep.Radius - angle)) * (prestep.Radius / prestep.Teeth * held);
     }
 
     /// <inheritdoc/>
