@@ -75,7 +75,17 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <remarks>Joints that hold points do so, whatever they say.</remarks>
     static virtual bool CarriesBodies => false;
 
-    /// <summary>Arms and impulse (on A) of the point rows; asked for only where <see cref="HoldsPoints"/>.</summary>
+    /// <summary>
+    /// Whether the joint pulls at a point of A and a point of B without holding them to each other in all directions: its load stiffens their rotation too.
+    /// </summary>
+    /// <remarks>The load of joints that hold points does so, whatever they say.</remarks>
+    static virtual bool PullsAtPoints => false;
+
+    /// <summary>Whether it is the error that tells how far correcting it turns the bodies, and not the impulse alone.</summary>
+    /// <remarks>Of rows at arms that bear next to nothing at moments when they are far off. Only where joints hold points or hand weight on.</remarks>
+    static virtual bool TurnsByError => false;
+
+    /// <summary>Arms and impulse (on A) of the point rows; asked for only where <see cref="HoldsPoints"/> or <see cref="PullsAtPoints"/>.</summary>
     static virtual void PointLoad(in TGeometry geometry, in TRows impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
     {
         impulse = default;

@@ -14,6 +14,12 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         var softness = Softness(ref bodies, substep, prestep);
+        if (MayTurnFar && !substep.IsRelaxation)
+        {
+            var turnsFar = BodySlots.At(ref bodies, 0).TurnMask;
+            if (!Vector.EqualsAll(turnsFar, Vector<int>.Zero))
+                DampLimit(bodies, substep, geometry, error, turnsFar, ref softness);
+        }
         // Slack that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
         // The first is the smaller of the two where C > 0, the second where C < 0, since ErrorToVelocity < 1 / h.
         var wanted = TRows.Min(error * -softness.ErrorToVelocity, error * new Vector<float>(-substep.InverseDt));
@@ -31,6 +37,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         var change = sum - impulses;
         impulses = sum;
         ApplyWhere(~isIdle, geometry, ref bodies, change);
+    }
+
+    // Copies: a local whose address is taken is in memory all the time.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void DampLimit(
+        in TBodies bodies, in Substep substep, in TGeometry geometry, in TRows error, Vector<int> turnsFar, ref SoftnessWide softness)
+    {
+        TGeometry arms = geometry;
+        SoftnessWide damped = softness;
+        TJoint.InverseEffectiveMass(arms, bodies, out var mass);
+        DampTurn(bodies, substep, arms, mass, TRows.Min(error, default), turnsFar, ref damped);
+        softness = damped;
     }
 
     // A single row: whether it has anything to do is clear before it is solved. (No limit has four bodies.)

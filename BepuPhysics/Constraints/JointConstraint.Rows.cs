@@ -145,10 +145,11 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         isHard = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
         var slots = bodies;
         softness = Softness(ref slots, substep, prestep);
-        if (CarriesPointLoad && !substep.IsRelaxation)
+        if (MayTurnFar && !substep.IsRelaxation)
         {
             TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-            DampTurn(bodies, substep, geometry, inverseMass, error, BodySlots.At(ref slots, 0).TurnMask, ref softness);
+            var off = TJoint.Kind == RowKind.Inequality ? TRows.Min(error, default) : error;
+            DampTurn(bodies, substep, geometry, inverseMass, off, BodySlots.At(ref slots, 0).TurnMask, ref softness);
         }
         target = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)

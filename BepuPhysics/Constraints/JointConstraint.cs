@@ -25,70 +25,23 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     }
 
     /// <inheritdoc/>
-    public static bool CarriesPointLoad => TJoint.HoldsPoints;
+    public static bool CarriesPointLoad
+    {
+        // Calls in the loops of the solver otherwise.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.HoldsPoints || TJoint.PullsAtPoints;
+    }
+    /// <inheritdoc/>
+    public static bool MayTurnFar
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.HoldsPoints || TJoint.TurnsByError;
+    }
     /// <inheritdoc/>
     public static bool MakesHubs
     {
-        // A call in the loops of the solver otherwise.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get => TJoint.HoldsPoints || TJoint.CarriesBodies;
-    }
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    public static bool TryGetGeometricStiffness(
-        in TBodies bodies, in Substep substep, in TPrestep prestep, in TRows impulses, out Symmetric3x3Wide stiffnessA, out Symmetric3x3Wide stiffnessB,
-        out Vector<int> turnsFar)
-    {
-        TJoint.Prepare(bodies, prestep, out var geometry);
-        TJoint.PointLoad(geometry, impulses, out var impulse, out var offsetA, out var offsetB);
-        ref var slots = ref Unsafe.AsRef(in bodies);
-        ref var inverseInertiaA = ref BodySlots.At(ref slots, 0).InverseInertia;
-        ref var inverseInertiaB = ref BodySlots.At(ref slots, TBodies.Count - 1).InverseInertia;
-        var limit = JointTurn.Limit(substep, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
-        // Most joints bear so little that neither can be, however the load lies to the arms.
-        var turnSquared = impulse.LengthSquared() * Wide.Max(TurnSquared(offsetA, inverseInertiaA), TurnSquared(offsetB, inverseInertiaB));
-        var least = MathHelper.Min(limit, GeometricStiffness.LeastTurn(substep));
-        if (Vector.LessThanAll(turnSquared, new Vector<float>(SlightPart * least * least)))
-        {
-            turnsFar = Vector<int>.Zero;
-            stiffnessA = stiffnessB = default;
-            return false;
-        }
-        turnsFar = TJoint.Kind == RowKind.Motor ? Vector<int>.Zero :
-            IsRigid(prestep) & JointTurn.IsFar(impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, limit);
-        var force = impulse * new Vector<float>(substep.InverseDt);
-        var tensionA = GeometricStiffness.Tension(force, offsetA, inverseInertiaA, substep);
-        var tensionB = GeometricStiffness.Tension(-force, offsetB, inverseInertiaB, substep);
-        if (Vector.EqualsAll(tensionA + tensionB, Vector<float>.Zero))
-        {
-            stiffnessA = stiffnessB = default;
-            return false;
-        }
-        stiffnessA = GeometricStiffness.Of(tensionA, offsetA);
-        stiffnessB = GeometricStiffness.Of(tensionB, offsetB);
-        return true;
-    }
-
-    // Less than one by more than what sums and products of these sizes are rounded by.
-    const float SlightPart = 0.99f;
-
-    // Square of the greatest angular velocity that a unit impulse on the arm can change: the trace is no less than the greatest inverse moment.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> TurnSquared(in Vector3Wide arm, in Symmetric3x3Wide inverseInertia)
-    {
-        var trace = inverseInertia.XX + inverseInertia.YY + inverseInertia.ZZ;
-        return arm.LengthSquared() * (trace * trace);
-    }
-
-    // Springs and speeds that a game asked for are what it gets.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> IsRigid(in TPrestep prestep)
-    {
-        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
-        if (TJoint.Kind == RowKind.Servo)
-            isRigid &= Vector.Equals(TJoint.Servo(prestep).MaximumSpeed, new Vector<float>(float.MaxValue));
-        return isRigid;
     }
 
     /// <inheritdoc/>
@@ -127,7 +80,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
         var softness = Softness(ref bodies, substep, prestep);
 
-        if (CarriesPointLoad && !substep.IsRelaxation)
+        if (MayTurnFar && !substep.IsRelaxation)
         {
             var turnsFar = BodySlots.At(ref bodies, 0).TurnMask;
             if (!Vector.EqualsAll(turnsFar, Vector<int>.Zero))
@@ -169,19 +122,6 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         return TJoint.Kind == RowKind.Servo ?
             TJoint.Spring(prestep).ForSubstep(substep, substep.Servos, substep.RigidServos, isHub) :
             TJoint.Spring(prestep).ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub);
-    }
-
-    // What correcting all of C does to rotations is M^-1 J^T K^-1 C.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void DampTurn(
-        in TBodies bodies, in Substep substep, in TGeometry geometry, in TMass inverseMass, in TRows error, Vector<int> turnsFar, ref SoftnessWide softness)
-    {
-        var still = bodies;
-        ref var first = ref BodySlots.At(ref still, 0);
-        ref var last = ref BodySlots.At(ref still, TBodies.Count - 1);
-        first.Angular = last.Angular = Vector3Wide.Zero;
-        TJoint.ApplyImpulse(geometry, ref still, TMass.Solve(inverseMass, error));
-        JointTurn.Damp(Wide.Max(first.Angular.LengthSquared(), last.Angular.LengthSquared()), substep.Dt, turnsFar, ref softness);
     }
 
     // A motor corrects no position: relaxation has nothing to take back, and hubs bear as much of it as chains.

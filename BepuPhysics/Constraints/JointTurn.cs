@@ -15,7 +15,8 @@ namespace BepuPhysics.Constraints;
 //
 // Which joints that are is asked once per step, of the impulses l that their points bear, where the warm start of the first substep has them at hand: a
 // joint at rest bears l = -(w h)^2 / h K^-1 C and corrects w h / (w h + 2) of C in a substep, so that the correction turns a body by
-// h |I^-1 (r x l)| / (w h (w h + 2)). Their sweeps know it by a flag in the joint's first reference and work out the angle that C itself has.
+// h |I^-1 (r x l)| / (w h (w h + 2)). Rows between two points or along a line may be far off while they bear next to nothing: what they pull at swings
+// past them. Of those it is C that is asked. The sweeps know it by a flag in the joint's first reference and work out the angle that C itself has.
 static class JointTurn
 {
     // Radians in a substep. Trees of joints gain energy with more of either; with less of the first, whips of chains that substeps resolve are concerned.
@@ -45,6 +46,17 @@ static class JointTurn
         var angularA = inverseInertiaA * Vector3Wide.Cross(armA, impulse);
         var angularB = inverseInertiaB * Vector3Wide.Cross(armB, impulse);
         return Vector.GreaterThan(Wide.Max(angularA.LengthSquared(), angularB.LengthSquared()), new Vector<float>(limit * limit));
+    }
+
+    /// <summary>Lanes in which a correction turns a body far.</summary>
+    /// <param name="turnSquared">Square of the angle, rad, by which correcting all of the error would turn a body.</param>
+    /// <param name="limits">Stiffness of the joints.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static Vector<int> IsFar(Vector<float> turnSquared, in SubstepStiffness limits)
+    {
+        // A substep corrects w h / (w h + 2) of it.
+        var limit = Far * (limits.RigidFrequencyDt + 2) / limits.RigidFrequencyDt;
+        return Vector.GreaterThan(turnSquared, new Vector<float>(limit * limit));
     }
 
     /// <summary>Damps a correction that would turn a body by more than a small angle, so that it turns it by no more.</summary>

@@ -22,15 +22,18 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Parts of the bodies that <see cref="Solve"/> reads.</summary>
     static abstract BodyAccess SolveAccess { get; }
 
-    /// <summary>Whether the constraint holds points of its bodies together, so that its load stiffens their rotation.</summary>
+    /// <summary>Whether the constraint pulls at points of its bodies, so that its load stiffens their rotation.</summary>
     static virtual bool CarriesPointLoad => false;
+
+    /// <summary>Whether correcting the position may turn bodies far, so that it is asked once per step where it does. Only of types that make hubs.</summary>
+    static virtual bool MayTurnFar => false;
 
     /// <summary>Whether several constraints of the type on one body make it a hub.</summary>
     static virtual bool MakesHubs => false;
 
     /// <summary>
     /// Geometric stiffness of the constraint's load on its first and its last body, and lanes in which correcting the position may turn a body far; asked for
-    /// only where <see cref="CarriesPointLoad"/>.
+    /// only where <see cref="CarriesPointLoad"/> or <see cref="MayTurnFar"/>.
     /// </summary>
     /// <returns>Whether there is any in any lane that a substep might not resolve.</returns>
     static virtual bool TryGetGeometricStiffness(

@@ -31,7 +31,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
             Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out slots->Rows, out slots->Bodies);
             TConstraint.WarmStart(ref slots->Bodies, substep, ref prestep[i], ref impulses[i]);
             Scatter(slots->Rows, bodies, TConstraint.WarmStartAccess, ref slots->Bodies);
-            if (TConstraint.CarriesPointLoad && substep.Index == 0)
+            if ((TConstraint.CarriesPointLoad || TConstraint.MayTurnFar) && substep.Index == 0)
                 LookAtLoad(references, bodies, substep, slots->Bodies, prestep[i], impulses[i]);
         }
     }
@@ -93,7 +93,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         Vector<int>* references, in SolverBodies bodies, in Substep substep, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
     {
         var isStiffened = TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB, out var turnsFar);
-        MarkTurning(ref references[0], turnsFar);
+        if (TConstraint.MayTurnFar)
+            MarkTurning(ref references[0], turnsFar);
         if (!isStiffened)
             return;
         bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA);
@@ -150,7 +151,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
-            if (TConstraint.CarriesPointLoad) BodySlots.At(ref slots, 0).TurnMask = TurnMask(references[0]);
+            if (TConstraint.MayTurnFar) BodySlots.At(ref slots, 0).TurnMask = TurnMask(references[0]);
             if (TBodies.Count > 1) BodySlots.At(ref slots, 1).HubMask = HubMask(references[1]);
             if (TBodies.Count > 2) BodySlots.At(ref slots, 2).HubMask = HubMask(references[2]);
             if (TBodies.Count > 3) BodySlots.At(ref slots, 3).HubMask = HubMask(references[3]);

@@ -76,6 +76,15 @@ struct LinearTangentRows : IJacobian<LinearTangentRows, TwoBodies, Rows2, RowMat
     /// <inheritdoc cref="AngularTangentRows.TangentY"/>
     public Vector3Wide TangentY;
 
+    /// <summary>The impulse on A, and the arms at which the two bodies bear it.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly void Load(in Vector2Wide impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB)
+    {
+        impulse = TangentX * impulses.X + TangentY * impulses.Y;
+        offsetA = OffsetA;
+        offsetB = OffsetB;
+    }
+
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void RelativeVelocity(in LinearTangentRows rows, in TwoBodies bodies, out Rows2 velocity)

@@ -58,6 +58,17 @@ struct SliderWide : IWide<Slider>
 readonly struct SliderJoint : IJacobianJoint<TwoBodies, SliderWide, AngularAndTangentRows, Rows5, RowMatrix5>
 {
     /// <inheritdoc/>
+    public static bool PullsAtPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(
+        in AngularAndTangentRows geometry, in Rows5 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB) =>
+        geometry.Tangents.Load(impulses.Angular, out impulse, out offsetA, out offsetB);
+
+    /// <inheritdoc/>
+    public static bool TurnsByError => true;
+    /// <inheritdoc/>
     public static bool CarriesBodies => true;
 
     /// <inheritdoc/>

@@ -66,6 +66,8 @@ struct DistanceLimitWide : IWide<DistanceLimit>
 readonly struct DistanceLimitJoint : IJacobianJoint<TwoBodies, DistanceLimitWide, LinearRow, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static bool TurnsByError => true;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
     /// <inheritdoc/>
     public static bool CarriesBodies => true;

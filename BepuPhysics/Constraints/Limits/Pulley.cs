@@ -70,6 +70,8 @@ struct PulleyWide : IWide<Pulley>
 readonly struct PulleyJoint : IJacobianJoint<ThreeBodies, PulleyWide, HousedRow, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static bool TurnsByError => true;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Inequality;
     /// <inheritdoc/>
     public static bool CarriesBodies => true;

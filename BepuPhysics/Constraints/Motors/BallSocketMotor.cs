@@ -48,6 +48,14 @@ readonly struct BallSocketMotorJoint :
     IJacobianJoint<TwoBodies, BallSocketMotorWide, PointRows, Rows3, RowMatrix3>
 {
     /// <inheritdoc/>
+    public static bool PullsAtPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(in PointRows geometry, in Rows3 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB) =>
+        PointRows.PointLoad(geometry, impulses, out impulse, out offsetA, out offsetB);
+
+    /// <inheritdoc/>
     public static BodyAccess Access => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
 
     /// <inheritdoc/>

@@ -79,6 +79,8 @@ struct DistanceServoWide : IWide<DistanceServo>
 readonly struct DistanceServoJoint : IJacobianJoint<TwoBodies, DistanceServoWide, LinearRow, Rows1, Rows1>
 {
     /// <inheritdoc/>
+    public static bool TurnsByError => true;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
     /// <inheritdoc/>
     public static bool CarriesBodies => true;

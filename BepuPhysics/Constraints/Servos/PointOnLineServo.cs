@@ -57,6 +57,17 @@ struct PointOnLineServoWide : IWide<PointOnLineServo>
 readonly struct PointOnLineServoJoint : IJacobianJoint<TwoBodies, PointOnLineServoWide, LinearTangentRows, Rows2, RowMatrix2>
 {
     /// <inheritdoc/>
+    public static bool PullsAtPoints => true;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void PointLoad(
+        in LinearTangentRows geometry, in Rows2 impulses, out Vector3Wide impulse, out Vector3Wide offsetA, out Vector3Wide offsetB) =>
+        geometry.Load(impulses.V, out impulse, out offsetA, out offsetB);
+
+    /// <inheritdoc/>
+    public static bool TurnsByError => true;
+    /// <inheritdoc/>
     public static RowKind Kind => RowKind.Servo;
     /// <inheritdoc/>
     public static bool CarriesBodies => true;
