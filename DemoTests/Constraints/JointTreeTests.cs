@@ -30,25 +30,21 @@ public class JointTreeTests(ITestOutputHelper output)
     static readonly Box box = new(0.4f, 0.3f, 0.5f);
 
     // What part of their trees may gain: known not to hold this yet. Light bodies with heavy ones at the end of arms that are several times their size turn
-    // further in a substep than these rows can follow. Joints of points are damped there (JointTurn), others are not; what was tried is in
-    // Docs/decisions/long-arms.md. What is not in this list keeps its energy in the same trees.
-    // A rack's pinion, whose axis nothing holds here, jumps by teeth as it tumbles.
+    // further in a substep than these rows can follow. They are damped there (JointTurn): joints of points where their load says so, others where their error
+    // does; what was tried is in Docs/decisions/long-arms.md. What is not in this list keeps its energy in the same trees.
     static readonly Dictionary<string, double> gaining = new()
     {
         [nameof(Hinge)] = .06,
         [nameof(BallSocket)] = .03,
         [nameof(SwivelHinge)] = .084,
         [nameof(BallSocketServo)] = .03,
-        [nameof(DistanceLimit)] = .25,
-        [nameof(DistanceServo)] = .45,
-        [nameof(PointOnLineServo)] = .02,
+        [nameof(DistanceServo)] = .01,
         [nameof(Weld)] = .005,
-        [nameof(Slider)] = .03,
+        [nameof(Slider)] = .01,
         [nameof(BallSocketMotor)] = .083,
-        [nameof(Pulley)] = .15,
-        [nameof(Rack)] = .2,
+        [nameof(Pulley)] = .02,
     };
-    // The same of trees in which each joint is of another type, solved at once: why is not known.
+    // The same of trees in which each joint is of another type, solved at once: by those that are not, pulleys above all.
     const double PartOfAllTypes = .015;
 
     public static TheoryData<int, int, int> Cases
@@ -114,6 +110,34 @@ public class JointTreeTests(ITestOutputHelper output)
     public void Trees_of_all_types_gain_no_energy(int substeps, int relaxations, DirectJointsChoice directJoints) =>
         LetGo(JointTypes.All, "all types", treeCount, substeps, relaxations, directJoints, PartOfAllTypes);
 
+    /// <summary>Trees that did, each by a cause that was found: none is to come back.</summary>
+    // Impulses of the substep before on a twist that its axes had left behind; corrections of rows between points and along lines that turn light bodies far;
+    // loads along lines and of motors, which no substep can follow; and gaps that were closed while what hangs in them whirls.
+    [Theory]
+    [InlineData(nameof(Rack), 20131, DirectJointsChoice.Off)]
+    [InlineData(nameof(Rack), 20029, DirectJointsChoice.Off)]
+    [InlineData(nameof(Rack), 20115, DirectJointsChoice.WhereNeeded)]
+    [InlineData(AllHeldBothWays, 20017, DirectJointsChoice.Off)]
+    [InlineData(AllHeldBothWays, 20037, DirectJointsChoice.Off)]
+    [InlineData(nameof(DistanceServo), 20005, DirectJointsChoice.Off)]
+    [InlineData(nameof(DistanceServo), 20013, DirectJointsChoice.Off)]
+    [InlineData(nameof(DistanceLimit), 20044, DirectJointsChoice.Off)]
+    [InlineData(nameof(Pulley), 20006, DirectJointsChoice.Off)]
+    [InlineData(nameof(Pulley), 20029, DirectJointsChoice.Off)]
+    [InlineData(nameof(PointOnLineServo), 20143, DirectJointsChoice.Off)]
+    [InlineData(nameof(Slider), 20066, DirectJointsChoice.Off)]
+    [InlineData(nameof(BallSocketMotor), 20009, DirectJointsChoice.Off)]
+    [InlineData(nameof(Hinge), 20020, DirectJointsChoice.WhereNeeded)]
+    [InlineData(nameof(Hinge), 20202, DirectJointsChoice.WhereNeeded)]
+    [InlineData(nameof(BallSocket), 20256, DirectJointsChoice.WhereNeeded)]
+    public void A_tree_that_gained_energy_gains_none(string type, int seed, DirectJointsChoice directJoints)
+    {
+        var types = type == AllHeldBothWays ? [.. HeldBothWays().Select(TypeOf)] : JointTypes.All.Where(other => other.Name == type).ToArray();
+        LetGo(types, type, [seed], 4, 0, directJoints, part: 0);
+    }
+
+    const string AllHeldBothWays = "all that hold both ways";
+
     void LetGo(int typeId, int treeCount, int substeps, int relaxations, DirectJointsChoice directJoints)
     {
         var type = TypeOf(typeId);
@@ -121,11 +145,15 @@ public class JointTreeTests(ITestOutputHelper output)
     }
 
     void LetGo(
-        IReadOnlyList<JointType> types, string name, int treeCount, int substeps, int relaxations, DirectJointsChoice directJoints, double part)
+        IReadOnlyList<JointType> types, string name, int treeCount, int substeps, int relaxations, DirectJointsChoice directJoints, double part) =>
+        LetGo(types, name, [.. Enumerable.Range(firstTree, treeCount)], substeps, relaxations, directJoints, part);
+
+    void LetGo(
+        IReadOnlyList<JointType> types, string name, int[] seeds, int substeps, int relaxations, DirectJointsChoice directJoints, double part)
     {
         var joints = 0;
         var gains = new List<string>();
-        for (int seed = firstTree; seed < firstTree + treeCount; ++seed)
+        foreach (var seed in seeds)
         {
             using var world = new TestWorld(new AccuracySettings
             {
@@ -152,10 +180,10 @@ public class JointTreeTests(ITestOutputHelper output)
                 gains.Add(FormattableString.Invariant($"tree {seed} by {greatest:0.00}"));
         }
         output.WriteLine($"{name}, {substeps} substeps, {relaxations} relaxations, joints at once {directJoints}: " +
-            $"{gains.Count} of {treeCount} gained. {string.Join(", ", gains)}");
-        var most = (int)(part * treeCount);
-        Assert.True(gains.Count <= most, $"{name}: {gains.Count} of {treeCount} trees gained energy: {string.Join(", ", gains)} of their motion.");
-        Assert.True(joints > treeCount, $"Only {joints} joints.");
+            $"{gains.Count} of {seeds.Length} gained. {string.Join(", ", gains)}");
+        var most = (int)(part * seeds.Length);
+        Assert.True(gains.Count <= most, $"{name}: {gains.Count} of {seeds.Length} trees gained energy: {string.Join(", ", gains)} of their motion.");
+        Assert.True(joints > seeds.Length, $"Only {joints} joints.");
     }
 
     // Each body is joined to as many of those before it as the type connects; the first ones are fixed. It is put where the joint has no error.

@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
@@ -110,7 +109,7 @@ sealed unsafe partial class DirectStage
         ref var set = ref bodies.Awake;
         var corrects = joint.Limit == RowLimit.None || CorrectsAll(joint, substep);
         if (solver.ChoosesDirectJoints)
-            Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep.Dt, corrects);
+            Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep, corrects);
         if (corrects && joint.Limit != RowLimit.Length)
             Correction.Limit(joint, set, substep.Dt);
     }
@@ -198,48 +197,5 @@ sealed unsafe partial class DirectStage
         var frequencyDt = (double)substep.Servos.RigidFrequencyDt;
         var whole = frequencyDt / (frequencyDt + 2) * substep.InverseDt;
         return error > 0 && target > 0.99 * 0.99 * whole * whole * error;
-    }
-
-    // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
-    static void Ease(in JointLane joint, ref JointNeed need, in BodySet set, float substepDt, bool corrects)
-    {
-        if (need.Eases <= 0)
-            return;
-        if (!corrects)
-        {
-            need.GoOn(substepDt);
-            return;
-        }
-        double linear = 0, angular = 0;
-        for (int row = 0; row < joint.RowCount; ++row)
-        {
-            double error = joint.PositionError(row);
-            if (joint.IsLinear(row))
-                linear += error * error;
-            else
-                angular += error * error;
-        }
-        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
-        var turn = TurnSquared(joint, set);
-        var pace = 1f;
-        if (JointNeed.MayHurry(turn))
-            pace = JointNeed.PaceOf(turn, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
-        double linearPart = 0, angularPart = 0;
-        if (joint.Kind.HasLinear)
-            linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
-        if (joint.Kind.HasAngular)
-            angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
-        need.GoOn(pace * substepDt);
-        for (int row = 0; row < joint.RowCount; ++row)
-            joint.Target(row) *= joint.IsLinear(row) ? linearPart : angularPart;
-    }
-
-    // Of the body that turns fastest.
-    static float TurnSquared(in JointLane joint, in BodySet set)
-    {
-        float greatest = 0;
-        for (int slot = 0; slot < joint.BodyCount; ++slot)
-            greatest = MathHelper.Max(greatest, Exact.LengthSquared(set.MotionStates[joint.Body(slot)].Velocity.Angular));
-        return greatest;
     }
 }

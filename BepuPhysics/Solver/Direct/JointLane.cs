@@ -2,6 +2,7 @@ using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -116,6 +117,27 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
         double z = Unsafe.Add(ref first, 5 * Vector<float>.Count);
         return x * x + y * y + z * z;
     }
+
+    /// <summary>What an impulse along a row by itself changes of the row's velocity: the diagonal of J M^-1 J^T.</summary>
+    internal double InverseMass(int row, Buffer<BodyInertia> inertias)
+    {
+        double sum = 0;
+        for (int slot = 0; slot < BodyCount; ++slot)
+        {
+            ref var inertia = ref inertias[Body(slot)];
+            ref var inverse = ref inertia.InverseInertiaTensor;
+            ref var j = ref Jacobian(row, slot);
+            if (Kind.SeesLinear)
+                sum += inertia.InverseMass * (Square(j, 0) + Square(j, 1) + Square(j, 2));
+            double x = Column(j, 3), y = Column(j, 4), z = Column(j, 5);
+            sum += x * x * inverse.XX + y * y * inverse.YY + z * z * inverse.ZZ + 2 * (x * y * inverse.YX + x * z * inverse.ZX + y * z * inverse.ZY);
+        }
+        return sum;
+    }
+
+    static double Column(in float first, int column) => Unsafe.Add(ref Unsafe.AsRef(in first), column * Vector<float>.Count);
+
+    static double Square(in float first, int column) => Column(first, column) * Column(first, column);
 
     T Lane<T>(in Vector<T> vector) where T : unmanaged => LaneOf(vector, lane);
 

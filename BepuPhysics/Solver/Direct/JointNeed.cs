@@ -101,6 +101,27 @@ struct JointNeed
     internal static float PaceOf(float turnSquared, double error) =>
         MathHelper.Max(1, EaseTime * MathF.Sqrt(turnSquared) * (float)Math.Min(1, SmallError / error));
 
+    /// <summary>How many times as fast an error goes under a load that would open the joint further: never faster.</summary>
+    /// <param name="opened">What the sweeps would let it open to under its load, as a part of the error that it came with: more than one.</param>
+    /// <param name="error">The error, as a part of the size of the bodies or in radians.</param>
+    // To put a joint right that is off by C takes its load times C, which nothing gives back: little where that is the load that opened it, and a part of all
+    // motion, about twice that of the size, where what hangs in it has begun to whirl since. So it waits for the load to be less, but for what is small.
+    internal static float PaceUnder(double opened, double error) => (float)Math.Max(1 / opened, Math.Min(1, QuietPart * Tolerance / error));
+
+    /// <summary>The error that a joint came with, in parts of what is to be left of it by now.</summary>
+    // exp((t / T)^2) as (1 + (t / T)^2 / 64)^64: products are the same everywhere.
+    internal readonly double Shrunk
+    {
+        get
+        {
+            var t = (double)(EaseEnd - Eases) / EaseTime;
+            var power = 1 + t * t / 64;
+            for (int i = 0; i < 6; ++i)
+                power *= power;
+            return power;
+        }
+    }
+
     /// <summary>Whether an error can go faster if a body of the joint turns.</summary>
     internal static bool MayHurry(float turnSquared) => turnSquared > 1 / (EaseTime * EaseTime);
 

@@ -1,0 +1,80 @@
+using System;
+using BepuUtilities;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints;
+
+// Where the solver chooses how joints are solved: how those that come from the sweeps are put right.
+sealed unsafe partial class DirectStage
+{
+    // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
+    static void Ease(in JointLane joint, ref JointNeed need, in BodySet set, in Substep substep, bool corrects)
+    {
+        if (need.Eases <= 0)
+            return;
+        var substepDt = substep.Dt;
+        if (!corrects)
+        {
+            need.GoOn(substepDt);
+            return;
+        }
+        double linear = 0, angular = 0;
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            double error = joint.PositionError(row);
+            if (joint.IsLinear(row))
+                linear += error * error;
+            else
+                angular += error * error;
+        }
+        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
+        var turn = TurnSquared(joint, set);
+        var pace = 1f;
+        if (JointNeed.MayHurry(turn))
+            pace = JointNeed.PaceOf(turn, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
+        var opened = OpenedByLoad(joint, set.WorldInertias, substep, need.Shrunk * linear, need.Shrunk * angular);
+        if (opened > 1)
+            pace *= JointNeed.PaceUnder(opened, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
+        double linearPart = 0, angularPart = 0;
+        if (joint.Kind.HasLinear)
+            linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
+        if (joint.Kind.HasAngular)
+            angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
+        need.GoOn(pace * substepDt);
+        for (int row = 0; row < joint.RowCount; ++row)
+            joint.Target(row) *= joint.IsLinear(row) ? linearPart : angularPart;
+    }
+
+    // Of the body that turns fastest.
+    static float TurnSquared(in JointLane joint, in BodySet set)
+    {
+        float greatest = 0;
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
+            greatest = MathHelper.Max(greatest, Exact.LengthSquared(set.MotionStates[joint.Body(slot)].Velocity.Angular));
+        return greatest;
+    }
+
+    // What the sweeps would let a joint open to under the load that it bears now, as a part of what it came with, along what it is off by: the greater of that
+    // of directions and that of axes.
+    static double OpenedByLoad(in JointLane joint, Buffer<BodyInertia> inertias, in Substep substep, double linear, double angular)
+    {
+        double alongLinear = 0, alongAngular = 0;
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            // An impulse against the error is what holds a load.
+            var along = -(double)joint.Impulse(row) * joint.PositionError(row);
+            if (along == 0)
+                continue;
+            along *= joint.InverseMass(row, inertias);
+            if (joint.IsLinear(row))
+                alongLinear += along;
+            else
+                alongAngular += along;
+        }
+        // As a spring of w h = RigidFrequencyDt it gives way by K lambda h / (w h)^2.
+        var frequencyDt = (double)substep.Joints.RigidFrequencyDt;
+        var scale = substep.Dt / (frequencyDt * frequencyDt);
+        var part = linear > 0 ? scale * alongLinear / (linear * linear) : 0;
+        return angular > 0 ? Math.Max(part, scale * alongAngular / (angular * angular)) : part;
+    }
+}
