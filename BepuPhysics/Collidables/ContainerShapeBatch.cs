@@ -82,7 +82,7 @@ abstract unsafe class ContainerShapeBatch<TContainer>(BufferPool source, int ini
             pool.TakeAtLeast(container.FanOut(0, all), out list);
             container.Open(0, all, list.Memory);
         }
-        container.FindOverlaps(min, max, all, list.Memory, ref found, pool);
+        container.FindOverlaps(min, max, default, all, list.Memory, ref found, pool);
         if (list.Allocated)
             pool.Return(ref list);
     }

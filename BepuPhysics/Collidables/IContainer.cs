@@ -1,3 +1,5 @@
+using System;
+using System.Diagnostics;
 using System.Numerics;
 using BepuPhysics.Trees;
 using BepuUtilities.Collections;
@@ -29,6 +31,19 @@ struct WayOut
     public Vector3 Normal;
     /// <summary>Point of the surface that is passed.</summary>
     public Vector3 Place;
+}
+
+/// <summary>A box that a container is asked about together with others.</summary>
+unsafe struct ContainerQuestion
+{
+    /// <summary>The container.</summary>
+    public void* Container;
+    /// <summary>Corners of the box in the container's frame.</summary>
+    public Vector3 Min, Max;
+    /// <summary>What the box is around.</summary>
+    public ShapeOutline Outline;
+    /// <summary>Of what was found, the end.</summary>
+    public int End;
 }
 
 /// <summary>A shape made of convex children, numbered from zero, in a tree or in a list.</summary>
@@ -66,11 +81,24 @@ unsafe interface IContainer : IShape
     /// <summary>Finds the children whose boxes overlap or touch a box, each once, in any fixed order.</summary>
     /// <param name="min">Lower corner in the container's frame, m.</param>
     /// <param name="max">Upper corner, nowhere below the lower.</param>
+    /// <param name="outline">What the box is around: children beyond it may be left out, but none that it may have been pressed through.</param>
     /// <param name="shapes">Shapes that children refer to.</param>
     /// <param name="list">Of a list, what <see cref="Open"/> writes for its root.</param>
     /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
     /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
-    void FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool);
+    void FindOverlaps(Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool);
+
+    /// <summary>Whether it is of use to say what a box is around.</summary>
+    static virtual bool TakesOutlines => false;
+
+    /// <summary>Whether it is of use to ask several containers at once.</summary>
+    static virtual bool AsksTogether => false;
+
+    /// <summary>Finds the children of several containers of this type as <see cref="FindOverlaps"/> does; of those that ask together.</summary>
+    /// <param name="questions">The questions; each receives where in the list its children end.</param>
+    /// <param name="found">Receives the numbers of the children, those of each question behind those of the one before.</param>
+    /// <param name="pool">Source of the list's memory.</param>
+    static virtual void FindTogether(Span<ContainerQuestion> questions, ref QuickList<int> found, BufferPool pool) => throw new UnreachableException();
 
     /// <summary>Whether the children are triangles of a surface, not bodies with a middle.</summary>
     static virtual bool IsSurface => false;

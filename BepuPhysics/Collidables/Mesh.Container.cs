@@ -1,4 +1,7 @@
+using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -65,12 +68,85 @@ public unsafe partial struct Mesh : IContainer
 
     static bool IContainer.IsSurface => true;
 
-    // What is found is asked for by its number soon; its corners were just looked at.
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    static bool IContainer.TakesOutlines => true;
+
+    static bool IContainer.AsksTogether => true;
+
+    readonly void IContainer.FindOverlaps(
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
-        FindLocalOverlaps(min, max, ref found, pool);
-        for (int i = 0; i < found.Count; ++i)
+        var first = found.Count;
+        FindPlaces(min, max, ref found, pool);
+        Take(outline, ref found, first);
+    }
+
+    static void IContainer.FindTogether(Span<ContainerQuestion> questions, ref QuickList<int> found, BufferPool pool)
+    {
+        if (questions.Length == 1)
+        {
+            ref var question = ref questions[0];
+            var first = found.Count;
+            ((Mesh*)question.Container)->FindPlaces(question.Min, question.Max, ref found, pool);
+            ((Mesh*)question.Container)->Take(question.Outline, ref found, first);
+            question.End = found.Count;
+            return;
+        }
+        Unsafe.SkipInit(out MeshQueries queries);
+        for (int start = 0; start < questions.Length; start += MeshQueries.Capacity)
+        {
+            var asked = questions.Slice(start, Math.Min(MeshQueries.Capacity, questions.Length - start));
+            queries.Clear();
+            foreach (ref var question in asked)
+            {
+                var mesh = (Mesh*)question.Container;
+                mesh->ToVertices(ref question.Min, ref question.Max);
+                queries.Add(mesh->Header, question.Min, question.Max);
+            }
+            queries.Descend();
+            for (int i = 0; i < asked.Length; ++i)
+            {
+                var first = found.Count;
+                queries.FindPlaces(i, ref found, pool);
+                ((Mesh*)asked[i].Container)->Take(asked[i].Outline, ref found, first);
+                asked[i].End = found.Count;
+            }
+        }
+    }
+
+    // Of places in the tree, those of triangles that a shape is beside or in front of.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void LeaveOut(in ShapeOutline outline, ref QuickList<int> found, int first)
+    {
+        var sides = new OutlineSides(outline, IsMirrored);
+        var triangles = Header->Triangles;
+        var vertices = Header->Vertices;
+        var (scaleX, scaleY, scaleZ) = (Vector128.Create(scale.X), Vector128.Create(scale.Y), Vector128.Create(scale.Z));
+        var places = found.Span.Memory;
+        var count = first;
+        for (int i = first; i < found.Count; ++i)
+        {
+            var triangle = triangles.Get(places[i]);
+            var a = (float*)(vertices + triangle.A);
+            var b = (float*)(vertices + triangle.B);
+            var c = (float*)(vertices + triangle.C);
+            var isApart = sides.IsApart(Vector128.Create(a[0], b[0], c[0], a[0]) * scaleX, Vector128.Create(a[1], b[1], c[1], a[1]) * scaleY,
+                Vector128.Create(a[2], b[2], c[2], a[2]) * scaleZ);
+            places[count] = places[i];
+            count += isApart ? 0 : 1;
+        }
+        found.Count = count;
+    }
+
+    // Of places in the tree to numbers. What is found is asked for by its number soon; its corners were just looked at.
+    readonly void Take(in ShapeOutline outline, ref QuickList<int> found, int first)
+    {
+        if (outline.IsKnown)
+            LeaveOut(outline, ref found, first);
+        for (int i = first; i < found.Count; ++i)
+        {
+            found[i] = Header->Triangles.GetNumber(found[i]);
             Header->Prefetch(found[i]);
+        }
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)

@@ -259,9 +259,24 @@ public unsafe partial struct Mesh : IDisposableShape
     /// <summary>Appends the triangles whose boxes meet a box in the frame of the mesh, in the order of the tree, which any CPU finds the same.</summary>
     internal readonly void FindLocalOverlaps(Vector3 min, Vector3 max, ref QuickList<int> found, BufferPool pool)
     {
+        var first = found.Count;
+        FindPlaces(min, max, ref found, pool);
+        for (int i = first; i < found.Count; ++i)
+            found[i] = Header->Triangles.GetNumber(found[i]);
+    }
+
+    // Places in the tree, not numbers.
+    readonly void FindPlaces(Vector3 min, Vector3 max, ref QuickList<int> found, BufferPool pool)
+    {
+        ToVertices(ref min, ref max);
+        MeshQuery.FindPlaces(Header, min, max, ref found, pool);
+    }
+
+    // A box before scaling.
+    readonly void ToVertices(ref Vector3 min, ref Vector3 max)
+    {
         if (scale != Vector3.One)
             DivideByScale(ref min, ref max);
-        MeshQuery.FindTriangles(Header, min, max, ref found, pool);
     }
 
     // Outward: what a corner is after scaling may have been rounded, and the quotient is.

@@ -105,7 +105,7 @@ public sealed unsafe class HeightFieldTests : IDisposable
                 center = new(random.Next(field.SampleCountX) * field.CellWidth, 0, random.Next(field.SampleCountZ) * field.CellLength);
             var half = i % 7 == 0 ? new Vector3(1e6f) : i % 3 == 0 ? new(0, 2, 0) : new Vector3(Next(0, 2), Next(0, 1), Next(0, 2));
             found.Count = 0;
-            ((IContainer)field).FindOverlaps(center - half, center + half, null!, null, ref found, pool);
+            ((IContainer)field).FindOverlaps(center - half, center + half, default, null!, null, ref found, pool);
             Vector3 min = center - half, max = center + half;
             var expected = children.Where((_, j) => Meets(all[j], min, max)).ToArray();
             // A triangle has half a cell, and is found with the whole of it.

@@ -160,7 +160,8 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => false;
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         int first = found.Count;
         var collector = new Collector { Found = found, Pool = pool };

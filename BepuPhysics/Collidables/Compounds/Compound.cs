@@ -126,7 +126,8 @@ public unsafe struct Compound : ICompoundShape, IContainer
 
     static bool IContainer.IsList => true;
 
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         for (int i = 0; i < Children.Length; ++i)
         {

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -31,13 +32,17 @@ public unsafe partial struct HeightField
 
     static bool IContainer.IsSurface => true;
 
+    static bool IContainer.TakesOutlines => true;
+
     // In the order of their numbers.
-    readonly void IContainer.FindOverlaps(Vector3 min, Vector3 max, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    readonly void IContainer.FindOverlaps(
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         var (firstX, lastX) = FindCells(min.X, max.X, CellWidth, CellCountX);
         var (firstZ, lastZ) = FindCells(min.Z, max.Z, CellLength, CellCountZ);
         if (firstX > lastX || firstZ > lastZ || min.Y > Ranges[0].Max || max.Y < Ranges[0].Min)
             return;
+        var first = found.Count;
         var levels = Levels;
         var blocks = Ranges + levels.StartOf(0);
         for (int z = firstZ; z <= lastZ; ++z)
@@ -53,6 +58,28 @@ public unsafe partial struct HeightField
                     AddCell(x, z, min.Y, max.Y, ref found, pool);
             }
         }
+        if (outline.IsKnown)
+            LeaveOut(outline, ref found, first);
+    }
+
+    // Those that a shape is beside or in front of.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void LeaveOut(in ShapeOutline outline, ref QuickList<int> found, int first)
+    {
+        var sides = new OutlineSides(outline, isMirrored: false);
+        var children = found.Span.Memory;
+        var count = first;
+        for (int i = first; i < found.Count; ++i)
+        {
+            Find(children[i], out var x, out var z, out var isSecond);
+            var triangle = GetTriangle(x, z, isSecond, 0, 0, 0);
+            var (a, b, c) = (triangle.A, triangle.B, triangle.C);
+            var isApart = sides.IsApart(
+                Vector128.Create(a.X, b.X, c.X, a.X), Vector128.Create(a.Y, b.Y, c.Y, a.Y), Vector128.Create(a.Z, b.Z, c.Z, a.Z));
+            children[count] = children[i];
+            count += isApart ? 0 : 1;
+        }
+        found.Count = count;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -21,13 +21,15 @@ static unsafe class MeshQuery
     /// <param name="mesh">The mesh.</param>
     /// <param name="min">Least corner of the box, before scaling.</param>
     /// <param name="max">Greatest corner of the box, before scaling.</param>
-    /// <param name="found">Receives the numbers of the triangles.</param>
+    /// <param name="found">Receives the places of the triangles.</param>
     /// <param name="pool">Source of the list's memory.</param>
-    public static void FindTriangles(MeshHeader* mesh, Vector3 min, Vector3 max, ref QuickList<int> found, BufferPool pool)
+    public static void FindPlaces(MeshHeader* mesh, Vector3 min, Vector3 max, ref QuickList<int> found, BufferPool pool) =>
+        FindPlaces(mesh, min.AsVector128(), max.AsVector128(), ref found, pool);
+
+    /// <summary>Appends the triangles, in the order of the tree; the fourth lanes of corners say nothing.</summary>
+    public static void FindPlaces(MeshHeader* mesh, Vector128<float> low, Vector128<float> high, ref QuickList<int> found, BufferPool pool)
     {
         var stack = stackalloc Entry[MeshTree.MaximumHeight];
-        var low = min.AsVector128();
-        var high = max.AsVector128();
         var nodes = mesh->Nodes;
         var stackCount = 0;
         var node = nodes;
@@ -61,8 +63,9 @@ static unsafe class MeshQuery
         }
     }
 
+    /// <summary>Appends the triangles of a leaf. There is room for them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void FindInLeaf(MeshHeader* mesh, int place, int count, Vector128<float> low, Vector128<float> high, ref QuickList<int> found)
+    public static void FindInLeaf(MeshHeader* mesh, int place, int count, Vector128<float> low, Vector128<float> high, ref QuickList<int> found)
     {
         var triangles = mesh->Triangles;
         var vertices = (float*)mesh->Vertices;
@@ -77,7 +80,7 @@ static unsafe class MeshQuery
             var separate = (Vector128.GreaterThan(a, high) & Vector128.GreaterThan(b, high) & Vector128.GreaterThan(c, high)) |
                 (Vector128.LessThan(a, low) & Vector128.LessThan(b, low) & Vector128.LessThan(c, low));
             // Written in any case and counted if it is one: whether it is is a coin toss to the branch predictor.
-            *target = triangle.Number;
+            *target = place + i;
             target += (separate.ExtractMostSignificantBits() & 7) == 0 ? 1 : 0;
         }
         found.Count = (int)(target - found.Span.Memory);

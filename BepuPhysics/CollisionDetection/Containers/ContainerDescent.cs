@@ -1,3 +1,5 @@
+using System;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities;
@@ -23,6 +25,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
     }
 
     const int InitialCapacity = 64;
+    const int QuestionCapacity = 8;
 
     /// <summary>Whether children of A ask B.</summary>
     public static bool IsAsked => TContainerA.IsList && !TContainerB.IsList;
@@ -64,7 +67,11 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
     int Ask(in TContainerB b, in NodePlacement placement, int countA, Shapes shapes, ref QuickList<FoundChild> found)
     {
         var near = new QuickList<int>(InitialCapacity, pool);
-        int left = 0;
+        var (left, count) = (0, 0);
+        Span<ContainerQuestion> questions = stackalloc ContainerQuestion[TContainerB.AsksTogether ? QuestionCapacity : 0];
+        Span<int> asking = stackalloc int[questions.Length];
+        // It lies in a batch.
+        var container = Unsafe.AsPointer(ref Unsafe.AsRef(in b));
         for (int i = 0; i < countA; ++i)
         {
             ref var child = ref belowA[i];
@@ -74,13 +81,38 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
                 continue;
             }
             var box = placement.Place(child);
+            var outline = TContainerB.TakesOutlines ? placement.Outline(child) : default;
+            if (TContainerB.AsksTogether)
+            {
+                asking[count] = ~child.Index;
+                questions[count++] = new() { Container = container, Min = box.Min, Max = box.Max, Outline = outline };
+                if (count == QuestionCapacity)
+                    AskTogether(questions, asking, ref count, ref near, ref found);
+                continue;
+            }
             near.Count = 0;
-            b.FindOverlaps(box.Min, box.Max, shapes, null, ref near, pool);
+            b.FindOverlaps(box.Min, box.Max, outline, shapes, null, ref near, pool);
             foreach (int other in near.AsSpan())
                 Add(~child.Index, other, ref found);
         }
+        AskTogether(questions[..count], asking, ref count, ref near, ref found);
         near.Dispose(pool);
         return left;
+    }
+
+    readonly void AskTogether(
+        Span<ContainerQuestion> questions, Span<int> asking, ref int count, ref QuickList<int> near, ref QuickList<FoundChild> found)
+    {
+        if (count == 0)
+            return;
+        near.Count = 0;
+        TContainerB.FindTogether(questions, ref near, pool);
+        for (int i = 0, next = 0; i < count; ++i)
+        {
+            for (; next < questions[i].End; ++next)
+                Add(asking[i], near[next], ref found);
+        }
+        count = 0;
     }
 
     readonly void Add(int childA, int childB, ref QuickList<FoundChild> found) =>

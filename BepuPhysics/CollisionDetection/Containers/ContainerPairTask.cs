@@ -69,7 +69,7 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
         if (TContainerA.IsList)
             ContainerPlaces.Open(entry.A, 0, shapes, ref below, pool);
         var near = new QuickList<int>(InitialCapacity, pool);
-        entry.A.FindOverlaps(min, max, shapes, below.Memory, ref near, pool);
+        entry.A.FindOverlaps(min, max, default, shapes, below.Memory, ref near, pool);
         var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
         foreach (int child in near.AsSpan())
         {

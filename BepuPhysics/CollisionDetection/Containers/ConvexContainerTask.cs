@@ -25,36 +25,107 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
 
     internal override void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool)
     {
-        var entries = Entries(batch);
         var children = new QuickList<int>(InitialCapacity, pool);
+        if (TContainer.AsksTogether)
+            FindTogether(batch, dt, ref children, ref found, pool);
+        else
+            FindEach(batch, shapes, dt, ref children, ref found, pool);
+        children.Dispose(pool);
+    }
+
+    static void FindEach(in PairBatch batch, Shapes shapes, float dt, ref QuickList<int> children, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        var entries = Entries(batch);
         var list = default(Buffer<NodeChild>);
         var listed = default(TypedIndex);
         for (int start = 0; start < batch.Count; start += Vector<float>.Count)
         {
             var count = Math.Min(Vector<float>.Count, batch.Count - start);
-            FindBoxes(entries + start, count, dt, out var min, out var max);
+            FindBoxes(entries + start, count, dt, out var boxes);
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
-                // A triangle has no middle: that of one which is a floor would be inside of whatever lies on it there.
-                if (TContainer.MayBeSolid && typeof(TConvex) != typeof(Triangle) && entry.B.IsSolid &&
-                    WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
+                if (LeadsOut(entry, out var child))
                 {
-                    found.Add(new(start + i, Ids(entry.Pair, way.Child)) { LeadsOut = true }, pool);
+                    found.Add(new(start + i, Ids(entry.Pair, child)) { LeadsOut = true }, pool);
                     continue;
                 }
                 children.Count = 0;
                 if (TContainer.IsList)
                     List(entry, shapes, ref list, ref listed, pool);
-                entry.B.FindOverlaps(
-                    Lanes.Read<Vector3, Vector3Wide>(ref min, i), Lanes.Read<Vector3, Vector3Wide>(ref max, i), shapes, list.Memory, ref children, pool);
+                var outline = TContainer.TakesOutlines ? Outline(entry.A, ref boxes, i) : default;
+                entry.B.FindOverlaps(Read(ref boxes.Min, i), Read(ref boxes.Max, i), outline, shapes, list.Memory, ref children, pool);
                 for (int j = 0; j < children.Count; ++j)
                     found.Add(new(start + i, Ids(entry.Pair, children[j])), pool);
             }
         }
-        children.Dispose(pool);
         if (list.Allocated)
             pool.Return(ref list);
+    }
+
+    // Who is inside of a solid asks nothing; a place in the order of the batch is kept for its way out.
+    static void FindTogether(in PairBatch batch, float dt, ref QuickList<int> children, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        const int none = -1;
+        var entries = Entries(batch);
+        Span<ContainerQuestion> questions = stackalloc ContainerQuestion[PairBatch.Capacity];
+        Span<int> waysOut = stackalloc int[PairBatch.Capacity];
+        var questionCount = 0;
+        for (int start = 0; start < batch.Count; start += Vector<float>.Count)
+        {
+            var count = Math.Min(Vector<float>.Count, batch.Count - start);
+            FindBoxes(entries + start, count, dt, out var boxes);
+            for (int i = 0; i < count; ++i)
+            {
+                ref var entry = ref entries[start + i];
+                if (LeadsOut(entry, out waysOut[start + i]))
+                    continue;
+                waysOut[start + i] = none;
+                ref var question = ref questions[questionCount++];
+                question.Container = Unsafe.AsPointer(ref entry.B);
+                question.Min = Read(ref boxes.Min, i);
+                question.Max = Read(ref boxes.Max, i);
+                question.Outline = Outline(entry.A, ref boxes, i);
+            }
+        }
+        TContainer.FindTogether(questions[..questionCount], ref children, pool);
+        for (int i = 0, asked = 0, next = 0; i < batch.Count; ++i)
+        {
+            if (waysOut[i] != none)
+            {
+                found.Add(new(i, Ids(entries[i].Pair, waysOut[i])) { LeadsOut = true }, pool);
+                continue;
+            }
+            for (var end = questions[asked++].End; next < end; ++next)
+                found.Add(new(i, Ids(entries[i].Pair, children[next])), pool);
+        }
+    }
+
+    static ShapeOutline Outline(TConvex convex, ref Boxes boxes, int lane)
+    {
+        ref var motion = ref boxes.Motion;
+        var center = Read(ref motion.Position, lane);
+        var outline = ShapeOutline.Of(
+            TConvex.TypeId, &convex, center, Lanes.Read<Quaternion, QuaternionWide>(ref motion.Orientation, lane), motion.Margin[lane]);
+        if (!outline.IsKnown)
+        {
+            var (least, greatest) = (Read(ref boxes.Least, lane), Read(ref boxes.Greatest, lane));
+            var middle = (least + greatest) * .5f;
+            outline.Center = center + middle;
+            outline.SetBox(Matrix3x3.Identity, greatest - middle);
+        }
+        return outline;
+    }
+
+    // A triangle has no middle: that of one which is a floor would be inside of whatever lies on it there.
+    static bool LeadsOut(in Entry entry, out int child)
+    {
+        child = 0;
+        if (!TContainer.MayBeSolid || typeof(TConvex) == typeof(Triangle) || !entry.B.IsSolid ||
+            !WaysOut.Find(entry.Pair, entry.Pair.Flipped, entry.B, out var way))
+            return false;
+        child = way.Child;
+        return true;
     }
 
     static ChildIds Ids(in ParentPair pair, int child) => pair.Flipped ? new(child, 0) : new(0, child);
@@ -69,7 +140,14 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         ContainerPlaces.Open(entry.B, 0, shapes, ref list, pool);
     }
 
-    static void FindBoxes(Entry* entries, int count, float dt, out Vector3Wide min, out Vector3Wide max)
+    // Shapes as they are, from their centres on; boxes around them and their places within the step; and where they are.
+    struct Boxes
+    {
+        public Vector3Wide Least, Greatest, Min, Max;
+        public RelativeMotionWide Motion;
+    }
+
+    static void FindBoxes(Entry* entries, int count, float dt, out Boxes boxes)
     {
         var parents = default(ParentMotionWide);
         var convex = default(TConvexWide);
@@ -78,10 +156,13 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             parents.Write(entries[i].Pair, moverIsA: !entries[i].Pair.Flipped, i);
             Lanes.Write(entries[i].A, ref convex, i);
         }
-        var motion = new RelativeMotionWide(parents, dt);
-        convex.GetBounds(motion.Orientation, out var maximumRadius, out var maximumAngularExpansion, out min, out max);
-        motion.Widen(maximumRadius, maximumAngularExpansion, ref min, ref max);
+        boxes.Motion = new RelativeMotionWide(parents, dt);
+        convex.GetBounds(boxes.Motion.Orientation, out var maximumRadius, out var maximumAngularExpansion, out boxes.Least, out boxes.Greatest);
+        (boxes.Min, boxes.Max) = (boxes.Least, boxes.Greatest);
+        boxes.Motion.Widen(maximumRadius, maximumAngularExpansion, ref boxes.Min, ref boxes.Max);
     }
+
+    static Vector3 Read(ref Vector3Wide wide, int lane) => Lanes.Read<Vector3, Vector3Wide>(ref wide, lane);
 
     internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
     {

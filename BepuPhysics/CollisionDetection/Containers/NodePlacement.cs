@@ -1,4 +1,5 @@
 using System.Numerics;
+using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities;
 
@@ -76,5 +77,16 @@ readonly struct NodePlacement
         result.Min = place - extent - Exact.Max(margins, below);
         result.Max = place + extent + Exact.Max(margins, above);
         return result;
+    }
+
+    /// <summary>What a node lies in where it is now, with the margin, in the frame of the other container.</summary>
+    public readonly ShapeOutline Outline(in NodeChild node)
+    {
+        var center = (node.Min + node.Max) * .5f;
+        var half = node.Max - center;
+        var radius = Exact.Length(center) + Exact.Length(half);
+        var outline = new ShapeOutline { Center = position + Matrix3x3.TransposeTimes(axes, center), Radius = margin + radius * RelativeMotionWide.Rounding };
+        outline.SetBox(axes, half);
+        return outline;
     }
 }

@@ -98,7 +98,7 @@ static unsafe class SweepPairs
             {
                 if (TContainer.IsList)
                     ContainerPlaces.Open(a, 0, shapes, ref list, pool);
-                a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), shapes, list.Memory, ref children, pool);
+                a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), default, shapes, list.Memory, ref children, pool);
                 var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
                 for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
                 {

@@ -12,8 +12,8 @@ using Xunit;
 namespace DemoTests.CollisionDetection.Children;
 
 /// <summary>
-/// Which triangles the children of a compound are tested with: those whose boxes meet the child's own, as they are in the frame of the mesh. Boxes of the
-/// tree that are turned into the frame of a compound are wider, and meet more.
+/// Which triangles the children of a compound are tested with: those whose boxes meet the child's own, as they are in the frame of the mesh, and that it is
+/// neither beside nor in front of. Boxes of the tree that are turned into the frame of a compound are wider, and meet more.
 /// </summary>
 public sealed class ListQuestionTests : IDisposable
 {
@@ -76,7 +76,7 @@ public sealed class ListQuestionTests : IDisposable
                     mesh.GetLocalChild(i, out var triangle);
                     var gap = Gap(child, turn, place, triangle) - Margin;
                     var isTested = tested.Contains((child, i));
-                    Assert.True(isTested ? gap < Slack : gap > -Slack, $"child {child}, triangle {i}: tested {isTested}, its box is {gap:g3} m apart");
+                    Assert.True(isTested ? gap < Slack : gap > -Slack, $"child {child}, triangle {i}: tested {isTested}, it is {gap:g3} m apart");
                     (found, possible) = (found + (isTested ? 1 : 0), possible + 1);
                 }
             }
@@ -84,7 +84,8 @@ public sealed class ListQuestionTests : IDisposable
         Assert.InRange(found, 100, possible / 20);
     }
 
-    // Distance of the boxes of a child and a triangle along the axis on which they are farthest apart.
+    // Distance of a child and a triangle along the direction in which they are farthest apart: of the boxes around them, and of the child itself out of each
+    // edge and from the front.
     static double Gap(int child, Quaternion turn, Vector3 place, in Triangle triangle)
     {
         double x = turn.X, y = turn.Y, z = turn.Z, w = turn.W;
@@ -106,6 +107,18 @@ public sealed class ListQuestionTests : IDisposable
             var least = Math.Min(triangle.A[axis], Math.Min(triangle.B[axis], triangle.C[axis]));
             var greatest = Math.Max(triangle.A[axis], Math.Max(triangle.B[axis], triangle.C[axis]));
             gap = Math.Max(gap, Math.Max(least - (center + half), center - half - greatest));
+        }
+        var sides = new TriangleSides(triangle);
+        for (int side = 0; side < TriangleSides.Count; ++side)
+        {
+            var (along, half) = (sides.Height(side, place), 0.0);
+            for (int i = 0; i < 3; ++i)
+            {
+                var cosine = sides.Along(side, axes[0, i], axes[1, i], axes[2, i]);
+                along += cosine * Places[child][i];
+                half += Math.Abs(cosine) * Halves[child][i];
+            }
+            gap = Math.Max(gap, along - half);
         }
         return gap;
     }
