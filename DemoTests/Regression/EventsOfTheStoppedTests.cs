@@ -9,8 +9,8 @@ using Xunit;
 namespace DemoTests.Regression;
 
 /// <summary>
-/// A game wrote an inertia that is none through a reference. The body was made kinematic when the solver had ended, which takes its contacts with statics
-/// away, and the events of these were written from where they had been: the process died.
+/// A game that calls the stages of a step by itself wrote an inertia that is none through a reference, and solved. The body was made kinematic when the
+/// solver had ended, which takes its contacts with statics away, and the events of these were written from where they had been: the process died.
 /// </summary>
 public class EventsOfTheStoppedTests
 {
@@ -33,7 +33,7 @@ public class EventsOfTheStoppedTests
         Assert.Single(simulation.Events.Persisting.ToArray());
 
         simulation.Bodies[body].LocalInertia.InverseInertiaTensor = new Symmetric3x3 { XX = 6, YY = 6, ZZ = float.NegativeInfinity };
-        simulation.Timestep(1 / 60f);
+        simulation.Solve(1 / 60f);
 
         Assert.True(simulation.Bodies[body].Kinematic);
         var told = Assert.Single(simulation.Events.Persisting.ToArray());
