@@ -18,8 +18,7 @@ unsafe struct WorldSweep<THitHandler> : IBroadPhaseSweepTester, ISweepFilter whe
         Query.Motion->MaximumT = maximumT;
         var hit = default(SweepHit);
         SweepPairs.TestPart(*Query.Motion, ref *Query.Shape, 0, type, data, ref this, false, Query.Simulation.Shapes, Query.Pool, ref hit);
-        // A sweep may be without an end; what no number is great enough for is never met.
-        if (!hit.Exists || float.IsPositiveInfinity(hit.EarliestT))
+        if (!hit.Exists)
             return;
         if (hit.Overlaps)
             Handler.OnHitAtZeroT(ref maximumT, collidable);

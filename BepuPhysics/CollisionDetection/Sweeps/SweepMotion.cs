@@ -70,8 +70,8 @@ struct SweepHit
     // The parts that touch; of several at once, those with the lowest numbers count, so that no order of tests shows.
     int childA, childB;
 
-    /// <summary>The latest time that is still of interest.</summary>
-    public readonly double LatestT(in SweepMotion motion) => Exists ? T : motion.MaximumT;
+    /// <summary>The latest time that is still of interest. What is asked about without an end has that of the greatest float.</summary>
+    public readonly double LatestT(in SweepMotion motion) => Exists ? T : Math.Min(motion.MaximumT, float.MaxValue);
 
     /// <summary>The time as a float, which is not later.</summary>
     public readonly float EarliestT
