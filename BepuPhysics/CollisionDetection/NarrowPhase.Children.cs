@@ -232,22 +232,17 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 old = known;
                 var record = Pairs.Manifolds.Memory + known;
                 known = record->Next;
-                if (tested.MayRoll && result.Children.IsPatch && result.Manifold.Count > 0)
+                if (inherited == StaticPairs.Nothing)
                 {
-                    moved = result.Manifold;
-                    LeadAlong(tested.Pair, record->Patch.Normal, ref result.Manifold);
-                    if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
+                    ref readonly var contacts = ref tested.MayRoll && result.Children.IsPatch && result.Manifold.Count > 0
+                        ? ref LeadAlong(tested.Pair, record->Patch.Normal, result.Manifold, ref moved)
+                        : ref result.Manifold;
+                    if (TryKeep(ref worker, tested.Pair, ref record->Manifold, contacts, result.KeepsHistory, material, frictionCenter))
                     {
-                        record->Patch.Write(moved);
+                        if (result.Children.IsPatch)
+                            record->Patch.Write(result.Manifold);
                         continue;
                     }
-                    result.Manifold = moved;
-                }
-                else if (inherited == StaticPairs.Nothing && TryKeep(ref worker, tested.Pair, ref record->Manifold, result, material, frictionCenter))
-                {
-                    if (result.Children.IsPatch)
-                        record->Patch.Write(result.Manifold);
-                    continue;
                 }
             }
             NotePending(ref worker, tested, result, material, inherited, frictionCenter, old);
@@ -288,15 +283,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // What keeps its number of contacts is written in place.
-    bool TryKeep(ref Worker worker, in CollidablePair pair, ref CachedManifold manifold, in ChildResult result, in PairMaterialProperties material,
-        in Vector3 frictionCenter)
+    bool TryKeep(ref Worker worker, in CollidablePair pair, ref CachedManifold manifold, in ConvexContactManifold contacts, bool keepsHistory,
+        in PairMaterialProperties material, in Vector3 frictionCenter)
     {
-        var count = result.Manifold.Count;
+        var count = contacts.Count;
         if (manifold.ConstraintTypeId != (count == 0 ? CachedManifold.NoConstraint : ConstraintType(pair, count)) ||
-            (result.KeepsHistory && manifold.History < 0))
+            (keepsHistory && manifold.History < 0))
             return false;
         if (count > 0)
-            worker.Contacts.Add(Simulation.Solver, (FeatureIds*)Unsafe.AsPointer(ref manifold.Features), manifold.Constraint, result.Manifold,
+            worker.Contacts.Add(Simulation.Solver, (FeatureIds*)Unsafe.AsPointer(ref manifold.Features), manifold.Constraint, contacts,
                 material, frictionCenter);
         return true;
     }

@@ -20,30 +20,34 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <summary>Turns the normal of what rolls by as much as the surface will have turned below it when the solver needs it in the mean.</summary>
     /// <param name="pair">What is round, and a static.</param>
     /// <param name="last">Normal of the contacts in the last step.</param>
-    /// <param name="manifold">Its contacts.</param>
+    /// <param name="found">Its contacts as they were found.</param>
+    /// <param name="led">Room for others.</param>
     // The surface turns by t in a step, in which the body goes by v dt: it bends up ahead where v . t < 0. The plane that the body touches at the part s of the
     // step has the normal n + s t, and is below it by -s^2 v . t dt / 2 now.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void LeadAlong(in CollidablePair pair, in Vector3 last, ref ConvexContactManifold manifold)
+    ref readonly ConvexContactManifold LeadAlong(
+        in CollidablePair pair, in Vector3 last, in ConvexContactManifold found, ref ConvexContactManifold led)
     {
-        var turn = manifold.Normal - last;
+        var turn = found.Normal - last;
         var rise = -Exact.Dot(VelocityOf(pair.A).Linear, turn);
         // What bends away gives nothing. What turns by more than what one patch may have of normals is an edge.
-        if (!(rise > 0) || Exact.Dot(manifold.Normal, last) < PatchSet.SameNormal || !TryGetRollingRadius(pair.A, manifold.Normal, out var radius))
-            return;
+        if (!(rise > 0) || Exact.Dot(found.Normal, last) < PatchSet.SameNormal || !TryGetRollingRadius(pair.A, found.Normal, out var radius))
+            return ref found;
         var share = rimTime / stepTime;
-        var normal = manifold.Normal + turn * share;
+        var normal = found.Normal + turn * share;
         normal *= 1 / Exact.Length(normal);
         // What touches is round about the axis, or the middle.
-        var shift = (manifold.Normal - normal) * radius;
+        var shift = (found.Normal - normal) * radius;
         var below = share * share * 0.5f * stepTime * rise;
-        for (int i = 0; i < manifold.Count; ++i)
+        led = found;
+        for (int i = 0; i < led.Count; ++i)
         {
-            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref led, i);
             contact.Offset += shift;
             contact.Depth -= below;
         }
-        manifold.Normal = normal;
+        led.Normal = normal;
+        return ref led;
     }
 
     // A cylinder that stands, or leans, has another place than that of its side.
