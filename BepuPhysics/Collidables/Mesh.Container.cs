@@ -73,7 +73,10 @@ public unsafe partial struct Mesh : IContainer
     static bool IContainer.AsksTogether => true;
 
     readonly void IContainer.FindOverlaps(
-        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
+        Find(min, max, outline, ref found, pool);
+
+    readonly void Find(Vector3 min, Vector3 max, in ShapeOutline outline, ref QuickList<int> found, BufferPool pool)
     {
         var first = found.Count;
         FindPlaces(min, max, ref found, pool);
@@ -85,9 +88,7 @@ public unsafe partial struct Mesh : IContainer
         if (questions.Length == 1)
         {
             ref var question = ref questions[0];
-            var first = found.Count;
-            ((Mesh*)question.Container)->FindPlaces(question.Min, question.Max, ref found, pool);
-            ((Mesh*)question.Container)->Take(question.Outline, ref found, first);
+            ((Mesh*)question.Container)->Find(question.Min, question.Max, question.Outline, ref found, pool);
             question.End = found.Count;
             return;
         }

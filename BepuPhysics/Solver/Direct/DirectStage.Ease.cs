@@ -21,20 +21,25 @@ sealed unsafe partial class DirectStage
         double linear = 0, angular = 0;
         for (int row = 0; row < joint.RowCount; ++row)
         {
-            double error = joint.PositionError(row);
+            double off = joint.PositionError(row);
             if (joint.IsLinear(row))
-                linear += error * error;
+                linear += off * off;
             else
-                angular += error * error;
+                angular += off * off;
         }
         (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
         var turn = TurnSquared(joint, set);
-        var pace = 1f;
-        if (JointNeed.MayHurry(turn))
-            pace = JointNeed.PaceOf(turn, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
+        var mayHurry = JointNeed.MayHurry(turn);
         var opened = OpenedByLoad(joint, set.WorldInertias, substep, need.Shrunk * linear, need.Shrunk * angular);
-        if (opened > 1)
-            pace *= JointNeed.PaceUnder(opened, Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular));
+        var pace = 1f;
+        if (mayHurry || opened > 1)
+        {
+            var error = Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular);
+            if (mayHurry)
+                pace = JointNeed.PaceOf(turn, error);
+            if (opened > 1)
+                pace *= JointNeed.PaceUnder(opened, error);
+        }
         double linearPart = 0, angularPart = 0;
         if (joint.Kind.HasLinear)
             linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
