@@ -139,6 +139,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     void WakeTouched()
     {
+        // What sleeps is not tested with what else does not move: of those who wake now nobody knows whom they are beside.
+        FastPairs.KnowNoneSlow();
         if (Simulation.Awakener.WakeRequested())
             ReadOld();
     }

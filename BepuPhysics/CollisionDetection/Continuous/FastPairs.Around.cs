@@ -192,9 +192,12 @@ sealed unsafe partial class FastPairs
         look.Body = body;
         look.Way = new(Exact.Min(from, to) - reach, Exact.Max(from, to) + reach);
         look.Known = tree.GetBounds(leaf);
-        // Whatever meets its bounds was found before, and is watched.
-        if (!mover.MayHaveOthers && BoundingBox.Contains(look.Known, look.Way))
+        // Whatever meets the bounds that it began with was found before, and is watched. Of bounds that have grown this does not hold: a box around two
+        // contains more than both.
+        var hasLeft = !BoundingBox.Contains(look.Known, look.Way);
+        if (!hasLeft && !mover.MayHaveOthers)
             return false;
+        mover.MayHaveOthers |= hasLeft;
         tree.UpdateBounds(leaf, Exact.Min(look.Way.Min, look.Known.Min), Exact.Max(look.Way.Max, look.Known.Max));
         return true;
     }
