@@ -1,8 +1,13 @@
+using System;
+
 namespace BepuPhysics.CollisionDetection;
 
 // What the events of a step need to know of pairs and bounces.
 public abstract partial class NarrowPhase
 {
+    // Made once: a step makes no garbage.
+    readonly Action tellPersisting;
+
     /// <summary>Finds the contacts whose impulses are to be told.</summary>
     internal void BeginEvents()
     {
@@ -35,6 +40,7 @@ public abstract partial class NarrowPhase
             else if (FastPairs.HasPassed(i))
                 Simulation.Events.AddPassed(pair);
         }
-        Simulation.Events.EndSolve();
+        if (Simulation.Events.EndSolve(ref Pairs))
+            World.LeaveUnread(tellPersisting);
     }
 }

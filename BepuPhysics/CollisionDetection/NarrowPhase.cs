@@ -36,6 +36,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Simulation = simulation;
         Pool = simulation.BufferPool;
         World = simulation.World;
+        tellPersisting = () => simulation.Events.TellPersisting(ref Pairs);
         CollisionTaskRegistry = collisionTaskRegistry;
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         // Before all others: these are to see where bodies have come to.

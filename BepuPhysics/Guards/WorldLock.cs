@@ -27,6 +27,9 @@ sealed class WorldLock
     long readableStage;
     volatile string activity = "";
     volatile string? end;
+    // What the last step has left to be read from the world as it is: before anything changes, and by whoever comes first.
+    volatile Action? unread;
+    readonly Lock reader = new();
 
     static int CurrentThread => Environment.CurrentManagedThreadId;
 
@@ -65,6 +68,28 @@ sealed class WorldLock
         if ((Volatile.Read(ref stepper) is var other and not 0 && other != thread) || queries.HasAny(thread))
             Refuse(operation);
         activity = operation;
+        ReadUnread();
+    }
+
+    /// <summary>Leaves something to be read: when somebody asks for it, or else before the next change. The next step forgets it.</summary>
+    /// <param name="read">Reads it. On any thread, while nothing changes; it must not fail.</param>
+    internal void LeaveUnread(Action read) => unread = read;
+
+    /// <summary>Reads what was left to be read.</summary>
+    internal void ReadUnread()
+    {
+        if (unread is not null)
+            ReadOnce();
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ReadOnce()
+    {
+        lock (reader)
+        {
+            unread?.Invoke();
+            unread = null;
+        }
     }
 
     /// <summary>Ends a change or a stage.</summary>
@@ -82,6 +107,7 @@ sealed class WorldLock
         if (Volatile.Read(ref stepper) != 0 || queries.HasAny(thread))
             Refuse(operation);
         activity = operation;
+        ReadUnread();
         return new(this);
     }
 
@@ -113,6 +139,8 @@ sealed class WorldLock
             Volatile.Write(ref stepper, 0);
             ThrowBusy(operation);
         }
+        // Whoever calls the stages without a step, or in another order, has no such moment: there the next stage is a change as any other.
+        unread = null;
         return new(this);
     }
 

@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
-using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;
@@ -13,12 +12,23 @@ public sealed unsafe partial class CollisionEvents
     // In the order of pairs. The second takes the result of the next merge.
     QuickList<ListenedPair> pairs;
     QuickList<ListenedPair> spare;
+    // Those of the pairs, and what takes those of the next merge.
+    QuickList<ListenedManifold> manifolds;
+    QuickList<ListenedManifold> spareManifolds;
+    // Of the first manifold of each pair that something is told of.
+    QuickList<ListenedPlace> places;
     // Of all manifolds of the pairs; those of a pair are written where something is told of it.
     QuickList<EventContact> contacts;
     QuickList<ContactEvent> began;
     QuickList<ContactEvent> ended;
     QuickList<ContactEvent> hits;
     QuickList<ContactEvent> persisting;
+    // Whether somebody has asked for what persists, or a change has come before.
+    bool isPersistingTold;
+    // Whether manifolds are none of the pairs', as after a restore.
+    bool isStale;
+    // Whether sensors are among the pairs: what they see is noted anew in each step.
+    bool hasSensors;
 
     /// <summary>Notes that a pair has a new contact constraint.</summary>
     internal void NoteContacts(in CollidablePair pair)
@@ -40,38 +50,84 @@ public sealed unsafe partial class CollisionEvents
     internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = 0;
-        stage.Manifolds.Count = stage.Pairs.Count = contacts.Count = 0;
+        contacts.Count = 0;
+        isPersistingTold = false;
         isSettled &= isAtRest && added.Count == 0 && turned.Count == 0 && removalsSeen == traits.RemovalCount;
         if (isSettled)
+        {
+            stage.Forget();
             return;
+        }
         if (hasNewListener)
         {
             for (int i = 0; i < cache.Pairs.Count; ++i)
                 NoteContacts(cache.Pairs.Keys[i]);
         }
-        hasNewListener = false;
         for (int i = 0; i < sensed.Count; ++i)
             Add(ref added, sensed[i]);
-        if (added.Count > 1)
-        {
-            var order = new ListenedPair.Order();
-            QuickSort.Sort(added.Span, added.Count, ref order);
-        }
-        var contactCount = Merge(ref cache);
+        stage.HitSpeed = hitSpeed;
+        // What nothing has come to or gone from since the last step is as it was.
+        var isChanged = isStale || hasSensors || hasNewListener || added.Count > 0 || removalsSeen != traits.RemovalCount;
+        hasNewListener = false;
+        if (isChanged || !TryPlace(out var contactCount))
+            contactCount = Merge(ref cache);
+        isStale = false;
         added.Count = 0;
-        (stage.Pairs, stage.HitSpeed) = (pairs, hitSpeed);
+        stage.EndPlaces();
         if (contactCount == 0)
             return;
         if (!contacts.Span.Allocated)
             contacts = new QuickList<EventContact>(contactCount, pool);
         contacts.EnsureCapacity(contactCount, pool);
         contacts.Count = contactCount;
+        if (!places.Span.Allocated)
+            places = new QuickList<ListenedPlace>(manifolds.Count, pool);
+        places.EnsureCapacity(manifolds.Count, pool);
+        places.Count = manifolds.Count;
+    }
+
+    // Whether all manifolds have the constraints that they had.
+    bool TryPlace(out int contactCount)
+    {
+        contactCount = 0;
+        stage.BeginPlaces();
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            ref var pair = ref pairs[i];
+            pair.BounceImpulse = 0;
+            if (!TryPlace(pair, ref manifolds, ref contactCount))
+                return false;
+        }
+        return true;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    bool TryPlace(in ListenedPair pair, ref QuickList<ListenedManifold> list, ref int contactCount)
+    {
+        // What touches already is told of for its impulses only where somebody asks for these.
+        var isMeasured = !pair.Touches || (pair.Mask & EventMask.Persist) != 0;
+        for (int i = pair.FirstManifold; i < pair.FirstManifold + pair.ManifoldCount; ++i)
+        {
+            ref var manifold = ref list[i];
+            if (!stage.Place(ref manifold, isMeasured))
+                return false;
+            manifold.FirstContact = contactCount;
+            contactCount += manifold.ContactCount;
+        }
+        return true;
     }
 
     // Returns the number of contacts.
     int Merge(ref PairCache cache)
     {
-        spare.Count = 0;
+        if (added.Count > 1)
+        {
+            var order = new ListenedPair.Order();
+            QuickSort.Sort(added.Span, added.Count, ref order);
+        }
+        stage.BeginPlaces();
+        spare.Count = spareManifolds.Count = 0;
+        hasSensors = false;
         int contactCount = 0;
         int known = 0;
         int fresh = 0;
@@ -81,7 +137,8 @@ public sealed unsafe partial class CollisionEvents
             var pair = order <= 0 ? pairs[known++] : added[fresh];
             var isNoted = order >= 0;
             var isSensed = false;
-            pair.MayPass = pair.HasPassed = pair.Overlaps = pair.IsMeasured = false;
+            pair.MayPass = pair.HasPassed = false;
+            pair.BounceImpulse = 0;
             // A pair is noted for each of its constraints.
             for (; isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0; ++fresh)
             {
@@ -89,50 +146,66 @@ public sealed unsafe partial class CollisionEvents
                 pair.MayPass |= added[fresh].MayPass;
                 isSensed |= !added[fresh].MayPass;
             }
-            if (!pair.IsSensor && cache.IsAsleep(pair.Pair))
+            if (isNoted || !TryKeep(ref pair, ref contactCount))
             {
-                RememberAsleep(pair);
-                continue;
+                if (!pair.IsSensor && cache.IsAsleep(pair.Pair))
+                {
+                    RememberAsleep(pair);
+                    continue;
+                }
+                ListManifolds(ref pair, ref cache, ref contactCount);
             }
-            pair.BounceImpulse = pair.ApproachSpeed = 0;
-            pair.FirstManifold = stage.Manifolds.Count;
             pair.IsAsleep = pair.IsSensor && !isNoted && Sleeps(pair.Pair);
-            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isSensed : ListManifolds(ref pair, ref cache, ref contactCount));
-            pair.ManifoldCount = stage.Manifolds.Count - pair.FirstManifold;
+            pair.Exists = pair.IsAsleep || (pair.IsSensor ? isSensed : pair.ManifoldCount > 0);
             if (pair.Exists || pair.MayPass)
                 pair.Mask = MaskOf(pair.Pair);
             if (pair.Mask != EventMask.None && (pair.Exists || pair.MayPass || pair.Touches))
                 Add(ref spare, pair);
+            else
+                spareManifolds.Count = pair.FirstManifold;
+            hasSensors |= pair.IsSensor;
         }
         (pairs, spare) = (spare, pairs);
+        (manifolds, spareManifolds) = (spareManifolds, manifolds);
         return contactCount;
     }
 
-    // Lists the manifolds that a pair has, if it still is one, and counts their contacts.
-    bool ListManifolds(ref ListenedPair pair, ref PairCache cache, ref int contactCount)
+    // Takes over the manifolds of a pair, if they have the constraints that they had.
+    bool TryKeep(ref ListenedPair pair, ref int contactCount)
+    {
+        if (pair.IsSensor || isStale)
+            return false;
+        var (first, contactsBefore) = (pair.FirstManifold, contactCount);
+        for (int i = 0; i < pair.ManifoldCount; ++i)
+            Add(ref spareManifolds, manifolds[first + i]);
+        pair.FirstManifold = spareManifolds.Count - pair.ManifoldCount;
+        if (pair.ManifoldCount > 0 && TryPlace(pair, ref spareManifolds, ref contactCount))
+            return true;
+        spareManifolds.Count = pair.FirstManifold;
+        contactCount = contactsBefore;
+        return false;
+    }
+
+    // Lists the manifolds that a pair has, if it still is one.
+    void ListManifolds(ref ListenedPair pair, ref PairCache cache, ref int contactCount)
+    {
+        (pair.FirstManifold, pair.ManifoldCount) = (spareManifolds.Count, 0);
+        if (pair.IsSensor || !TryFind(ref pair, ref cache))
+            return;
+        for (var found = cache.ManifoldsOf(pair.IndexInCache); found.MoveNext();)
+        {
+            if (found.Current.HasConstraint)
+                Add(ref spareManifolds, new() { Constraint = found.Current.Constraint });
+        }
+        pair.ManifoldCount = spareManifolds.Count - pair.FirstManifold;
+        TryPlace(pair, ref spareManifolds, ref contactCount);
+    }
+
+    static bool TryFind(ref ListenedPair pair, ref PairCache cache)
     {
         var guess = pair.IndexInCache;
         pair.IndexInCache = guess < cache.Pairs.Count ? cache.IndexOf(pair.Pair, guess) : cache.Pairs.IndexOf(pair.Pair);
-        if (pair.IndexInCache < 0)
-            return false;
-        var start = stage.Manifolds.Count;
-        for (var manifolds = cache.ManifoldsOf(pair.IndexInCache); manifolds.MoveNext();)
-        {
-            ref var manifold = ref manifolds.Current;
-            if (!manifold.HasConstraint)
-                continue;
-            var count = ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId);
-            Add(ref stage.Manifolds, new()
-            {
-                Constraint = manifold.Constraint,
-                Cached = (CachedManifold*)Unsafe.AsPointer(ref manifold),
-                Children = manifolds.Children,
-                ContactCount = count,
-                FirstContact = contactCount,
-            });
-            contactCount += count;
-        }
-        return stage.Manifolds.Count > start;
+        return pair.IndexInCache >= 0;
     }
 
     /// <summary>Adds what a bounce has pushed to the pair, if it is listened to.</summary>
@@ -166,97 +239,6 @@ public sealed unsafe partial class CollisionEvents
         return low < pairs.Count && ListenedPair.Compare(pairs[low], wanted) == 0 ? low : -1;
     }
 
-    /// <summary>Tells what has happened. When the solver has ended.</summary>
-    internal void EndSolve()
-    {
-        if (isSettled)
-            return;
-        TellSleep();
-        int kept = 0;
-        int asleep = 0;
-        for (int i = 0; i < pairs.Count; ++i)
-        {
-            ref var pair = ref pairs[i];
-            if (pair.IsAsleep)
-            {
-                pairs[kept++] = pair;
-                ++asleep;
-                continue;
-            }
-            var told = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor, Impulse = pair.BounceImpulse, ApproachSpeed = pair.ApproachSpeed };
-            Sum(pair, ref told);
-            var touches = told.Impulse > 0 || pair.Overlaps || (pair.IsSensor && (pair.Exists || pair.HasPassed));
-            var kinds = (pair.Touches, touches) switch
-            {
-                (true, false) => EventMask.End,
-                (true, true) => EventMask.Persist,
-                (false, true) => EventMask.Begin,
-                _ => EventMask.None,
-            };
-            if (told.Impulse > 0 && told.ApproachSpeed >= hitSpeed)
-                kinds |= EventMask.Hit;
-            kinds &= pair.Mask;
-            // Those who hear of all are shown contacts that do not touch, too.
-            if (kinds != EventMask.None || (pair.Mask & EventMask.Persist) != 0)
-                Describe(pair, ref told);
-            Tell(ref ended, kinds & EventMask.End, told);
-            Tell(ref persisting, kinds & EventMask.Persist, told);
-            Tell(ref began, kinds & EventMask.Begin, told);
-            Tell(ref hits, kinds & EventMask.Hit, told);
-            pair.Touches = touches;
-            // What has passed ends in the next step, unless it is still there.
-            if (pair.Exists || pair.HasPassed)
-                pairs[kept++] = pair;
-        }
-        pairs.Count = kept;
-        isSettled = asleep == kept;
-        removalsSeen = traits.RemovalCount;
-    }
-
-    void Tell(ref QuickList<ContactEvent> list, EventMask kind, in ContactEvent contactEvent)
-    {
-        if (kind != EventMask.None)
-            Add(ref list, contactEvent);
-    }
-
-    // Adds up what the manifolds of a pair pushed.
-    void Sum(in ListenedPair pair, ref ContactEvent told)
-    {
-        if (!pair.IsMeasured)
-            return;
-        for (int i = pair.FirstManifold; i < pair.FirstManifold + pair.ManifoldCount; ++i)
-        {
-            ref var manifold = ref stage.Manifolds[i];
-            told.FrictionImpulse += manifold.Friction;
-            for (int j = 0; j < manifold.ContactCount; ++j)
-                told.Impulse += manifold.Normals[j];
-        }
-    }
-
-    // Writes the contacts of a pair, and says which is the strongest.
-    void Describe(in ListenedPair pair, ref ContactEvent told)
-    {
-        if (pair.ManifoldCount == 0)
-            return;
-        told.FirstContact = stage.Manifolds[pair.FirstManifold].FirstContact;
-        for (int i = pair.FirstManifold; i < pair.FirstManifold + pair.ManifoldCount; ++i)
-        {
-            ref var manifold = ref stage.Manifolds[i];
-            stage.Describe(pair, manifold, contacts.Span.AsSpan().Slice(manifold.FirstContact, manifold.ContactCount));
-            told.ContactCount += manifold.ContactCount;
-        }
-        var strongest = told.FirstContact;
-        for (int i = strongest + 1; i < told.FirstContact + told.ContactCount; ++i)
-        {
-            if (IsStronger(contacts[i], contacts[strongest]))
-                strongest = i;
-        }
-        ref var shown = ref contacts[strongest];
-        (told.Position, told.Normal, told.Depth) = (shown.Position, shown.Normal, shown.Depth);
-    }
-
-    static bool IsStronger(in EventContact a, in EventContact b) => a.Impulse != b.Impulse ? a.Impulse > b.Impulse : a.Depth > b.Depth;
-
     void Add<T>(ref QuickList<T> list, in T item) where T : unmanaged
     {
         if (!list.Span.Allocated)
@@ -275,9 +257,11 @@ public sealed unsafe partial class CollisionEvents
         Release(ref hits);
         Release(ref persisting);
         ReleaseSleep();
-        Release(ref stage.Manifolds);
-        stage.Pairs = default;
+        Release(ref manifolds);
+        Release(ref spareManifolds);
+        Release(ref places);
         Release(ref contacts);
+        stage.Release();
     }
 
     void Release<T>(ref QuickList<T> list) where T : unmanaged
@@ -292,8 +276,9 @@ public sealed unsafe partial class CollisionEvents
         added = sensed = pairs = spare = default;
         began = ended = hits = persisting = default;
         AbandonSleep();
-        stage.Manifolds = default;
-        stage.Pairs = default;
+        manifolds = spareManifolds = default;
+        places = default;
         contacts = default;
+        stage.Abandon();
     }
 }

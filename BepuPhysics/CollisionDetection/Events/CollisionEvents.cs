@@ -36,7 +36,7 @@ public sealed unsafe partial class CollisionEvents
         this.bodies = bodies;
         this.traits = traits;
         this.solver = solver;
-        stage = new ListeningStage(solver, bodies);
+        stage = new ListeningStage(solver, bodies, pool);
     }
 
     /// <summary>Speed of approach from which on a touch is a hit, m/s. From 0; 1 unless it was set.</summary>
@@ -61,7 +61,18 @@ public sealed unsafe partial class CollisionEvents
     /// <summary>Pairs that met faster than <see cref="HitSpeed"/> and pushed; sensors never do.</summary>
     public ReadOnlySpan<ContactEvent> Hits => AsSpan(hits);
     /// <summary>Pairs that touch and did in the step before.</summary>
-    public ReadOnlySpan<ContactEvent> Persisting => AsSpan(persisting);
+    /// <remarks>
+    /// Written when it is asked for, or something changes: so a step does not pay for what nobody reads. Ask before the next step begins, whose stages
+    /// find it empty otherwise.
+    /// </remarks>
+    public ReadOnlySpan<ContactEvent> Persisting
+    {
+        get
+        {
+            world.ReadUnread();
+            return AsSpan(persisting);
+        }
+    }
 
     /// <summary>Whether anybody has listened to anything, or sensors have been made, since the simulation began or was cleared.</summary>
     internal bool IsUsed => traits.Listeners.IsUsed;
@@ -167,6 +178,7 @@ public sealed unsafe partial class CollisionEvents
     void Set(CollidableReference collidable, byte value)
     {
         isSettled = false;
+        isStale = true;
         var wasUsed = traits.Listeners.IsUsed;
         traits.Listeners.Set(collidable, value, pool);
         // Behind all others, so that it reads what they have done.

@@ -53,6 +53,9 @@ public sealed unsafe partial class CollisionEvents
     /// <param name="statics">Where statics are.</param>
     internal void AddSnapshots(List<ContactSnapshot> snapshots, Statics statics)
     {
+        world.ReadUnread();
+        if (!isPersistingTold)
+            return;
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
@@ -64,18 +67,19 @@ public sealed unsafe partial class CollisionEvents
                 Touches = pair.Touches,
                 IsConvex = pair.ManifoldCount == 1,
             };
-            snapshot.Contacts.OffsetB = pair.OffsetB;
+            var place = places[pair.FirstManifold];
+            snapshot.Contacts.OffsetB = place.OffsetB;
             if (pair.Pair.B.Mobility == CollidableMobility.Static && statics.StaticExists(pair.Pair.B.StaticHandle))
-                snapshot.Contacts.OffsetB = statics[pair.Pair.B.StaticHandle].Pose.Position - pair.CenterOfA;
+                snapshot.Contacts.OffsetB = statics[pair.Pair.B.StaticHandle].Pose.Position - place.CenterOfA;
             for (int j = pair.FirstManifold; j < pair.FirstManifold + pair.ManifoldCount; ++j)
             {
-                ref var manifold = ref stage.Manifolds[j];
+                ref var manifold = ref manifolds[j];
                 for (int k = manifold.FirstContact; k < manifold.FirstContact + manifold.ContactCount; ++k)
                 {
                     ref var contact = ref contacts[k];
                     snapshot.Add(new()
                     {
-                        Offset = contact.Position - pair.CenterOfA,
+                        Offset = contact.Position - place.CenterOfA,
                         Depth = contact.Depth,
                         Normal = contact.Normal,
                         FeatureId = contact.FeatureId,

@@ -1,11 +1,11 @@
 using System.Numerics;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>A pair that somebody listens to: while it has contacts, or a sensor sees the other.</summary>
+// 32 bytes: a step goes through all of them, and has no need of what they pushed as long as nothing is told.
 struct ListenedPair
 {
     public CollidablePair Pair;
@@ -20,18 +20,12 @@ struct ListenedPair
     public bool IsAsleep;
     /// <summary>Whether it is one of a sensor and of a way that is swept, and whether that way has met the sensor in this step.</summary>
     public bool MayPass, HasPassed;
-    /// <summary>Whether a contact was deeper than zero when collisions were detected.</summary>
-    public bool Overlaps;
-    /// <summary>Whether impulses are summed: not where nothing could be told that depends on them.</summary>
-    public bool IsMeasured;
-    /// <summary>Where the cache had it in the last step, as a guess where to look first.</summary>
+    /// <summary>Whether it is to be told of as one that persists.</summary>
+    public bool Persists;
+    /// <summary>Where the cache had it, as a guess where to look first.</summary>
     public int IndexInCache;
     /// <summary>Its manifolds in this step.</summary>
     public int FirstManifold, ManifoldCount;
-    /// <summary>Greatest speed at which surfaces approach before the step, zero without manifolds.</summary>
-    public float ApproachSpeed;
-    /// <summary>Where the centre of A was when collisions were detected, and that of B relative to it.</summary>
-    public Vector3 CenterOfA, OffsetB;
     /// <summary>Sum of the impulses of this step's bounces.</summary>
     public float BounceImpulse;
 
@@ -55,20 +49,19 @@ struct ListenedPair
     }
 }
 
-/// <summary>A contact constraint whose pair is listened to, for one step.</summary>
-unsafe struct ListenedManifold
+/// <summary>A contact constraint whose pair is listened to.</summary>
+struct ListenedManifold
 {
     public ConstraintHandle Constraint;
-    /// <summary>What the cache remembers of it, which holds while the solver runs.</summary>
-    public CachedManifold* Cached;
-    public ChildIds Children;
-    /// <summary>The first of its impulses while the solver runs; they lie a vector apart.</summary>
-    public float* Impulses;
-    public int ContactCount;
-    public int FirstContact;
-    /// <summary>Depths of the contacts when collisions were detected.</summary>
-    public FourFloats Depths;
-    /// <summary>Sums over the substeps: along the normal, contact by contact, and of friction.</summary>
-    public FourFloats Normals;
-    public Vector3 Friction;
+    /// <summary>The lane that it has in this step, counted through all bundles that are listened to.</summary>
+    public int Lane;
+    public int FirstContact, ContactCount;
+}
+
+/// <summary>Where a pair was when collisions were detected.</summary>
+struct ListenedPlace
+{
+    public Vector3 CenterOfA;
+    /// <summary>Position of B relative to A; zero for a static.</summary>
+    public Vector3 OffsetB;
 }

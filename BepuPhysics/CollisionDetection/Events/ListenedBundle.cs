@@ -1,0 +1,92 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A bundle of contact constraints of which one at least is listened to, for one step: all lanes are summed up at once.</summary>
+unsafe struct ListenedBundle
+{
+    /// <summary>Where its descriptions, impulses and references are, while the solver runs and until a constraint comes or goes.</summary>
+    public Vector<float>* Prestep, Impulses;
+    /// <summary>The bodies of its constraints, A before B.</summary>
+    public Vector<int>* References;
+    public int ContactCount, BodyCount;
+    /// <summary>Whether impulses are summed: not where nothing could be told that depends on them.</summary>
+    public bool IsMeasured;
+
+    /// <summary>Greatest speed at which surfaces approach before the step.</summary>
+    public Vector<float> ApproachSpeed;
+    /// <summary>Depths of the contacts when collisions were detected.</summary>
+    public Few4<Vector<float>> Depths;
+    /// <summary>Sums over the substeps: along the normal, contact by contact, and of friction.</summary>
+    public Few4<Vector<float>> Normals;
+    public Vector3Wide Friction;
+
+    /// <summary>Notes what is so before the first substep.</summary>
+    /// <param name="bodies">Bodies as the last step has left them.</param>
+    /// <param name="hitSpeed">Speed of approach from which on a touch is a hit.</param>
+    /// <param name="isMeasured">Whether impulses are asked for, whatever it does.</param>
+    /// <returns>The state of each lane, without impulses.</returns>
+    internal Vector<int> Begin(in SolverBodies bodies, float hitSpeed, bool isMeasured)
+    {
+        bodies.Gather(new RowOffsets(References[0]), BodyAccess.Velocity, default, out var a);
+        Unsafe.SkipInit(out SolverBodyWide b);
+        b.Linear = b.Angular = default;
+        if (BodyCount > 1)
+            bodies.Gather(new RowOffsets(References[1]), BodyAccess.Velocity, default, out b);
+        var normal = *(Vector3Wide*)(Prestep + ContactPrestepLayout.Normal(ContactCount));
+        var offsetB = *(Vector3Wide*)(Prestep + ContactPrestepLayout.OffsetB(ContactCount));
+        var linearB = Vector3Wide.Dot(b.Linear, normal);
+        var linearA = Vector3Wide.Dot(a.Linear, normal);
+        var speed = new Vector<float>(float.NegativeInfinity);
+        var overlap = Vector<int>.Zero;
+        for (int i = 0; i < ContactCount; ++i)
+        {
+            ref var contact = ref ((ContactPrestepWide*)Prestep)[i];
+            overlap |= Vector.GreaterThan(contact.Depth, Vector<float>.Zero);
+            // As ContactRow has it.
+            var along = linearA + Vector3Wide.Dot(a.Angular, Vector3Wide.Cross(contact.OffsetA, normal))
+                + (Vector3Wide.Dot(b.Angular, Vector3Wide.Cross(normal, contact.OffsetA - offsetB)) - linearB);
+            speed = Wide.Max(speed, -along);
+            Depths[i] = contact.Depth;
+            Normals[i] = Vector<float>.Zero;
+        }
+        ApproachSpeed = speed;
+        Friction = default;
+        var isFast = Vector.GreaterThanOrEqual(speed, new Vector<float>(hitSpeed));
+        // What overlaps as in the step before touches whatever it pushes.
+        IsMeasured = isMeasured || Vector.LessThanAny(isFast | ~overlap, Vector<int>.Zero);
+        return (overlap & new Vector<int>(ListenedState.Overlaps)) | (isFast & new Vector<int>(ListenedState.IsFast));
+    }
+
+    /// <summary>Adds what the present substep has pushed.</summary>
+    internal void Sum()
+    {
+        for (int i = 0; i < ContactCount; ++i)
+            Normals[i] += Impulses[i];
+        Friction += *(Vector3Wide*)(Impulses + ContactPrestepLayout.FrictionImpulse(ContactCount));
+    }
+
+    /// <summary>Which lanes have pushed.</summary>
+    internal Vector<int> Pushes()
+    {
+        var sum = Normals[0];
+        for (int i = 1; i < ContactCount; ++i)
+            sum += Normals[i];
+        return Vector.GreaterThan(sum, Vector<float>.Zero) & new Vector<int>(ListenedState.Pushes);
+    }
+}
+
+/// <summary>What is known of a manifold when the solver has ended, as bits.</summary>
+static class ListenedState
+{
+    /// <summary>A contact was deeper than zero when collisions were detected.</summary>
+    internal const int Overlaps = 1;
+    /// <summary>It approached as fast as a hit.</summary>
+    internal const int IsFast = 2;
+    /// <summary>Its contacts pushed.</summary>
+    internal const int Pushes = 4;
+}
