@@ -114,7 +114,7 @@ sealed unsafe class PowerPool
             for (int i = 0; i < goneCount; ++i)
             {
                 ref var allocation = ref allocations[freeSlots[i]];
-                NativeMemory.AlignedFree((void*)allocation);
+                SystemMemory.Return((byte*)allocation);
                 allocation = 0;
             }
             hollowSlotCount += goneCount;
@@ -155,7 +155,7 @@ sealed unsafe class PowerPool
     public void Clear()
     {
         for (int i = 0; i < allocationCount; ++i)
-            NativeMemory.AlignedFree((void*)allocations[i]);
+            SystemMemory.Return((byte*)allocations[i]);
         NativeMemory.Free(allocations);
         NativeMemory.Free(freeSlots);
         NativeMemory.Free(taken);
@@ -238,7 +238,7 @@ sealed unsafe class PowerPool
     nint AskSystem()
     {
         var byteCount = (nuint)1 << allocationPower;
-        var memory = (byte*)NativeMemory.AlignedAlloc(byteCount, BufferPool.Alignment);
+        var memory = SystemMemory.Take(byteCount);
         Poison(memory, byteCount);
         return (nint)memory;
     }
