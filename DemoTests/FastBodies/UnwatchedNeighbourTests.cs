@@ -38,6 +38,27 @@ public class UnwatchedNeighbourTests
         world.AddStatic(new Box(2 * half, .8f, .8f), new RigidPose(place - normal * (Radius + half), turn));
     }
 
+    /// <summary>Who is woken by a touch is thrown within the bounds that it slept with, and is stopped by the plate before which it slept.</summary>
+    [Fact]
+    public void WhoWakesInAStepMeetsWhatItSleptBefore()
+    {
+        using var world = CreateWorld();
+        var body = world.Bodies[AddBall(world, default, new Vector3(60, 0, 0))];
+        world.Step();
+        // Back to where it came from, and to rest: its bounds are those of the way that it has gone.
+        (body.Pose.Position, body.Velocity.Linear) = (default, default);
+        const float plate = .5f;
+        world.AddStatic(new Box(.02f, 4, 4), new RigidPose(new Vector3(plate, 0, 0)));
+        body.Awake = false;
+        world.Step();
+        Assert.False(body.Awake);
+        // As heavy, and without loss: it stays behind.
+        AddBall(world, new Vector3(-2 * Radius, 0, 0), new Vector3(50, 0, 0));
+        world.Step();
+        Assert.True(body.Awake);
+        Assert.InRange(body.Pose.Position.X, -plate, plate);
+    }
+
     /// <summary>A box around the way that was foreseen and the next one contains more than both: what is there is met by the way after these.</summary>
     [Fact]
     public void ASecondThrowWithinGrownBoundsMeetsWhatIsThere()
