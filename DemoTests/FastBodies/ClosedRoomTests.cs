@@ -59,8 +59,8 @@ public class ClosedRoomTests
         var ball = new Sphere(radius);
         using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
         world.AddStatic(new Box(.02f, 10, 10), new RigidPose(new Vector3(.01f, 0, 0)));
-        var struck = Add(world, ball, new Vector3(-radius - distance, 0, 0), default);
-        var striking = Add(world, ball, new Vector3(-radius - distance - .5f, 0, 0), new Vector3(300, 0, 0));
+        var struck = world.AddMarked(ball, 1, new Vector3(-radius - distance, 0, 0), default);
+        var striking = world.AddMarked(ball, 1, new Vector3(-radius - distance - .5f, 0, 0), new Vector3(300, 0, 0));
         world.Step(3);
         // Without restitution both end at the wall, one behind the other, as nothing is left that comes back.
         Assert.InRange(world.Bodies[struck].Pose.Position.X, -radius - .1f * radius, -radius + .1f * radius);
@@ -75,10 +75,10 @@ public class ClosedRoomTests
         var ball = new Sphere(radius);
         using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
         // Two that rest, and two that strike them: each goes on at 300 m/s towards the other, 5 m in a step.
-        var left = Add(world, ball, new Vector3(-1, 0, 0), default);
-        var right = Add(world, ball, new Vector3(1, 0, 0), default);
-        Add(world, ball, new Vector3(-1.4f, 0, 0), new Vector3(600, 0, 0));
-        Add(world, ball, new Vector3(1.4f, 0, 0), new Vector3(-600, 0, 0));
+        var left = world.AddMarked(ball, 1, new Vector3(-1, 0, 0), default);
+        var right = world.AddMarked(ball, 1, new Vector3(1, 0, 0), default);
+        world.AddMarked(ball, 1, new Vector3(-1.4f, 0, 0), new Vector3(600, 0, 0));
+        world.AddMarked(ball, 1, new Vector3(1.4f, 0, 0), new Vector3(-600, 0, 0));
         world.Step(2);
         var (a, b) = (world.Bodies[left].Pose.Position.X, world.Bodies[right].Pose.Position.X);
         Assert.True(a < b, $"{a} and {b} have passed each other.");
@@ -96,8 +96,8 @@ public class ClosedRoomTests
         using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
         world.AddStatic(new Box(1, 1, 1), new RigidPose(new Vector3(.5f, -.49f, 0)));
         // Not at once: in the first step with fast pairs nobody knows yet who is slow.
-        Add(world, ball, new Vector3(100, 0, 0), new Vector3(150, 0, 0));
-        Add(world, ball, new Vector3(110, 0, 0), new Vector3(-150, 0, 0));
+        world.AddMarked(ball, 1, new Vector3(100, 0, 0), new Vector3(150, 0, 0));
+        world.AddMarked(ball, 1, new Vector3(110, 0, 0), new Vector3(-150, 0, 0));
         var first = Follow(world, ball, new Vector3(-3.1f, 0, 0));
         var second = Follow(world, ball, new Vector3(-3.8f, .12f, 0));
         world.Step(2);
@@ -110,10 +110,6 @@ public class ClosedRoomTests
     static BodyHandle Follow(TestWorld world, in Sphere ball, Vector3 position) => world.Bodies.Add(BodyDescription.CreateDynamic(
         position, new BodyVelocity(new Vector3(150, 0, 0)), ball.ComputeInertia(1),
         new CollidableDescription(world.Simulation.Shapes.Add(ball), .01f, ContinuousDetection.Continuous()), -1));
-
-    static BodyHandle Add(TestWorld world, in Sphere ball, Vector3 position, Vector3 velocity) => world.Bodies.Add(BodyDescription.CreateDynamic(
-        position, new BodyVelocity(velocity), ball.ComputeInertia(1),
-        new CollidableDescription(world.Simulation.Shapes.Add(ball), ContinuousDetection.Continuous()), -1));
 
     /// <summary>Pairs that are found within a step do not depend on threads.</summary>
     [Fact]

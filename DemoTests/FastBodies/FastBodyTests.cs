@@ -18,12 +18,6 @@ public class FastBodyTests
 
     static AccuracySettings Weightless => new() { Gravity = default, Friction = 0 };
 
-    static BodyHandle Shoot<TShape>(TestWorld world, in TShape shape, float mass, in RigidPose pose, in BodyVelocity velocity)
-        where TShape : unmanaged, IConvexShape =>
-        world.Bodies.Add(BodyDescription.CreateDynamic(
-            pose, velocity, shape.ComputeInertia(mass),
-            new CollidableDescription(world.Simulation.Shapes.Add(shape), ContinuousDetection.Continuous()), new BodyActivityDescription(-1)));
-
     /// <summary>The speed along the wall stays, that against it is turned by the coefficient, and no time is lost, wherever in a step the hit is.</summary>
     [Theory]
     [InlineData(0)]
@@ -38,7 +32,7 @@ public class FastBodyTests
             world.AddStatic(new Box(2000, .01f, 2000), new RigidPose(new Vector3(0, -.005f, 0)));
             var height = 20 + phase * .83f;
             var velocity = new Vector3(300, -400, 0);
-            var ball = Shoot(world, new Sphere(radius), 1, new RigidPose(new Vector3(0, height, 0)), new BodyVelocity(velocity));
+            var ball = world.AddMarked(new Sphere(radius), 1, new RigidPose(new Vector3(0, height, 0)), new BodyVelocity(velocity));
             world.Step(60);
             var body = world.Bodies[ball];
             var hit = (height - radius) / 400;
@@ -67,7 +61,7 @@ public class FastBodyTests
             world.AddStatic(new Box(2, 2, 2), new RigidPose(new Vector3(14, 0, 1 + radius + distance), Quaternion.Identity));
             world.AddStatic(new Cylinder(.05f, 3), new RigidPose(new Vector3(20, 0, .05f + radius + distance)));
             world.AddStatic(new Cylinder(.05f, 3), new RigidPose(new Vector3(20, 0, -.05f - radius - distance)));
-            var ball = Shoot(world, new Sphere(radius), 1, new RigidPose(new Vector3(-phase * .33f, 0, 0)), new BodyVelocity(new Vector3(200, 0, 0)));
+            var ball = world.AddMarked(new Sphere(radius), 1, new RigidPose(new Vector3(-phase * .33f, 0, 0)), new BodyVelocity(new Vector3(200, 0, 0)));
             world.Step(12);
             var velocity = world.Bodies[ball].Velocity.Linear;
             Assert.InRange(velocity.X, 200 * (1 - 1e-6f), 200 * (1 + 1e-6f));
@@ -97,8 +91,8 @@ public class FastBodyTests
             using var world = new TestWorld(Weightless);
             var rod = new Box(1, .01f, .01f);
             var start = .3f + phase * .11f;
-            var a = Shoot(world, rod, 1, new RigidPose(new Vector3(.002f * phase - .02f, 0, -start)), new BodyVelocity(new Vector3(0, 0, 100)));
-            var b = Shoot(world, rod, 1, new RigidPose(new Vector3(0, .01f, start), Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2)),
+            var a = world.AddMarked(rod, 1, new RigidPose(new Vector3(.002f * phase - .02f, 0, -start)), new BodyVelocity(new Vector3(0, 0, 100)));
+            var b = world.AddMarked(rod, 1, new RigidPose(new Vector3(0, .01f, start), Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2)),
                 new BodyVelocity(new Vector3(0, 0, -100)));
             for (int step = 0; step < 4; ++step)
             {
@@ -121,7 +115,7 @@ public class FastBodyTests
         var links = new List<BodyHandle>();
         for (int i = 0; i < 4; ++i)
         {
-            links.Add(Shoot(world, new Capsule(.08f, .3f), 2, new RigidPose(new Vector3(0, .7f + i * .5f, 0)), new BodyVelocity(new Vector3(50, 0, 0))));
+            links.Add(world.AddMarked(new Capsule(.08f, .3f), 2, new RigidPose(new Vector3(0, .7f + i * .5f, 0)), new BodyVelocity(new Vector3(50, 0, 0))));
             if (i > 0)
             {
                 world.Solver.Add(links[i - 1], links[i], new BallSocket
@@ -162,7 +156,7 @@ public class FastBodyTests
             new Vector3(10, 0, 0), box.ComputeInertia(10), world.Simulation.Shapes.Add(box), new BodyActivityDescription(.01f)));
         world.Step(60);
         Assert.False(world.Bodies[target].Awake);
-        var ball = Shoot(world, new Sphere(.05f), 1, new RigidPose(Vector3.Zero), new BodyVelocity(new Vector3(400, 0, 0)));
+        var ball = world.AddMarked(new Sphere(.05f), 1, new RigidPose(Vector3.Zero), new BodyVelocity(new Vector3(400, 0, 0)));
         world.Simulation.Events.Listen(ball, EventMask.All);
         // 9.45 m at 400 m/s: in the second step.
         world.Step();
@@ -181,8 +175,8 @@ public class FastBodyTests
         using var world = new TestWorld(Weightless);
         var wall = world.AddStatic(new Box(.01f, 4, 4), new RigidPose(new Vector3(3, 0, 0)));
         var velocity = new BodyVelocity(new Vector3(400, 0, 0), new Vector3(9, 40, 0));
-        var other = Shoot(world, new Box(1, .01f, .01f), 1, new RigidPose(new Vector3(0, 3, 0)), velocity);
-        var rod = Shoot(world, new Box(1, .01f, .01f), 1, default(Vector3), velocity);
+        var other = world.AddMarked(new Box(1, .01f, .01f), 1, new RigidPose(new Vector3(0, 3, 0)), velocity);
+        var rod = world.AddMarked(new Box(1, .01f, .01f), 1, default(Vector3), velocity);
         ((DefaultTimestepper)world.Simulation.Timestepper).CollisionsDetected += (_, _) =>
         {
             if (world.Statics.StaticExists(wall))

@@ -22,12 +22,7 @@ public class UnwatchedNeighbourTests
         return world;
     }
 
-    static BodyHandle AddBall(TestWorld world, Vector3 position, Vector3 velocity)
-    {
-        var ball = new Sphere(Radius);
-        return world.Bodies.Add(BodyDescription.CreateDynamic(position, velocity, ball.ComputeInertia(1),
-            new CollidableDescription(world.Simulation.Shapes.Add(ball), ContinuousDetection.Continuous()), -1));
-    }
+    static BodyHandle AddBall(TestWorld world, Vector3 position, Vector3 velocity) => world.AddMarked(new Sphere(Radius), 1, position, velocity);
 
     // A plate that a ball touches at a place with the normal that turns it from one direction into another.
     static void AddMirror(TestWorld world, Vector3 place, Vector3 before, Vector3 after)

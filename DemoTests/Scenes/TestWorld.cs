@@ -44,6 +44,11 @@ sealed class TestWorld : IDisposable
         where TShape : unmanaged, IConvexShape =>
         Bodies.Add(BodyDescription.CreateDynamic(pose, velocity, shape.ComputeInertia(mass), Simulation.Shapes.Add(shape), new BodyActivityDescription(-1)));
 
+    /// <summary>Adds a body that is marked as continuous, and never sleeps by itself.</summary>
+    public BodyHandle AddMarked<TShape>(in TShape shape, float mass, RigidPose pose, BodyVelocity velocity) where TShape : unmanaged, IConvexShape =>
+        Bodies.Add(BodyDescription.CreateDynamic(pose, velocity, shape.ComputeInertia(mass),
+            new CollidableDescription(Simulation.Shapes.Add(shape), ContinuousDetection.Continuous()), new BodyActivityDescription(-1)));
+
     public BodyHandle AddKinematic<TShape>(in TShape shape, RigidPose pose) where TShape : unmanaged, IConvexShape =>
         Bodies.Add(BodyDescription.CreateKinematic(pose, Simulation.Shapes.Add(shape), new BodyActivityDescription(-1)));
 

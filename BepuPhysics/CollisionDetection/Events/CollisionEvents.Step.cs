@@ -76,12 +76,8 @@ public sealed unsafe partial class CollisionEvents
         stage.EndPlaces();
         if (contactCount == 0)
             return;
-        if (!contacts.Span.Allocated)
-            contacts = new QuickList<EventContact>(contactCount, pool);
         contacts.EnsureCapacity(contactCount, pool);
         contacts.Count = contactCount;
-        if (!places.Span.Allocated)
-            places = new QuickList<ListenedPlace>(manifolds.Count, pool);
         places.EnsureCapacity(manifolds.Count, pool);
         places.Count = manifolds.Count;
     }

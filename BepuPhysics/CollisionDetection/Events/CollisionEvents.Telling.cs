@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 using BepuUtilities.Collections;
 
@@ -54,8 +53,6 @@ public sealed unsafe partial class CollisionEvents
         if ((all & EventMask.Persist) == 0)
             return false;
         // Whoever asks may be on another thread, which must not take memory.
-        if (!persisting.Span.Allocated)
-            persisting = new QuickList<ContactEvent>(Math.Max(64, persistingCount), pool);
         persisting.EnsureCapacity(persistingCount, pool);
         return true;
     }

@@ -84,7 +84,7 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
     {
         bundles.Count = 0;
         ref var batches = ref solver.ActiveSet.Batches;
-        TakeAtLeast(ref firstBundles, batches.Count * ContactTypes);
+        MakeRoom(ref firstBundles, batches.Count * ContactTypes);
         int count = 0;
         for (int i = 0; i < batches.Count; ++i)
         {
@@ -97,9 +97,9 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
                 count += typeBatches[j].BundleCount;
             }
         }
-        TakeAtLeast(ref ours, count);
+        MakeRoom(ref ours, count);
         ours.AsSpan()[..count].Fill(-1);
-        TakeAtLeast(ref measured, count);
+        MakeRoom(ref measured, count);
     }
 
     /// <summary>Finds the lane of a manifold.</summary>
@@ -146,8 +146,8 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
     {
         if (bundles.Count == 0)
             return;
-        TakeAtLeast(ref states, bundles.Count * Vector<int>.Count);
-        TakeAtLeast(ref centers, bodies.Awake.Count);
+        MakeRoom(ref states, bundles.Count * Vector<int>.Count);
+        MakeRoom(ref centers, bodies.Awake.Count);
     }
 
     /// <summary>Bits of <see cref="ListenedState"/>, when the solver has ended.</summary>
@@ -232,12 +232,10 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
     static int BlocksOf(int count, int perBlock) => (count + perBlock - 1) / perBlock;
 
     // What was in it is not kept.
-    void TakeAtLeast<T>(ref Buffer<T> buffer, int count) where T : unmanaged
+    void MakeRoom<T>(ref Buffer<T> buffer, int count) where T : unmanaged
     {
-        if (buffer.Allocated && buffer.Length >= count)
-            return;
-        Return(ref buffer);
-        pool.TakeAtLeast(Math.Max(1, count), out buffer);
+        if (buffer.Length < count)
+            pool.ResizeToAtLeast(ref buffer, count, 0);
     }
 
     void Return<T>(ref Buffer<T> buffer) where T : unmanaged
