@@ -10,7 +10,7 @@ namespace BepuPhysics;
 /// <summary>A small world of its own in which each pair of convex shapes meets, so that a real one finds its code compiled.</summary>
 readonly struct WarmUpWorld : IDisposable
 {
-    // A runtime that compiles in tiers counts to thirty before it compiles a method well, and starts to do so a tenth of a second later.
+    // Within so many, contacts are made, kept and lost.
     const int StepCount = 40;
     const float Spacing = 10;
     const int ThreadsBit = 1 << 31;

@@ -7,9 +7,6 @@ namespace BepuPhysics.Constraints;
 // A bundle of unused lanes: they read body 0 and write nothing.
 public abstract partial class TypeProcessor
 {
-    // As many calls as a runtime that compiles in tiers wants to see before it compiles a method well.
-    const int WarmUpCount = 40;
-
     /// <summary>Runs every loop of the type over a bundle without constraints, so that it is compiled.</summary>
     internal unsafe void WarmUp(BufferPool pool)
     {
@@ -29,9 +26,9 @@ public abstract partial class TypeProcessor
         var bodies = new SolverBodies(
             motions.Memory, inertias.Memory, (BodyVelocity*)(inertias.Memory + 1), inertias.Memory + 2);
         var split = new SplitBodies(shares.Memory, velocities.Memory);
-        for (int i = 0; i < WarmUpCount; ++i)
+        // Of the first substep and of a later one, each with and without a relaxation.
+        for (int i = 0; i < 6; ++i)
         {
-            // Of the first substep, of a later one, and of a relaxation.
             var substep = new Substep(i % 2, 1 / 240f, relaxations: i % 3, isRelaxation: i % 3 == 2);
             WarmStart(ref batch, bodies, substep, 0, 1);
             Solve(ref batch, bodies, substep, 0, 1);

@@ -14,7 +14,7 @@ public class StyleTests(ITestOutputHelper output)
     const int AimedWidth = 140;
     const int MostWidth = 160;
 
-    static readonly string[] projects = ["BepuUtilities", "BepuPhysics", "Demos", "DemoTests", "Benchmarks"];
+    static readonly string[] projects = ["BepuUtilities", "BepuPhysics", "Demos", "DemoTests", "Benchmarks", "Build"];
 
     static IEnumerable<string> Files => projects.SelectMany(project => RepositoryFiles.Find(project, "*.cs"))
         .Where(file => !file.EndsWith(".g.cs", StringComparison.Ordinal));
