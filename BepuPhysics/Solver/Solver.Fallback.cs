@@ -1,5 +1,7 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -18,7 +20,7 @@ public sealed unsafe partial class Solver
         public Buffer<int> Counts;
         // Share of its body's mass that each part has; 1 for kinematic bodies and unused lanes.
         public Buffer<float> Shares;
-        // Velocity of each part, type batch after type batch, constraint after constraint, slot after slot.
+        // Velocity of each part, type batch after type batch, bundle after bundle, slot after slot, lane after lane: so a slot's shares are a vector.
         public Buffer<BodyVelocity> Parts;
         // Where the parts of each type batch begin.
         public QuickList<int> StartOfTypeBatch;
@@ -38,17 +40,17 @@ public sealed unsafe partial class Solver
             for (int i = start; i < end; ++i)
             {
                 ref var velocity = ref set.MotionStates[SplitBodies[i]].Velocity;
-                Vector3 linear = default, angular = default;
+                var before = Row(ref velocity);
+                var change = Vector256<float>.Zero;
                 for (int j = StartOfBody[i]; j < StartOfBody[i + 1]; ++j)
-                {
-                    ref var part = ref Parts[PartsOfBody[j]];
-                    linear += (part.Linear - velocity.Linear) * Shares[PartsOfBody[j]];
-                    angular += (part.Angular - velocity.Angular) * Shares[PartsOfBody[j]];
-                }
-                velocity.Linear += linear;
-                velocity.Angular += angular;
+                    change += (Row(ref Parts[PartsOfBody[j]]) - before) * Shares[PartsOfBody[j]];
+                velocity.Linear += change.GetLower().AsVector3();
+                velocity.Angular += change.GetUpper().AsVector3();
             }
         }
+
+        // Linear in the lower half, angular in the upper one, and one number of padding in each.
+        static Vector256<float> Row(ref BodyVelocity velocity) => Vector256.LoadUnsafe(ref Unsafe.As<BodyVelocity, float>(ref velocity));
 
         public void Dispose(BufferPool pool)
         {
@@ -153,7 +155,8 @@ public sealed unsafe partial class Solver
                     var reference = processor.BodyReference(ref typeBatches[i], constraint, slot);
                     if ((reference & EncodedBody.KinematicFlag) != 0)
                         continue;
-                    var part = split.StartOfTypeBatch[i] + constraint * processor.BodiesPerConstraint + slot;
+                    var (bundle, lane) = (constraint / Vector<float>.Count, constraint % Vector<float>.Count);
+                    var part = split.StartOfTypeBatch[i] + (bundle * processor.BodiesPerConstraint + slot) * Vector<float>.Count + lane;
                     var body = reference & EncodedBody.IndexMask;
                     if (next == null)
                     {

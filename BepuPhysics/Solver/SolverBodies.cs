@@ -155,6 +155,6 @@ unsafe readonly struct SplitBodies(float* shares, BodyVelocity* parts)
 {
     /// <summary>Share of its body's mass that every part has, in the order of the parts.</summary>
     internal readonly float* Shares = shares;
-    /// <summary>Velocity of every part: slot of a constraint after slot, constraint after constraint.</summary>
+    /// <summary>Velocity of every part: lane after lane of a slot, slot after slot of a bundle, bundle after bundle.</summary>
     internal readonly BodyVelocity* Parts = parts;
 }

@@ -224,9 +224,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     {
         for (int slot = 0; slot < TBodies.Count; ++slot)
         {
-            Vector<float> shares = default;
-            for (int lane = 0; lane < Vector<float>.Count; ++lane)
-                shares = shares.WithElement(lane, split.Shares[(bundle * Vector<float>.Count + lane) * TBodies.Count + slot]);
+            var shares = ((Vector<float>*)split.Shares)[bundle * TBodies.Count + slot];
             var scale = Vector<float>.One / shares;
             ref var body = ref BodySlots.At(ref slots, slot);
             body.InverseMass *= scale;
@@ -236,15 +234,20 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
 
     static void WriteParts(int bundle, in SplitBodies split, ref TBodies slots)
     {
-        for (int lane = 0; lane < Vector<float>.Count; ++lane)
+        for (int slot = 0; slot < TBodies.Count; ++slot)
         {
-            for (int slot = 0; slot < TBodies.Count; ++slot)
-            {
-                ref var body = ref BodySlots.At(ref slots, slot);
-                ref var part = ref split.Parts[(bundle * Vector<float>.Count + lane) * TBodies.Count + slot];
-                part.Linear = new(body.Linear.X[lane], body.Linear.Y[lane], body.Linear.Z[lane]);
-                part.Angular = new(body.Angular.X[lane], body.Angular.Y[lane], body.Angular.Z[lane]);
-            }
+            ref var body = ref BodySlots.At(ref slots, slot);
+            Rows8 row;
+            row.R0 = body.Linear.X;
+            row.R1 = body.Linear.Y;
+            row.R2 = body.Linear.Z;
+            row.R3 = Vector<float>.Zero;
+            row.R4 = body.Angular.X;
+            row.R5 = body.Angular.Y;
+            row.R6 = body.Angular.Z;
+            row.R7 = Vector<float>.Zero;
+            var first = (bundle * TBodies.Count + slot) * Vector<float>.Count;
+            Transpose.Scatter(row, (float*)split.Parts, Rows8.Count, new RowOffsets(new Vector<int>(first) + Vector<int>.Indices));
         }
     }
 }
