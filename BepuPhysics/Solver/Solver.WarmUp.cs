@@ -1,15 +1,20 @@
+using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
 
 // Code of constraints, compiled ahead of time.
-public sealed unsafe partial class Solver
+public sealed partial class Solver
 {
-    /// <summary>Runs the loops of each registered type over a bundle without constraints, and compiles what moves free bodies.</summary>
-    internal void WarmUp()
+    /// <summary>Runs the loops of a type, if there is one of this id, over a bundle without constraints. Types may be warmed up side by side.</summary>
+    internal void WarmUp(int typeId)
     {
-        foreach (var processor in processors)
-            processor?.WarmUp(pool);
-        StagedWork.Compile<FreeFlight>();
+        if (processors[typeId] is not { } processor)
+            return;
+        using var pool = new BufferPool();
+        processor.WarmUp(pool);
     }
+
+    /// <summary>Compiles what moves free bodies.</summary>
+    internal static void CompileFreeFlight() => StagedWork.Compile<FreeFlight>();
 }
