@@ -50,7 +50,7 @@ public unsafe class ChildBenchmarks : IDisposable
     [GlobalSetup]
     public void Setup()
     {
-        memory = new SeamMemory(pool);
+        memory = new SeamMemory();
         found = new ChildResult[Children];
         results = new ChildResult[Room + Children];
         placed = new PlacedChildren[Children];

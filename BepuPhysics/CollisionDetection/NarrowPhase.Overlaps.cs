@@ -133,7 +133,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             worker.Pool.AddUser(this);
         worker.Batcher = new CollisionBatcher<Completion>(
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
-        worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity, worker.Pool);
+        worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity);
         worker.Contacts.Clear();
         worker.Room = room;
         // What is remembered waits again, with whichever worker finds it.

@@ -48,9 +48,9 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>What the task that expands has found.</summary>
     public QuickList<FoundChild> Found = new(InitialCapacity, pool);
     /// <summary>Ids of the children that the last batch has tested.</summary>
-    public QuickList<int> Tested = new(PairBatch.Capacity, pool);
+    public QuickList<int> Tested;
     /// <summary>What parents are joined with.</summary>
-    public SeamMemory Seams = new(pool);
+    public SeamMemory Seams;
     /// <summary>The children that the parent which was completed last was joined of, if these were asked for.</summary>
     public QuickList<SeamChild> Kept;
     /// <summary>
@@ -60,8 +60,8 @@ unsafe struct ChildPairs(BufferPool pool)
     public bool MayCarry;
     /// <summary>Whether what the parent that was completed last hits is so thin that it must not give way.</summary>
     public bool HitsThin;
-    WaitingList<WaitingChild> waiting = new(InitialCapacity, pool);
-    WaitingList<OpenParent> parents = new(InitialCapacity, pool);
+    WaitingList<WaitingChild> waiting = new(InitialCapacity);
+    WaitingList<OpenParent> parents = new(InitialCapacity);
 
     const int InitialCapacity = 64;
 
@@ -291,11 +291,10 @@ unsafe struct ChildPairs(BufferPool pool)
         }
         parents.Dispose(pool);
         waiting.Dispose(pool);
-        Tested.Dispose(pool);
+        Tested.DisposeIfTaken(pool);
         Found.Dispose(pool);
         Seams.Dispose(pool);
-        if (Kept.Span.Allocated)
-            Kept.Dispose(pool);
+        Kept.DisposeIfTaken(pool);
         Batches.Dispose(pool);
     }
 }

@@ -166,6 +166,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         ref var tested = ref Children->Tested;
         tested.Count = 0;
+        tested.EnsureCapacity(PairBatch.Capacity, Pool);
         var receiver = new ChildReceiver(Children);
         task.Execute(ref batch, histories, ref receiver);
         for (int i = 0; i < tested.Count; ++i)

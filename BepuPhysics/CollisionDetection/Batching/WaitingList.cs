@@ -3,11 +3,12 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What waits for results, by ids that are used again: as many as batches hold stay in the cache.</summary>
-struct WaitingList<T>(int initialCapacity, BufferPool pool) where T : unmanaged
+/// <summary>What waits for results, by ids that are used again: as many as batches hold stay in the cache. Takes no memory before the first.</summary>
+struct WaitingList<T>(int initialCapacity) where T : unmanaged
 {
-    QuickList<T> items = new(initialCapacity, pool);
-    QuickList<int> freeIds = new(initialCapacity, pool);
+    readonly int initialCapacity = initialCapacity;
+    QuickList<T> items;
+    QuickList<int> freeIds;
 
     /// <summary>One more than the greatest id that was ever given.</summary>
     public readonly int Span => items.Count;
@@ -21,6 +22,7 @@ struct WaitingList<T>(int initialCapacity, BufferPool pool) where T : unmanaged
     {
         if (freeIds.Count == 0)
         {
+            items.EnsureCapacity(initialCapacity, pool);
             items.Add(item, pool);
             return items.Count - 1;
         }
@@ -33,13 +35,14 @@ struct WaitingList<T>(int initialCapacity, BufferPool pool) where T : unmanaged
     /// <summary>Takes an item out.</summary>
     public T Take(int id, BufferPool pool)
     {
+        freeIds.EnsureCapacity(initialCapacity, pool);
         freeIds.Add(id, pool);
         return items[id];
     }
 
     public void Dispose(BufferPool pool)
     {
-        items.Dispose(pool);
-        freeIds.Dispose(pool);
+        items.DisposeIfTaken(pool);
+        freeIds.DisposeIfTaken(pool);
     }
 }

@@ -12,7 +12,7 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 unsafe struct BodyAgreement(BufferPool pool)
 {
-    SeamMemory memory = new(pool);
+    SeamMemory memory;
     QuickList<ChildResult> results = new(InitialCapacity, pool);
     QuickList<PlacedChildren> placed = new(InitialCapacity, pool);
 
@@ -33,7 +33,7 @@ unsafe struct BodyAgreement(BufferPool pool)
     public int BeginBody(BufferPool pool)
     {
         // Each child that is added has a place of its own among the results, which is that among those that touch.
-        memory.Sets.Add(new() { First = results.Count, Stage = SeamStage.Done, Index = -1 }, pool);
+        memory.Add(new() { First = results.Count, Stage = SeamStage.Done, Index = -1 }, pool);
         return memory.Sets.Count - 1;
     }
 

@@ -1,4 +1,3 @@
-using System;
 using System.Diagnostics;
 using System.Numerics;
 using BepuPhysics.Collidables;
@@ -128,21 +127,11 @@ static class ChildAgreement
             case SeamStage.Prepared:
                 Prepare(ref tests, view, pool);
                 break;
-            case SeamStage.Measured:
-                TakeOverlaps(tests, view);
-                AddRivals(ref tests, view, pool);
-                set.Stage = SeamStage.Rivals;
-                break;
             case SeamStage.Rivals:
                 if (YieldsToRival(tests, view))
                     set.Stage = SeamStage.Next;
                 else
                     Accept(ref tests, view, pool);
-                break;
-            case SeamStage.LeaderMeasured:
-                TakeOverlaps(tests, view);
-                AddFollowers(ref tests, view, pool);
-                set.Stage = SeamStage.Followers;
                 break;
             case SeamStage.Followers:
                 var count = tests.Count;
@@ -185,10 +174,10 @@ static class ChildAgreement
     static void Prepare(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
-        if (view.Placed(view.Ranked[set.Index]).AreKnown && HasFollower(view, set.Index, ofClass: true))
+        if (view.Placed(view.Ranked[set.Index]).AreKnown)
         {
-            AddOverlaps(ref tests, view, pool);
-            set.Stage = SeamStage.Measured;
+            AddRivals(ref tests, view, pool);
+            set.Stage = SeamStage.Rivals;
         }
         else
             Accept(ref tests, view, pool);
@@ -260,45 +249,15 @@ static class ChildAgreement
     // Depth by which a child may be deeper than what it yields to.
     static float ToleranceOf(in RankedChild child, SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
 
-    // Whether one of those that come later, or of those of its class, may yield to a child.
-    static bool HasFollower(SeamView view, int index, bool ofClass)
+    // Measures a child along its normal, when that is asked for.
+    static float OverlapOf(ref RankedChild child, SeamView view)
     {
-        var ranked = view.Ranked;
-        for (int i = index + 1; i < ranked.Length && !(ofClass && ranked[i].Class != ranked[index].Class); ++i)
-        {
-            if (MayYield(ranked[i], ranked[index], view))
-                return true;
-        }
-        return false;
-    }
-
-    // Measures a child, and those that come next and are as deep.
-    static void AddOverlaps(ref DirectedTests tests, SeamView view, BufferPool pool)
-    {
-        var ranked = view.Ranked;
-        var index = view.Set.Index;
-        var least = ranked[index].Depth - ToleranceOf(ranked[index], view);
-        for (int i = index; i < ranked.Length && ranked[i].Class == ranked[index].Class && ranked[i].Depth >= least; ++i)
-        {
-            if (i == index || MayYield(ranked[i], ranked[index], view))
-                AddOverlap(ref tests, view, i, pool);
-        }
-    }
-
-    static void AddOverlap(ref DirectedTests tests, SeamView view, int index, BufferPool pool)
-    {
-        ref var child = ref view.Ranked[index];
         if (child.Overlap == RankedChild.Unknown)
-            tests.Add(view.Placed(child), view.Result(child).Manifold.Normal, float.MinValue, 0, index, pool);
-    }
-
-    static void TakeOverlaps(in DirectedTests tests, SeamView view)
-    {
-        for (int i = view.Set.Tests.First; i < view.Set.Tests.End; ++i)
         {
-            ref var child = ref view.Ranked[tests[i].Owner];
-            child.Overlap = Math.Max(child.Depth, tests[i].Depth);
+            ref var placed = ref view.Placed(child);
+            child.Overlap = placed.AreKnown ? MathHelper.Max(child.Depth, placed.DepthAlong(view.Result(child).Manifold.Normal)) : child.Depth;
         }
+        return child.Overlap;
     }
 
     // Depths that are the same to within the tolerance are in no order: what would yield to one of those that come next, which would not yield to it, does
@@ -312,10 +271,10 @@ static class ChildAgreement
         var first = tests.Count;
         for (int i = index + 1; i < ranked.Length && ranked[i].Class == child.Class && tests.Count - first < 2 * MaximumLeaderCount; ++i)
         {
-            if (!MayYield(ranked[i], child, view))
-                continue;
             if (ranked[i].Depth < child.Depth - tolerance)
                 break;
+            if (!MayYield(ranked[i], child, view))
+                continue;
             var areNear = Exact.Dot(view.Result(ranked[i]).Manifold.Normal, view.Result(child).Manifold.Normal) > NearNormal;
             AddFollower(ref tests, view, index, i, tolerance, pool, areNear);
             AddFollower(ref tests, view, i, index, tolerance, pool, areNear);
@@ -345,25 +304,11 @@ static class ChildAgreement
     static void Accept(ref DirectedTests tests, SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
-        ref var leader = ref view.Ranked[set.Index];
-        leader.PreviousLeader = set.LastLeader;
+        view.Ranked[set.Index].PreviousLeader = set.LastLeader;
         set.LastLeader = set.Index;
         ++set.LeaderCount;
-        if (set.Stage == SeamStage.Rivals)
-        {
-            AddFollowers(ref tests, view, pool);
-            set.Stage = SeamStage.Followers;
-        }
-        else if (HasFollower(view, set.Index, ofClass: false))
-        {
-            if (view.Placed(leader).AreKnown)
-                AddOverlap(ref tests, view, set.Index, pool);
-            else
-                leader.Overlap = leader.Depth;
-            set.Stage = SeamStage.LeaderMeasured;
-        }
-        else
-            set.Stage = SeamStage.Next;
+        AddFollowers(ref tests, view, pool);
+        set.Stage = SeamStage.Followers;
     }
 
     static void AddFollowers(ref DirectedTests tests, SeamView view, BufferPool pool)
@@ -381,7 +326,7 @@ static class ChildAgreement
                 view.Ranked[i].Asked = index + 1;
                 var tolerance = ToleranceOf(view.Ranked[i], view);
                 // A rival was allowed what the leader is, which may be another child of the body.
-                if (isRival && tests[known].GreatestDepth == view.Ranked[index].Overlap + tolerance)
+                if (isRival && tests[known].GreatestDepth == OverlapOf(ref view.Ranked[index], view) + tolerance)
                     Follow(view, tests[known]);
                 else
                     AddFollower(ref tests, view, i, index, tolerance, pool);
@@ -394,7 +339,7 @@ static class ChildAgreement
     {
         ref var placed = ref view.Placed(view.Ranked[follower]);
         var normal = view.Result(view.Ranked[leader]).Manifold.Normal;
-        tests.Add(placed, normal, view.Ranked[leader].Overlap + tolerance, placed.SpeculativeMargin, follower, pool, findsFace);
+        tests.Add(placed, normal, OverlapOf(ref view.Ranked[leader], view) + tolerance, placed.SpeculativeMargin, follower, pool, findsFace);
     }
 
     static void Follow(SeamView view, in DirectedPair test)

@@ -14,9 +14,6 @@ unsafe interface IDirectedTask
     /// <param name="batch">The pairs; their ids are places in the list.</param>
     /// <param name="pairs">Directions, and where the results go.</param>
     void Execute(ref PairBatch batch, DirectedPair* pairs);
-
-    /// <summary>Radius of a ball that lies in a shape of the first type, m; zero for one that is flat.</summary>
-    float InnerRadiusA(void* shape);
 }
 
 /// <summary>Finds depth and contacts of pairs along directions, from nothing but farthest points and features.</summary>
@@ -156,13 +153,5 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         TSupportA.GetExtents(a, out _, out _, out var outerA);
         TSupportB.GetExtents(b, out _, out _, out var outerB);
         return Vector.LessThan(outerB, outerA);
-    }
-
-    public float InnerRadiusA(void* shape)
-    {
-        var wide = default(TShapeWideA);
-        Lanes.Write(*(TShapeA*)shape, ref wide, 0);
-        TSupportA.GetExtents(wide, out _, out var inner, out _);
-        return inner[0] + TSupportA.Margin(wide)[0];
     }
 }

@@ -5,14 +5,14 @@ using BepuUtilities.Memory;
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Pairs of children that are looked at along directions, in bundles of one pair of shape types each.</summary>
-/// <remarks>In rounds: while what the last one has found is read, pairs of the next are added.</remarks>
-unsafe struct DirectedTests(BufferPool pool)
+/// <remarks>Takes no memory before the first. In rounds: while what the last one has found is read, pairs of the next are added.</remarks>
+unsafe struct DirectedTests
 {
     PairBatches batches;
     // A bit for each task whose batch has pairs: there are fewer tasks than bits.
     ulong waiting;
-    QuickList<DirectedPair> added = new(InitialCapacity, pool);
-    QuickList<DirectedPair> found = new(InitialCapacity, pool);
+    QuickList<DirectedPair> added;
+    QuickList<DirectedPair> found;
 
     const int InitialCapacity = 32;
 
@@ -45,6 +45,7 @@ unsafe struct DirectedTests(BufferPool pool)
             batches[taskIndex].Bundles.Clear(0, task.BatchByteCount);
         }
         var input = new PairInput(speculativeMargin, added.Count, flipped, PairInput.NoHistory);
+        added.EnsureCapacity(InitialCapacity, pool);
         // The rest is written when the pair is looked at.
         ref var pair = ref added.Allocate(pool);
         pair.Normal = normal;
@@ -80,7 +81,7 @@ unsafe struct DirectedTests(BufferPool pool)
     public void Dispose(BufferPool pool)
     {
         batches.Dispose(pool);
-        added.Dispose(pool);
-        found.Dispose(pool);
+        added.DisposeIfTaken(pool);
+        found.DisposeIfTaken(pool);
     }
 }

@@ -74,6 +74,7 @@ static unsafe class PatchReduction
         if (inLine != Vector<int>.Zero)
             ChooseEnds(memory.Candidates.Span.Memory, greatest, frames.Size, inLine, farthest, ref deepest);
         memory.Kept.Count = 0;
+        memory.Kept.EnsureCapacity(PatchSet.Capacity * ConvexContactManifold.MaximumContactCount, pool);
         for (int i = 0; i < count; ++i)
         {
             if ((reduces & 1 << i) == 0)

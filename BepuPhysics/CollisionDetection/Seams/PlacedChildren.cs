@@ -124,9 +124,26 @@ unsafe struct PlacedChildren
 
     static float InnerRadius(int typeId, in ShapeCopy shape)
     {
-        if (typeId < 0)
-            return 0;
-        fixed (byte* bytes = shape.Bytes)
-            return ((IDirectedTask)DirectedTasks.Registry.GetTask(typeId, typeId, out _, out _)).InnerRadiusA(bytes);
+        switch (typeId)
+        {
+            case Sphere.Id:
+                return shape.Read<Sphere>().Radius;
+            case Capsule.Id:
+                return shape.Read<Capsule>().Radius;
+            case Box.Id:
+                var box = shape.Read<Box>();
+                return MathHelper.Min(MathHelper.Min(box.HalfWidth, box.HalfHeight), box.HalfLength);
+            case Cylinder.Id:
+                var cylinder = shape.Read<Cylinder>();
+                return MathHelper.Min(cylinder.Radius, cylinder.HalfLength);
+            case ConvexHull.Id:
+                return shape.Read<ConvexHull>().Header->InnerRadius;
+            default:
+                return 0;
+        }
     }
+
+    /// <summary>By how much A has to move along a unit direction, from B to A, to be off B, m; of shapes that are known.</summary>
+    public readonly float DepthAlong(in Vector3 normal) =>
+        Exact.Dot(OffsetB, normal) + new ShapeReach(TypeB, ShapeB, OrientationB).Along(normal) + new ShapeReach(TypeA, ShapeA, OrientationA).Along(-normal);
 }

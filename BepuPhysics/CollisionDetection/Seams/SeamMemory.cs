@@ -5,31 +5,29 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What sets of children are joined with, of several parents or bodies at once; grows to what they need.</summary>
-struct SeamMemory(BufferPool pool)
+/// <summary>What sets of children are joined with, of several parents or bodies at once; grows from nothing to what they need.</summary>
+struct SeamMemory
 {
     /// <summary>Looks along directions.</summary>
-    public DirectedTests Tests = new(pool);
+    public DirectedTests Tests;
     /// <summary>Looks where contacts that are foreseen will be.</summary>
     public MovedTests Moved;
     /// <summary>The sets that agree at once, so that bundles of tests are full.</summary>
-    public QuickList<SeamSet> Sets = new(SetCapacity, pool);
+    public QuickList<SeamSet> Sets;
     /// <summary>The children that touch, of all sets.</summary>
-    public QuickList<RankedChild> Touching = new(SetCapacity * 4, pool);
+    public QuickList<RankedChild> Touching;
     /// <summary>Those that patches are made of, in their order.</summary>
-    public QuickList<RankedChild> Ranked = new(InitialCapacity, pool);
+    public QuickList<RankedChild> Ranked;
     /// <summary>Contacts with planes in place of flush faces.</summary>
-    public QuickList<DirectedPair> Planes = new(InitialCapacity, pool);
+    public QuickList<DirectedPair> Planes;
     /// <summary>Contacts that patches are chosen from, a lane for each patch.</summary>
-    public QuickList<FaceCandidate> Candidates = new(InitialCapacity, pool);
+    public QuickList<FaceCandidate> Candidates;
 
     /// <summary>Names of the contacts that the last reduction has chosen: a slot, times the contacts of a manifold, and a contact.</summary>
-    public QuickList<int> Kept = new(InitialCapacity, pool);
+    public QuickList<int> Kept;
 
     /// <summary>Number of sets that are worked on at once: some bundles of tests in each round, and shapes that fit a cache.</summary>
     public const int SetCapacity = 16;
-
-    const int InitialCapacity = 16;
 
     /// <summary>Forgets all sets.</summary>
     public void Begin() => Sets.Count = Touching.Count = 0;
@@ -42,6 +40,7 @@ struct SeamMemory(BufferPool pool)
     /// <param name="pool">Source of memory.</param>
     public unsafe void Add(ChildResult* results, PlacedChildren* placed, int count, int owner, BufferPool pool)
     {
+        Touching.EnsureCapacity(SetCapacity * 4, pool);
         var set = new SeamSet { Owner = owner, Results = results, Placed = placed, First = Touching.Count, Index = -1 };
         var hasTriangle = false;
         for (int i = 0; i < count; ++i)
@@ -53,6 +52,13 @@ struct SeamMemory(BufferPool pool)
         }
         set.Count = Touching.Count - set.First;
         set.Stage = set.Count == 0 ? SeamStage.Done : hasTriangle ? SeamStage.DirectionsOfB : SeamStage.Order;
+        Add(set, pool);
+    }
+
+    /// <summary>Adds a set.</summary>
+    public void Add(in SeamSet set, BufferPool pool)
+    {
+        Sets.EnsureCapacity(SetCapacity, pool);
         Sets.Add(set, pool);
     }
 
@@ -109,11 +115,11 @@ struct SeamMemory(BufferPool pool)
     {
         Tests.Dispose(pool);
         Moved.Dispose(pool);
-        Sets.Dispose(pool);
-        Touching.Dispose(pool);
-        Ranked.Dispose(pool);
-        Planes.Dispose(pool);
-        Candidates.Dispose(pool);
-        Kept.Dispose(pool);
+        Sets.DisposeIfTaken(pool);
+        Touching.DisposeIfTaken(pool);
+        Ranked.DisposeIfTaken(pool);
+        Planes.DisposeIfTaken(pool);
+        Candidates.DisposeIfTaken(pool);
+        Kept.DisposeIfTaken(pool);
     }
 }

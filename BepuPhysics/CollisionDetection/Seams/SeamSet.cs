@@ -15,10 +15,10 @@ enum SeamStage
     Next,
     /// <summary>Follows a contact that is foreseen to where it touches; then knows how it is there.</summary>
     Foreseen, Prepared,
-    /// <summary>Knows how deep that is, and what might come before it; then whether it yields to one of these.</summary>
-    Measured, Rivals,
-    /// <summary>Knows how deep an accepted child is; then who yields to it.</summary>
-    LeaderMeasured, Followers,
+    /// <summary>Knows whether it yields to one of those that might come before it.</summary>
+    Rivals,
+    /// <summary>Knows who yields to it, as it is accepted.</summary>
+    Followers,
     /// <summary>All agree.</summary>
     Done,
 }

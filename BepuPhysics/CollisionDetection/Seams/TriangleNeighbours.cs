@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
@@ -16,10 +17,12 @@ static class TriangleNeighbours
 {
     // A direction as steep to the triangle's normal as this cosine says is the neighbours'.
     const float LeastCosine = 0.05f;
+    // Part of the sizes by which a feature must be beside a triangle to have nothing over it: far above the rounding of the test that looks for it.
+    const float Beside = 1e-4f;
     // Bounds that meet at a corner are gone over until none is left, or it is seen that they cannot all be met.
     const int MaximumClampCount = 4;
 
-    /// <summary>Looks children that were touched beyond their neighbours up along the directions that there are.</summary>
+    /// <summary>Looks children that were touched beyond their neighbours up along the direction of least depth of those that there are.</summary>
     /// <param name="tests">Receives the directions.</param>
     /// <param name="view">The children.</param>
     /// <param name="isA">Whether the triangles are those of A.</param>
@@ -31,11 +34,11 @@ static class TriangleNeighbours
             ref var placed = ref view.Placed(view.Ranked[i]);
             ref var manifold = ref view.Result(view.Ranked[i]).Manifold;
             if (manifold.Count > 0 && !view.Ranked[i].IsOfNeighbours && IsSurface(placed, isA))
-                AddDirections(ref tests, placed, manifold.Normal, isA, i, pool);
+                AddDirections(ref tests, placed, manifold.Normal, isA, i, ref view.Ranked[i], pool);
         }
     }
 
-    /// <summary>Takes what was found along the direction of least depth of each child.</summary>
+    /// <summary>Takes what was found along these directions.</summary>
     /// <param name="tests">What was found, in the order of children.</param>
     /// <param name="view">The children.</param>
     /// <param name="isA">Whether the triangles are those of A.</param>
@@ -43,18 +46,12 @@ static class TriangleNeighbours
     {
         var last = view.Set.Tests;
         for (int i = last.First; i < last.End; ++i)
-        {
-            var best = i;
-            for (; i + 1 < last.End && tests[i + 1].Owner == tests[best].Owner; ++i)
-                best = tests[i + 1].Depth < tests[best].Depth ? i + 1 : best;
-            Take(tests[best], view, isA);
-        }
+            Take(tests[i], view, isA);
     }
 
     static void Take(in DirectedPair test, SeamView view, bool isA)
     {
         ref var child = ref view.Ranked[test.Owner];
-        child.Class = 1;
         // What is a triangle too may have gone through the neighbour, and be seen by nobody else.
         child.IsOfNeighbours = test.Manifold.Count == 0 || (!view.Placed(child).AreTriangles &&
             Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine);
@@ -99,25 +96,32 @@ static class TriangleNeighbours
     /// <summary>Whether what touches along a normal touches a neighbour of one of two children.</summary>
     public static bool Has(in PlacedChildren placed, in Vector3 normal) => IsBeyond(placed, normal, isA: true) || IsBeyond(placed, normal, isA: false);
 
-    static bool IsBeyond(in PlacedChildren placed, in Vector3 normal, bool isA) =>
-        IsSurface(placed, isA) && IsBeyond(Place(placed, isA), isA ? placed.ConeA : placed.ConeB, isA ? -normal : normal);
-
-    static bool IsBeyond(TriangleSurface surface, in TriangleCone cone, in Vector3 direction)
+    static bool IsBeyond(in PlacedChildren placed, in Vector3 normal, bool isA)
     {
-        surface.Bound(cone);
-        return surface.Violated(direction) != default;
+        if (!IsSurface(placed, isA))
+            return false;
+        Place(placed, isA, out var surface);
+        surface.Bound(isA ? placed.ConeA : placed.ConeB);
+        return surface.Violated(isA ? -normal : normal) != default;
     }
 
     // Nothing is next to what is no triangle of a surface.
     static bool IsSurface(in PlacedChildren placed, bool isA) =>
         placed.AreKnown && (isA ? placed.TypeA : placed.TypeB) == Triangle.Id && (isA ? placed.ConeA : placed.ConeB).Cosines != default;
 
-    static TriangleSurface Place(in PlacedChildren placed, bool isA) => isA
-        ? new(placed.ShapeA.Read<Triangle>(), placed.OrientationA)
-        : new(placed.ShapeB.Read<Triangle>(), placed.OrientationB);
+    static void Place(in PlacedChildren placed, bool isA, out TriangleSurface surface)
+    {
+        Unsafe.SkipInit(out surface);
+        ref readonly var shape = ref isA ? ref placed.ShapeA : ref placed.ShapeB;
+        surface.Place(shape.Read<Triangle>(), isA ? placed.OrientationA : placed.OrientationB);
+    }
 
     /// <summary>A vector along the normal of a triangle.</summary>
-    public static Vector3 FaceVector(in PlacedChildren placed, bool isA) => Place(placed, isA).Face;
+    public static Vector3 FaceVector(in PlacedChildren placed, bool isA)
+    {
+        Place(placed, isA, out var surface);
+        return surface.Face;
+    }
 
     // Along the triangle's normal, as faces touch. No bound leans towards the normal, so that what is as near to it is beyond none.
     static bool IsFaceNormal(in Vector3 face, in Vector3 direction)
@@ -129,12 +133,12 @@ static class TriangleNeighbours
         return along > 0 && Exact.Dot(across, across) < beyond * beyond / 4 * Exact.Dot(face, face);
     }
 
-    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, int owner, BufferPool pool)
+    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, int owner, ref RankedChild child, BufferPool pool)
     {
         var direction = isA ? -normal : normal;
         // Two triangles that face each other do not meet any more once one has sunk into the other. What holds them then are the triangles beside them,
         // which stand on the face of the other mesh with their edges, along its normal.
-        var surface = Place(placed, isA);
+        Place(placed, isA, out var surface);
         if (IsFaceNormal(surface.Face, direction) || (placed.AreTriangles && IsFaceNormal(FaceVector(placed, !isA), -direction)))
             return;
         ref readonly var cone = ref isA ? ref placed.ConeA : ref placed.ConeB;
@@ -142,23 +146,64 @@ static class TriangleNeighbours
         // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
         if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine || surface.Violated(direction) == default)
             return;
-        Add(ref tests, placed, surface.Normal, isA, owner, pool);
-        if (cone.Sines == default)
-            return;
-        var clamped = direction;
-        for (int i = 0; i < MaximumClampCount && surface.Violated(clamped) is var bound && bound != default; ++i)
-            clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
-        if (surface.Violated(clamped) == default)
-            Add(ref tests, placed, clamped, isA, owner, pool);
-        for (int edge = 0; edge < 3; ++edge)
+        ref readonly var triangle = ref isA ? ref placed.ShapeA : ref placed.ShapeB;
+        ref readonly var shape = ref isA ? ref placed.ShapeB : ref placed.ShapeA;
+        surface.PlaceCorners(triangle.Read<Triangle>(), isA ? placed.OrientationA : placed.OrientationB);
+        var other = new ShapeReach(isA ? placed.TypeB : placed.TypeA, shape, isA ? placed.OrientationB : placed.OrientationA);
+        var center = isA ? -placed.OffsetB : placed.OffsetB;
+        var best = new LeastDirection(surface.Normal, DepthAlong(surface.Normal, surface, other, center));
+        if (cone.Sines != default)
         {
-            var (cosine, sine) = (cone.Cosines[edge], cone.Sines[edge]);
-            if (sine > 0 && surface.IsBound(edge))
-                Add(ref tests, placed, surface.Normal * cosine + surface.Outwards(edge) * sine, isA, owner, pool);
+            var clamped = direction;
+            for (int i = 0; i < MaximumClampCount && surface.Violated(clamped) is var bound && bound != default; ++i)
+                clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
+            if (surface.Violated(clamped) == default)
+                best.Add(clamped, DepthAlong(clamped, surface, other, center));
+            for (int edge = 0; edge < 3; ++edge)
+            {
+                var (cosine, sine) = (cone.Cosines[edge], cone.Sines[edge]);
+                if (sine > 0 && surface.IsBound(edge))
+                {
+                    var neighbours = surface.Normal * cosine + surface.Outwards(edge) * sine;
+                    best.Add(neighbours, DepthAlong(neighbours, surface, other, center));
+                }
+            }
         }
+        child.Class = 1;
+        if (HasNone(best, placed, surface, other, center))
+            child.IsOfNeighbours = true;
+        else
+            tests.Add(placed, isA ? -best.Direction : best.Direction, float.MaxValue, placed.SpeculativeMargin, owner, pool);
     }
 
-    // With contacts, though those of one direction are all that is taken: to find them apart would be another round, of which each set would have few lanes.
-    static void Add(ref DirectedTests tests, in PlacedChildren placed, in Vector3 direction, bool isA, int owner, BufferPool pool) =>
-        tests.Add(placed, isA ? -direction : direction, float.MaxValue, placed.SpeculativeMargin, owner, pool);
+    // By how much the two are in each other along a direction out of the triangle.
+    static float DepthAlong(in Vector3 direction, in TriangleSurface surface, in ShapeReach other, in Vector3 center) =>
+        Exact.Dot(center, direction) + surface.Along(direction) + other.Along(-direction);
+
+    // Whether there are no contacts for sure, without a test: the direction is the neighbours', or what touches is beside the triangle. What is near to that is
+    // tested.
+    static bool HasNone(in LeastDirection best, in PlacedChildren placed, in TriangleSurface surface, in ShapeReach other, in Vector3 center)
+    {
+        if (placed.AreTriangles)
+            return false;
+        if (Exact.Dot(best.Direction, surface.Normal) < LeastCosine)
+            return true;
+        if (!other.TryFindFeature(-best.Direction, out var feature))
+            return false;
+        var tolerance = Beside * (other.Size + surface.Size + Exact.Length(center));
+        return best.Depth < -placed.SpeculativeMargin - tolerance || surface.IsBeside(best.Direction, feature, center, tolerance);
+    }
+
+    // The direction of least depth of those that there are.
+    struct LeastDirection(in Vector3 direction, float depth)
+    {
+        public Vector3 Direction = direction;
+        public float Depth = depth;
+
+        public void Add(in Vector3 direction, float depth)
+        {
+            if (depth < Depth)
+                (Direction, Depth) = (direction, depth);
+        }
+    }
 }

@@ -17,7 +17,7 @@ struct TriangleSurface
     public const float Beyond = 1e-4f;
 
     /// <summary>A vector along the normal.</summary>
-    public readonly Vector3 Face;
+    public Vector3 Face;
     /// <summary>The normal; there once <see cref="Bound"/> was said.</summary>
     public Vector3 Normal;
 
@@ -37,19 +37,58 @@ struct TriangleSurface
     }
 
     // The edges; directions in the triangle's plane out of each; bounds of directions at each, zero where there is none.
-    readonly Lanes edges;
-    Lanes outwards, bounds;
-    // Length by which a corner must be nearer than the farthest not to be as far.
-    float slack;
+    Lanes edges, outwards, bounds;
+    /// <summary>Length of a side, if not of the longest, m; there once <see cref="Bound"/> was said.</summary>
+    public float Size;
+
+    // The corners, from the triangle's centre; there once PlaceCorners was said.
+    Lanes corners;
 
     /// <summary>Puts a triangle where it is.</summary>
     public TriangleSurface(in Triangle triangle, in Quaternion orientation)
+    {
+        Unsafe.SkipInit(out this);
+        Place(triangle, orientation);
+    }
+
+    /// <summary>Puts a triangle where it is, as one that is made anew, in place: three hundred bytes are not cleared and copied.</summary>
+    public void Place(in Triangle triangle, in Quaternion orientation)
     {
         var x = Vector128.Create(triangle.A.X, triangle.B.X, triangle.C.X, triangle.A.X);
         var y = Vector128.Create(triangle.A.Y, triangle.B.Y, triangle.C.Y, triangle.A.Y);
         var z = Vector128.Create(triangle.A.Z, triangle.B.Z, triangle.C.Z, triangle.A.Z);
         edges = Rotate(new(Next(x) - x, Next(y) - y, Next(z) - z), orientation);
         Face = Exact.Cross(edges[0], edges[2]);
+    }
+
+    /// <summary>Finds the corners.</summary>
+    public void PlaceCorners(in Triangle triangle, in Quaternion orientation)
+    {
+        corners = Rotate(new(
+            Vector128.Create(triangle.A.X, triangle.B.X, triangle.C.X, triangle.A.X),
+            Vector128.Create(triangle.A.Y, triangle.B.Y, triangle.C.Y, triangle.A.Y),
+            Vector128.Create(triangle.A.Z, triangle.B.Z, triangle.C.Z, triangle.A.Z)), orientation);
+    }
+
+    /// <summary>How far the corners reach along a direction from the centre, m.</summary>
+    public readonly float Along(in Vector3 direction)
+    {
+        var along = corners.Dot(direction);
+        return MathHelper.Max(along[0], MathHelper.Max(along[1], along[2]));
+    }
+
+    /// <summary>Whether a feature is beyond an edge, seen along a direction that leaves the triangle in front: no part of it is over the triangle.</summary>
+    /// <param name="direction">Unit direction.</param>
+    /// <param name="feature">The feature of another shape that faces the triangle.</param>
+    /// <param name="center">Centre of the triangle less that of the other shape, m.</param>
+    /// <param name="tolerance">What counts as over the triangle all the same, m.</param>
+    public readonly bool IsBeside(in Vector3 direction, in ReachFeature feature, in Vector3 center, float tolerance)
+    {
+        var across = edges.CrossedBy(direction);
+        var lengths = Vector128.Sqrt(across.X * across.X + across.Y * across.Y + across.Z * across.Z);
+        var beyond = across.Dot(feature.Middle - center) - (across.X * corners.X + across.Y * corners.Y + across.Z * corners.Z) -
+            Vector128.Abs(across.Dot(feature.U)) - Vector128.Abs(across.Dot(feature.V)) - Vector128.Create(feature.Radius + tolerance) * lengths;
+        return (Vector128.GreaterThan(beyond, Vector128<float>.Zero).ExtractMostSignificantBits() & 7) != 0;
     }
 
     // Of each lane the next.
@@ -80,7 +119,7 @@ struct TriangleSurface
             (outwards.X * cosines - Normal.X * sines) & isBound,
             (outwards.Y * cosines - Normal.Y * sines) & isBound,
             (outwards.Z * cosines - Normal.Z * sines) & isBound);
-        slack = Beyond * MathHelper.Max(Exact.Length(edges[0]), Exact.Length(edges[2]));
+        Size = MathHelper.Max(Exact.Length(edges[0]), Exact.Length(edges[2]));
     }
 
     /// <summary>The direction in the triangle's plane out of an edge.</summary>
@@ -99,7 +138,8 @@ struct TriangleSurface
         if ((isBeyond.ExtractMostSignificantBits() & 7) == 0)
             return default;
         var (reachB, reachC) = (Exact.Dot(direction, edges[0]), Exact.Dot(direction, -edges[2]));
-        var farthest = Vector128.Create(MathHelper.Max(0, MathHelper.Max(reachB, reachC)) - slack);
+        // A corner must be nearer than the farthest by that part of the size not to be as far.
+        var farthest = Vector128.Create(MathHelper.Max(0, MathHelper.Max(reachB, reachC)) - Beyond * Size);
         var starts = Vector128.Create(0, reachB, reachC, 0);
         var ends = Vector128.Create(reachB, reachC, 0, 0);
         var opposite = Vector128.Create(reachC, 0, reachB, 0);

@@ -29,7 +29,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
     [InlineData(1000, 0), InlineData(1000, 10), InlineData(1000, 100)]
     public void Each_suspect_is_looked_at_once(int count, int percent)
     {
-        var memory = new SeamMemory(pool);
+        var memory = new SeamMemory();
         var (results, placed) = (new ChildResult[PatchSet.Capacity + count], new PlacedChildren[count]);
         var children = results.AsSpan(PatchSet.Capacity);
         var suspectCount = Fill(children, placed, percent);

@@ -42,7 +42,7 @@ public sealed class DirectedPairTests : IDisposable
         return TShape.TypeId;
     }
 
-    static int Write(ref ShapeCopy copy, DepthSearchShape shape) => shape switch
+    internal static int Write(ref ShapeCopy copy, DepthSearchShape shape) => shape switch
     {
         DepthSearchShape.Typed<Sphere, SphereWide, SphereSupport> sphere => Write(ref copy, sphere.Shape),
         DepthSearchShape.Typed<Capsule, CapsuleWide, CapsuleSupport> capsule => Write(ref copy, capsule.Shape),
@@ -58,7 +58,7 @@ public sealed class DirectedPairTests : IDisposable
     {
         const int caseCount = 60;
         var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)((int)kindA * 6 + (int)kindB));
-        var tests = new DirectedTests(pool);
+        var tests = new DirectedTests();
         var shapes = new (ConvexShape A, ConvexShape B, ConvexPose Pose, float Margin)[caseCount];
         for (int i = 0; i < caseCount; ++i)
         {
@@ -120,7 +120,7 @@ public sealed class DirectedPairTests : IDisposable
     ConvexContactManifold Look<TShapeA, TShapeB>(TShapeA a, TShapeB b, Vector3 offsetB, Quaternion orientationA, Vector3 normal, float margin = .1f)
         where TShapeA : unmanaged, IConvexShape where TShapeB : unmanaged, IConvexShape
     {
-        var tests = new DirectedTests(pool);
+        var tests = new DirectedTests();
         var placed = new PlacedChildren { OffsetB = offsetB, OrientationA = orientationA, OrientationB = Quaternion.Identity };
         placed.TypeA = Write(ref placed.ShapeA, a);
         placed.TypeB = Write(ref placed.ShapeB, b);
@@ -189,7 +189,7 @@ public sealed class DirectedPairTests : IDisposable
     [Fact]
     public void No_contacts_are_found_beyond_the_depth_that_is_wanted()
     {
-        var tests = new DirectedTests(pool);
+        var tests = new DirectedTests();
         var placed = new PlacedChildren { OffsetB = new(0, -1.4f, 0), OrientationA = Quaternion.Identity, OrientationB = Quaternion.Identity };
         placed.TypeA = Write(ref placed.ShapeA, new Sphere(.5f));
         placed.TypeB = Write(ref placed.ShapeB, new Box(2, 2, 2));

@@ -48,7 +48,7 @@ public sealed class LonePatchTests
     public void A_child_that_is_alone_becomes_the_same_patch_either_way()
     {
         var pool = new BufferPool();
-        var memory = new SeamMemory(pool);
+        var memory = new SeamMemory();
         var (newCount, keptCount) = (0, 0);
         for (int i = 0; i < 500; ++i)
         {

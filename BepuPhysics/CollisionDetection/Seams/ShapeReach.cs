@@ -1,0 +1,177 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A convex shape as it lies in the world, and how far it reaches along directions, one direction after the other.</summary>
+/// <remarks>
+/// What <see cref="DirectionalDepth{TShapeWideA, TSupportA, TShapeWideB, TSupportB}"/> is for bundles that look for contacts: where nothing but the depth is
+/// asked for, as between the directions of a triangle's neighbours, closed forms for one shape need neither lanes nor a round.
+/// </remarks>
+unsafe struct ShapeReach
+{
+    // Part by which the two kinds of features of a cylinder, or two faces of a box, must differ in angle not to be mistaken for each other.
+    const float Distinct = 1e-3f;
+
+    readonly int typeId;
+    // Axes of a box; that of a capsule or a cylinder is Y. The corners of a triangle.
+    readonly Vector3 x, y, z;
+    // Half widths of a box; half the length of a capsule or a cylinder is Y. A radius is X.
+    readonly Vector3 half;
+    readonly Quaternion orientation;
+    readonly HullHeader* hull;
+
+    /// <summary>Puts a shape where it is.</summary>
+    /// <param name="typeId">Its type, one of those that can be copied.</param>
+    /// <param name="shape">The shape.</param>
+    /// <param name="orientation">Rotation from its frame to the world.</param>
+    public ShapeReach(int typeId, in ShapeCopy shape, in Quaternion orientation)
+    {
+        Unsafe.SkipInit(out this);
+        this.typeId = typeId;
+        switch (typeId)
+        {
+            case Sphere.Id:
+                half.X = shape.Read<Sphere>().Radius;
+                break;
+            case Capsule.Id:
+                var capsule = shape.Read<Capsule>();
+                (half.X, half.Y) = (capsule.Radius, capsule.HalfLength);
+                y = Exact.Rotate(Vector3.UnitY, orientation);
+                break;
+            case Box.Id:
+                var box = shape.Read<Box>();
+                half = new(box.HalfWidth, box.HalfHeight, box.HalfLength);
+                x = Exact.Rotate(Vector3.UnitX, orientation);
+                y = Exact.Rotate(Vector3.UnitY, orientation);
+                z = Exact.Rotate(Vector3.UnitZ, orientation);
+                break;
+            case Triangle.Id:
+                var triangle = shape.Read<Triangle>();
+                x = Exact.Rotate(triangle.A, orientation);
+                y = Exact.Rotate(triangle.B, orientation);
+                z = Exact.Rotate(triangle.C, orientation);
+                break;
+            case Cylinder.Id:
+                var cylinder = shape.Read<Cylinder>();
+                (half.X, half.Y) = (cylinder.Radius, cylinder.HalfLength);
+                y = Exact.Rotate(Vector3.UnitY, orientation);
+                break;
+            default:
+                hull = shape.Read<ConvexHull>().Header;
+                this.orientation = orientation;
+                break;
+        }
+    }
+
+    /// <summary>How far the shape reaches along a unit direction from its centre, m.</summary>
+    public readonly float Along(in Vector3 direction)
+    {
+        switch (typeId)
+        {
+            case Sphere.Id:
+                return half.X;
+            case Capsule.Id:
+                return MathF.Abs(Exact.Dot(y, direction)) * half.Y + half.X;
+            case Box.Id:
+                return MathF.Abs(Exact.Dot(x, direction)) * half.X + MathF.Abs(Exact.Dot(y, direction)) * half.Y +
+                    MathF.Abs(Exact.Dot(z, direction)) * half.Z;
+            case Triangle.Id:
+                return MathHelper.Max(Exact.Dot(x, direction), MathHelper.Max(Exact.Dot(y, direction), Exact.Dot(z, direction)));
+            case Cylinder.Id:
+                return MathF.Abs(Exact.Dot(y, direction)) * half.Y + Exact.Length(Exact.Cross(y, direction)) * half.X;
+            default:
+                return Along(hull, Exact.RotateByInverse(direction, orientation));
+        }
+    }
+
+    // The lanes after the last vertex of a hull hold copies.
+    static float Along(HullHeader* hull, in Vector3 direction)
+    {
+        var (x, y, z) = (new Vector<float>(direction.X), new Vector<float>(direction.Y), new Vector<float>(direction.Z));
+        var points = hull->Points;
+        var farthest = points->X * x + points->Y * y + points->Z * z;
+        for (int i = 1; i < hull->VertexBundleCount; ++i)
+            farthest = Wide.Max(farthest, points[i].X * x + points[i].Y * y + points[i].Z * z);
+        return Wide.SpreadGreatest(farthest)[0];
+    }
+
+    /// <summary>Distance from the centre that no point of the shape is beyond, m.</summary>
+    public readonly float Size => typeId switch
+    {
+        Sphere.Id => half.X,
+        Capsule.Id or Cylinder.Id => half.X + half.Y,
+        Box.Id => half.X + half.Y + half.Z,
+        Triangle.Id => Exact.Length(x) + Exact.Length(y) + Exact.Length(z),
+        _ => hull->OuterRadius,
+    };
+
+    /// <summary>Finds what of the shape faces a direction, and is looked for contacts.</summary>
+    /// <param name="direction">Unit direction out of the shape.</param>
+    /// <param name="feature">The feature, as a parallelogram around a point that is widened by a radius.</param>
+    /// <returns>Whether it is known: of hulls it is not, nor where two features face the direction alike.</returns>
+    public readonly bool TryFindFeature(in Vector3 direction, out ReachFeature feature)
+    {
+        feature = default;
+        switch (typeId)
+        {
+            case Sphere.Id:
+                return true;
+            case Capsule.Id:
+                feature.U = y * half.Y;
+                return true;
+            case Box.Id:
+                return TryFindFace(direction, ref feature);
+            case Cylinder.Id:
+                return TryFindSide(direction, ref feature);
+            default:
+                return false;
+        }
+    }
+
+    readonly bool TryFindFace(in Vector3 direction, ref ReachFeature feature)
+    {
+        var (alongX, alongY, alongZ) = (Exact.Dot(x, direction), Exact.Dot(y, direction), Exact.Dot(z, direction));
+        var (absoluteX, absoluteY, absoluteZ) = (MathF.Abs(alongX), MathF.Abs(alongY), MathF.Abs(alongZ));
+        if (absoluteX > absoluteY + Distinct && absoluteX > absoluteZ + Distinct)
+            (feature.Middle, feature.U, feature.V) = (x * MathF.CopySign(half.X, alongX), y * half.Y, z * half.Z);
+        else if (absoluteY > absoluteX + Distinct && absoluteY > absoluteZ + Distinct)
+            (feature.Middle, feature.U, feature.V) = (y * MathF.CopySign(half.Y, alongY), x * half.X, z * half.Z);
+        else if (absoluteZ > absoluteX + Distinct && absoluteZ > absoluteY + Distinct)
+            (feature.Middle, feature.U, feature.V) = (z * MathF.CopySign(half.Z, alongZ), x * half.X, y * half.Y);
+        else
+            return false;
+        return true;
+    }
+
+    // A cap, or the line of the side that faces the direction.
+    readonly bool TryFindSide(in Vector3 direction, ref ReachFeature feature)
+    {
+        var along = Exact.Dot(y, direction);
+        var across = direction - y * along;
+        var length = Exact.Length(across);
+        if (MathF.Abs(along) > length + Distinct)
+        {
+            feature.Middle = y * MathF.CopySign(half.Y, along);
+            feature.Radius = half.X;
+            return true;
+        }
+        if (MathF.Abs(along) > length - Distinct)
+            return false;
+        feature.Middle = across * (half.X / length);
+        feature.U = y * half.Y;
+        return true;
+    }
+}
+
+/// <summary>What of a shape faces a direction: a point, a line, a parallelogram or a disc, relative to the shape's centre.</summary>
+struct ReachFeature
+{
+    /// <summary>Its middle; from there to its sides.</summary>
+    public Vector3 Middle, U, V;
+    /// <summary>Radius of what is around all of these, m.</summary>
+    public float Radius;
+}

@@ -1,0 +1,143 @@
+using System;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
+using BepuUtilities.Memory;
+using Demos.References;
+using DemoTests.Support;
+using Xunit;
+
+namespace DemoTests.CollisionDetection.Seams;
+
+/// <summary>What is known of a direction in closed form, without a test, against a reference in double precision and against the test that is spared.</summary>
+public sealed unsafe class ShapeReachTests : IDisposable
+{
+    const int CaseCount = 200;
+    // Part of the sizes of both shapes together.
+    const double DepthRounding = 2e-6;
+
+    readonly BufferPool pool = new();
+
+    public void Dispose() => pool.Clear();
+
+    public static TheoryData<ConvexKind, ConvexKind> Pairs => DirectedPairTests.Pairs;
+
+    public static TheoryData<ConvexKind> Kinds => new(Enum.GetValues<ConvexKind>());
+
+    PlacedChildren Create(ConvexKind kindA, ConvexKind kindB, int number, ConvexRandom random, out Vector3 normal, out double depth, out double sizes)
+    {
+        var (sizeA, sizeB) = ConvexPoses.NextSizes(random);
+        var a = DepthSearchShapes.Create(kindA, ConvexGenerator.NextForm(random), sizeA, random, pool);
+        var b = DepthSearchShapes.Create(kindB, ConvexGenerator.NextForm(random), sizeB, random, pool);
+        var found = ConvexPoses.Create(a.Reference, b.Reference, (ConvexRegime)(number % Enum.GetValues<ConvexRegime>().Length), random);
+        var local = number % 3 == 2 ? random.NextDirection() : found.Depth.Normal + random.NextDirection() * (number % 3 * .2);
+        var rotationA = ConvexRotation.From(found.Pose.OrientationA);
+        normal = Vector3.Normalize(ConvexGenerator.ToVector(rotationA.Rotate(local)));
+        var placed = new PlacedChildren
+        {
+            OffsetB = found.Pose.OffsetB,
+            OrientationA = found.Pose.OrientationA,
+            OrientationB = found.Pose.OrientationB,
+        };
+        placed.TypeA = DirectedPairTests.Write(ref placed.ShapeA, a);
+        placed.TypeB = DirectedPairTests.Write(ref placed.ShapeB, b);
+        var localA = rotationA.RotateBack(normal);
+        var localB = ConvexRotation.From(found.Pose.OrientationB).RotateBack(normal);
+        depth = Double3.Dot(found.Pose.OffsetB, normal) + b.Reference.CoreExtent(localB) + b.Reference.Rounding +
+            a.Reference.CoreExtent(-localA) + a.Reference.Rounding;
+        sizes = a.Reference.OuterRadius + a.Reference.Middle.Length + b.Reference.OuterRadius + b.Reference.Middle.Length + found.Pose.OffsetB.Length();
+        return placed;
+    }
+
+    [Theory, MemberData(nameof(Pairs))]
+    public void Depths_are_those_of_the_reference(ConvexKind kindA, ConvexKind kindB)
+    {
+        var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)((int)kindA * 6 + (int)kindB));
+        for (int i = 0; i < CaseCount; ++i)
+        {
+            var placed = Create(kindA, kindB, i, random, out var normal, out var depth, out var sizes);
+            Assert.InRange(placed.DepthAlong(normal), depth - DepthRounding * sizes, depth + DepthRounding * sizes);
+        }
+    }
+
+    /// <summary>Where the feature of a shape is said to be beside a triangle, the test finds no contacts; and that is most of what has none.</summary>
+    [Theory, MemberData(nameof(Kinds))]
+    public void What_is_beside_a_triangle_has_no_contacts(ConvexKind kind)
+    {
+        const float tolerance = 1e-4f;
+        var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)(200 + (int)kind));
+        var tests = new DirectedTests();
+        var isBeside = new bool[CaseCount];
+        for (int i = 0; i < CaseCount; ++i)
+        {
+            var placed = Create(kind, ConvexKind.Triangle, 2, random, out _, out _, out _);
+            var triangle = placed.ShapeB.Read<Triangle>();
+            var surface = new TriangleSurface(triangle, placed.OrientationB);
+            surface.Bound(default);
+            surface.PlaceCorners(triangle, placed.OrientationB);
+            // Leans by up to a radian, and touches it or is at any place near.
+            var direction = Vector3.Normalize(surface.Normal + ConvexGenerator.ToVector(random.NextDirection()) * .8f);
+            var reach = new ShapeReach(placed.TypeA, placed.ShapeA, placed.OrientationA);
+            var size = reach.Size + surface.Size;
+            var place = (.7f * size) * ConvexGenerator.ToVector(random.NextDirection());
+            placed.OffsetB = place - direction * (Vector3.Dot(place, direction) + surface.Along(direction) + reach.Along(-direction) - .01f * size);
+            isBeside[i] = reach.TryFindFeature(-direction, out var feature) &&
+                surface.IsBeside(direction, feature, placed.OffsetB, tolerance * (size + placed.OffsetB.Length()));
+            tests.Add(placed, direction, float.MaxValue, size, i, pool);
+        }
+        tests.Execute();
+        var (beside, without) = (0, 0);
+        for (int i = 0; i < CaseCount; ++i)
+        {
+            Assert.False(isBeside[i] && tests[i].Manifold.Count > 0, $"{i}");
+            beside += isBeside[i] ? 1 : 0;
+            without += tests[i].Manifold.Count == 0 ? 1 : 0;
+        }
+        if (kind is not (ConvexKind.Hull or ConvexKind.Triangle))
+            Assert.InRange(beside, Math.Max(1, without / 2), without);
+        tests.Dispose(pool);
+    }
+
+    /// <summary>A ball on one of two triangles of a floor is beside the other, whose edge is near: nothing is looked at for that.</summary>
+    [Fact]
+    public void A_ball_beside_an_edge_asks_for_no_test()
+    {
+        var memory = new SeamMemory();
+        var ball = new Sphere(.3f);
+        Triangle[] triangles = [new(new(0, 0, 0), new(1, 0, 0), new(0, 0, 1)), new(new(1, 0, 0), new(1, 0, 1), new(0, 0, 1))];
+        var (results, placed) = (new ChildResult[triangles.Length], new PlacedChildren[triangles.Length]);
+        var center = new Vector3(.4f, .29f, .4f);
+        for (int i = 0; i < triangles.Length; ++i)
+        {
+            fixed (Triangle* triangle = &triangles[i])
+            {
+                placed[i].Write(new ChildShapes
+                {
+                    TypeA = Sphere.Id,
+                    ShapeA = &ball,
+                    TypeB = Triangle.Id,
+                    ShapeB = triangle,
+                    OffsetB = -center,
+                    OrientationA = Quaternion.Identity,
+                    OrientationB = Quaternion.Identity,
+                    ConeB = new() { Cosines = Vector3.One },
+                }, default, moverIsB: false, .1f);
+            }
+            var nearest = i == 0 ? center with { Y = 0 } : new Vector3(.5f, 0, .5f);
+            results[i].Children = new(0, i);
+            results[i].Manifold.Count = 1;
+            results[i].Manifold.Normal = Vector3.Normalize(center - nearest);
+            results[i].Manifold.Contact0 = new() { Offset = nearest - center, Depth = ball.Radius - (center - nearest).Length() };
+        }
+        fixed (ChildResult* first = results)
+        fixed (PlacedChildren* places = placed)
+        {
+            memory.Add(first, places, triangles.Length, owner: 0, pool);
+            SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
+        }
+        Assert.Equal((1, 0), (results[0].Manifold.Count, results[1].Manifold.Count));
+        Assert.Equal(0, memory.Tests.FoundCount);
+        memory.Dispose(pool);
+    }
+}
