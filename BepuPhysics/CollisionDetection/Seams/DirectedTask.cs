@@ -83,8 +83,8 @@ sealed unsafe class DirectedTask<TShapeA, TShapeWideA, TSupportA, TFeatureA, TSh
         DirectionalDepth<TShapeWideA, TSupportA, TShapeWideB, TSupportB>.Measure(
             bundle.A, bundle.B, localOffsetB, localAxesB, localNormal, TakesPointOfB(bundle.A, bundle.B), done, out var depth, out var point);
         var least = depth;
-        // Where the direction itself has decided, or nothing but the depth is asked for, no other is looked along.
-        var isOpen = Vector.AndNot(~Vector.LessThanOrEqual(depth, greatest) & Vector.GreaterThan(greatest, new Vector<float>(float.MinValue)), done);
+        // Where the direction itself has decided no other is looked along.
+        var isOpen = Vector.AndNot(~Vector.LessThanOrEqual(depth, greatest), done);
         var looksOn = Vector.LessThanAny(isOpen, Vector<int>.Zero);
         var (faceOfA, faceOfB) = (localNormal, localNormal);
         if (TFeatureA.MaximumVertexCount > 2 && (looksOn || findsFaceOfA))

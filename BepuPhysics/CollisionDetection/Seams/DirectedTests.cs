@@ -28,7 +28,7 @@ unsafe struct DirectedTests
     /// <summary>Adds a pair.</summary>
     /// <param name="children">The two shapes.</param>
     /// <param name="normal">Unit direction in world axes, from B to A.</param>
-    /// <param name="greatestDepth">Depth up to which contacts are wanted, m; less than the negated margin, if only the depth is.</param>
+    /// <param name="greatestDepth">Depth up to which contacts are wanted, m.</param>
     /// <param name="speculativeMargin">Greatest distance at which a contact exists, m.</param>
     /// <param name="owner">What the pair is of.</param>
     /// <param name="pool">Source of memory.</param>
