@@ -234,7 +234,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             var bouncing = workers[order[i].Worker].Bouncing[order[i].Index];
             // A pair that asks for it may be hit besides.
             for (next = i + 1; next < order.Count && order[next].Key == order[i].Key; ++next)
-                bouncing.Coefficient = MathHelper.Max(bouncing.Coefficient, workers[order[next].Worker].Bouncing[order[next].Index].Coefficient);
+            {
+                ref var other = ref workers[order[next].Worker].Bouncing[order[next].Index];
+                bouncing.Coefficient = MathHelper.Max(bouncing.Coefficient, other.Coefficient);
+                bouncing.LeastHit = MathHelper.Min(bouncing.LeastHit, other.LeastHit);
+            }
             var index = Pairs.Pairs.IndexOf(bouncing.Pair);
             // Statics beside it have taken its contacts.
             if (index < 0)
@@ -242,7 +246,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             foreach (ref var manifold in Pairs.ManifoldsOf(index))
             {
                 if (manifold.HasConstraint)
-                    Restitution.Watch(manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId), bouncing.Coefficient);
+                    Restitution.Watch(
+                        manifold.Constraint, ConstraintTypeIds.ContactCount(manifold.ConstraintTypeId), bouncing.Coefficient, bouncing.LeastHit);
             }
         }
     }

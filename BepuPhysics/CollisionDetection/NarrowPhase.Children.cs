@@ -173,7 +173,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         }
         tested.MayCarry = !TCallbacks.DecidesOnChildren && worker.Batcher.MayCarry && !tested.IsImpact;
-        tested.IsExact |= worker.Batcher.HitsThin || HitsCorner(tested.Pair, results);
+        if (worker.Batcher.HitsThin || HitsCorner(tested.Pair, results))
+        {
+            tested.IsExact = true;
+            tested.LeastHit = 0;
+        }
         if (tested.IsImpact)
             MoveBack(tested, results);
         if (HasParentHistory(tested))
@@ -311,7 +315,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             manifold = ref results[only].Manifold;
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref manifold, out material) || manifold.Count == 0)
             return false;
-        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
+        NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, manifold, material);
         return true;
     }
@@ -324,7 +328,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (!Callbacks.ConfigureContactManifold(workerIndex, tested.Pair, ref view.Nonconvex, out material) || view.Nonconvex.Count == 0)
             return false;
         CallbackChecks.Count(tested.Pair, view.Nonconvex.Count, NonconvexContactManifold.MaximumContactCount);
-        NoteSurface(workerIndex, tested.Pair, ref view.Nonconvex, tested.IsExact);
+        NoteSurface(workerIndex, tested, ref view.Nonconvex);
         view.TakeOver();
         foreach (ref var result in results)
         {

@@ -19,7 +19,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     const float FastPartOfRadius = .02f;
     // How much longer than the step is looked ahead: what pushes may hasten an impact, and a contact that is not reached does nothing.
     const float Lookahead = 1.25f;
-    // Parts of the thinner shape's inner radius: how far around an impact contacts are looked for, how near is nearby, and how exact an impact is at least.
+    // Parts of the thinner shape's inner radius: how far around an impact contacts are looked for, how near is nearby, how exact an impact is at least, and
+    // by how much what is hit comes nearer in a substep at least.
+    const float LeastHitPart = 1e-2f;
     const float MarginPart = .5f;
     const float NearPart = .02f;
     const float ExactnessPart = 1e-3f;
@@ -55,11 +57,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <param name="poseA">Where A is.</param>
     /// <param name="poseB">Where B is.</param>
     /// <param name="placed">Where they will touch.</param>
+    /// <param name="isApart">Whether it is known that they have no contacts where they are.</param>
     /// <returns>Whether they do; otherwise they are to be tested where they are.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
     bool TryPlaceAtImpact(int workerIndex, ref TestedPair tested, TypedIndex shapeA, TypedIndex shapeB, in RigidPose poseA, in RigidPose poseB,
-        ref ImpactPoses placed)
+        ref ImpactPoses placed, out bool isApart)
     {
+        isApart = false;
         var dt = workers[workerIndex].Batcher.Dt;
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
         if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed, out var gate))
@@ -69,16 +73,24 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         // A sensor is passed: nothing is foreseen of it.
         tested.IsExact = !tested.IsSensor;
+        tested.LeastHit = LeastHitPart * inner;
         if (!SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
             return false;
         Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner, IsSensor = tested.IsSensor }, workers[workerIndex].Pool);
         if (tested.IsSensor)
             return false;
-        if (tested.Pair.B.Mobility == CollidableMobility.Static)
+        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
+        void* pointerA = batchA.GetPointer(shapeA.Index), pointerB = batchB.GetPointer(shapeB.Index);
+        var offsetB = poseB.Position - poseA.Position;
+        var balls = new BallWays();
+        var isStill = tested.Pair.B.Mobility == CollidableMobility.Static;
+        balls.TrySet(shapeA.Type, pointerA, shapeB.Type, pointerB, poseB.Orientation, !isStill);
+        if (isStill)
             FastPairs.SetStill(ref gate, tested.Pair.B, shapeB, poseB);
         if (!gate.MayMeet(new(poseA.Position), new(poseB.Position), new(velocityA.Linear), new(velocityB.Linear), dt * (double)Lookahead))
         {
             tested.SpeculativeMargin = MathHelper.Min(tested.SpeculativeMargin, NearPart * inner);
+            isApart = balls.AreFartherApartThan(new(offsetB), tested.SpeculativeMargin);
             return false;
         }
         // What slides along several things that do not give way agrees with all of them.
@@ -89,20 +101,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (other.Mode == ContinuousDetectionMode.Continuous && (continuity.Mode != ContinuousDetectionMode.Continuous ||
             other.MinimumSweepTimestep < continuity.MinimumSweepTimestep))
             continuity = other;
-        var offsetB = poseB.Position - poseA.Position;
         var maximumT = dt * (double)Lookahead;
         var convergence = LimitTime(continuity.SweepConvergenceThreshold, ExactnessPart * inner / speed);
-        var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
-        void* pointerA = batchA.GetPointer(shapeA.Index), pointerB = batchB.GetPointer(shapeB.Index);
-        var balls = new BallWays();
-        var moves = tested.Pair.B.Mobility != CollidableMobility.Static;
-        if (balls.TrySet(shapeA.Type, pointerA, shapeB.Type, pointerB, poseB.Orientation, moves))
+        if (balls.Exists)
         {
             DoubleVector3 linearA = new(velocityA.Linear), linearB = new(velocityB.Linear);
             var touching = Math.Max(convergence * speed, ImpactPair.TouchingPart * inner);
             if (!balls.TryFind(0, new(offsetB), linearA, linearB, touching, out var time) ||
                 !Touches(ref tested, time <= maximumT, time, inner))
+            {
+                isApart = balls.AreFartherApartThan(new(offsetB), tested.SpeculativeMargin);
                 return false;
+            }
             // Nobody asks how a ball is turned.
             placed.A = new(default, poseA.Orientation);
             placed.B = new((new DoubleVector3(offsetB) + (linearB - linearA) * time).ToSingle(), poseB.Orientation);
@@ -130,6 +140,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         placed.A = new(default, BodyTurn.Turn(poseA.Orientation, motion.AngularA, hit.T));
         placed.B = new((motion.OffsetB + (motion.LinearB - motion.LinearA) * hit.T).ToSingle(), BodyTurn.Turn(poseB.Orientation, motion.AngularB, hit.T));
         return true;
+    }
+
+    // What a test would say of balls that are apart. They keep no history.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void CompleteApart(int workerIndex, in TestedPair tested, in Vector3 offsetB)
+    {
+        var manifold = new ConvexContactManifold { OffsetB = offsetB };
+        Complete(workerIndex, tested, ref manifold);
     }
 
     // What does not touch has contacts only where it is as good as touching.

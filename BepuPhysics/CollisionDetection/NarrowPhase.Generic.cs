@@ -160,6 +160,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.HasHistory = false;
         tested.IsSensor = isSensor;
         tested.MayCarry = tested.IsCarried = tested.IsExact = tested.IsImpact = false;
+        tested.LeastHit = 0;
         tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
         if (tested.IsAtSeam)
@@ -167,11 +168,16 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Unsafe.SkipInit(out ImpactPoses placed);
         if (mode >= ContinuousDetectionMode.Continuous)
         {
-            if (TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed))
+            if (TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed, out var isApart))
             {
                 poseA = ref placed.A;
                 poseB = ref placed.B;
                 offsetB = poseB.Position;
+            }
+            else if (isApart)
+            {
+                CompleteApart(workerIndex, tested, offsetB);
+                return;
             }
             margin = tested.SpeculativeMargin;
         }
@@ -254,7 +260,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             throw new NotSupportedException($"Manifolds of type {typeof(TManifold).Name} have no constraint.");
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
+        NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
         Complete(ref worker, tested, convex, material, StaticPairs.Nothing, default);
     }
@@ -303,7 +309,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         }
         ref var worker = ref workers[workerIndex];
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
-        NoteSurface(workerIndex, tested.Pair, ref manifold, tested.IsExact);
+        NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
         var isOfGame = !BytesOf.AreEqual(shown, manifold);
         var index = worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
@@ -320,16 +326,16 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, ref TManifold manifold, bool isExact = false)
+    void NoteSurface<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
-        if (surface.Restitution == 0 && !surface.ExactImpacts && !isExact)
+        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, tested.Pair, ref manifold);
+        if (surface.Restitution == 0 && !surface.ExactImpacts && !tested.IsExact)
             return;
-        CallbackChecks.Restitution(pair, surface.Restitution);
+        CallbackChecks.Restitution(tested.Pair, surface.Restitution);
         ref var worker = ref workers[workerIndex];
         var coefficient = surface.ExactImpacts ? MathHelper.Max(surface.Restitution, Restitution.LeastCoefficient) : surface.Restitution;
-        Note(ref worker.Bouncing, new() { Pair = pair, Coefficient = coefficient }, worker.Pool);
+        Note(ref worker.Bouncing, new() { Pair = tested.Pair, Coefficient = coefficient, LeastHit = coefficient > 0 ? 0 : tested.LeastHit }, worker.Pool);
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.

@@ -42,6 +42,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         public CollidablePair Pair { get; init; }
         public float Coefficient;
+        public float LeastHit;
     }
 
     // Where a note is, with the key by which all are put in order.

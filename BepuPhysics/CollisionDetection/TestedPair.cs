@@ -25,6 +25,9 @@ struct TestedPair
     /// <summary>Whether impacts of the pair are made exactly (<see cref="ThinImpacts"/>, <see cref="CornerHits"/>, and what is fast).</summary>
     public bool IsExact;
 
+    /// <summary>What is fast, and comes nearer by less than this in a substep, has no impact: the solver stops it as it stops all that rests, m.</summary>
+    public float LeastHit;
+
     /// <summary>Whether the pair is tested where it will touch; then its contacts are those of that time.</summary>
     public bool IsImpact;
 

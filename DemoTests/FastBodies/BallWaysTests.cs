@@ -52,6 +52,12 @@ public unsafe class BallWaysTests
             SweepPairs.Test(motion, Sphere.Id, &a, typeB, (void*)shapeB, ref filter, null!, pool, out var hit);
             var ways = new BallWays();
             Assert.True(ways.TrySet(Sphere.Id, &a, typeB, (void*)shapeB, orientation, moves: !isPlane));
+            // What tells quickly that there is nothing to find lets all pass that there is.
+            if (hit.Overlaps || hit.Exists)
+            {
+                Assert.True(isPlane || ways.MayMeet(motion.OffsetB, motion.LinearA - motion.LinearB, Dt, Touching));
+                Assert.True(ways.ApartUntil(motion.OffsetB, motion.LinearA, motion.LinearB, Touching) <= (hit.Overlaps ? 0 : hit.T + 1e-9));
+            }
             var isApart = ways.TryFind(part, motion.OffsetB, motion.LinearA, motion.LinearB, Touching, out var time);
             Assert.Equal(hit.Overlaps, !isApart);
             if (hit.Overlaps)
@@ -95,15 +101,36 @@ public unsafe class BallWaysTests
         ways.TrySet(Sphere.Id, &ball, Sphere.Id, &ball, Quaternion.Identity, moves: true);
         // They pass each other at .3 m, surfaces .1 m apart.
         DoubleVector3 offset = new(1, .3, 0), linear = new(200, 0, 0);
-        Assert.True(ways.StayApart(offset, linear, default, Dt, .0999));
-        Assert.False(ways.StayApart(offset, linear, default, Dt, .1001));
-        Assert.True(ways.StayApart(offset, linear, default, .003, .1001));
+        Assert.True(ways.ApartUntil(offset, linear, default, .0999) > Dt);
+        Assert.False(ways.ApartUntil(offset, linear, default, .1001) > Dt);
+        Assert.True(ways.ApartUntil(offset, linear, default, .1001) > .003);
         var floor = new HalfSpace(Vector3.UnitY);
         ways.TrySet(Sphere.Id, &ball, HalfSpace.Id, &floor, Quaternion.Identity, moves: false);
         // From .5 m to .3 m above it.
         DoubleVector3 below = new(0, -.5, 0), falling = new(50, -20, 0);
-        Assert.True(ways.StayApart(below, falling, default, Dt, .1999));
-        Assert.False(ways.StayApart(below, falling, default, Dt, .2001));
+        Assert.True(ways.ApartUntil(below, falling, default, .1999) > Dt);
+        Assert.False(ways.ApartUntil(below, falling, default, .2001) > Dt);
+    }
+
+    /// <summary>What is beside the way, too slow for it, or on its way away does not meet; what is farther apart than a margin is known to be.</summary>
+    [Fact]
+    public void WhatIsFarIsToldAtOnce()
+    {
+        var ball = new Sphere(.1f);
+        var ways = new BallWays();
+        ways.TrySet(Sphere.Id, &ball, Sphere.Id, &ball, Quaternion.Identity, moves: true);
+        Assert.True(ways.MayMeet(new(1, .199, 0), new(200, 0, 0), Dt, Touching));
+        Assert.False(ways.MayMeet(new(1, .201, 0), new(200, 0, 0), Dt, Touching));
+        Assert.True(ways.MayMeet(new(1, 0, 0), new(80.1, 0, 0), Dt, Touching));
+        Assert.False(ways.MayMeet(new(1, 0, 0), new(79.9, 0, 0), Dt, Touching));
+        Assert.False(ways.MayMeet(new(1, 0, 0), new(-200, 0, 0), Dt, Touching));
+        Assert.True(ways.AreFartherApartThan(new(.4, .3, 0), .299f));
+        Assert.False(ways.AreFartherApartThan(new(.4, .3, 0), .301f));
+        var floor = new HalfSpace(Vector3.UnitY);
+        ways.TrySet(Sphere.Id, &ball, HalfSpace.Id, &floor, Quaternion.Identity, moves: false);
+        Assert.True(ways.AreFartherApartThan(new(0, -.5, 0), .399f));
+        Assert.False(ways.AreFartherApartThan(new(0, -.5, 0), .401f));
+        Assert.False(new BallWays().AreFartherApartThan(new(0, -.5, 0), 0));
     }
 
     // Between the cores at a time: above a plane, or between two balls.

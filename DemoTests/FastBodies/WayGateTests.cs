@@ -99,6 +99,8 @@ public unsafe class WayGateTests
         var filter = new All();
         var pool = new BufferPool();
         SweepPairs.Test(motion, Sphere.Id, &ball, typeB, (void*)shapeB, ref filter, null!, pool, out var hit);
+        if (hit.Exists)
+            Assert.InRange(gate.ApartUntil(new(positionA), new(positionB), motion.LinearA, motion.LinearB, dt, 0), 0, hit.T);
         return (hit.Exists, gate.MayMeet(new(positionA), new(positionB), motion.LinearA, motion.LinearB, dt));
     }
 }

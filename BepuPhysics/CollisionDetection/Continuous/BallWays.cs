@@ -43,14 +43,43 @@ unsafe struct BallWays
         return true;
     }
 
-    /// <summary>Whether they stay apart in a time, by a distance to spare.</summary>
+    /// <summary>Time up to which they stay apart by a distance to spare, s: zero if they begin nearer, infinite if they never come so near.</summary>
     /// <param name="offsetB">Position of B less that of A at the time zero, m.</param>
     /// <param name="linearA">Velocity of A, m/s.</param>
     /// <param name="linearB">Velocity of B, m/s.</param>
-    /// <param name="dt">The time, s.</param>
     /// <param name="spare">The distance, m.</param>
-    public readonly bool StayApart(in DoubleVector3 offsetB, in DoubleVector3 linearA, in DoubleVector3 linearB, double dt, double spare) =>
-        TryFind(radiusA + radiusB + spare, offsetB, linearA - linearB, 0, out var time) && time > dt;
+    public readonly double ApartUntil(in DoubleVector3 offsetB, in DoubleVector3 linearA, in DoubleVector3 linearB, double spare) =>
+        TryFind(radiusA + radiusB + spare, offsetB, linearA - linearB, 0, out var time) ? time : 0;
+
+    /// <summary>Whether they are farther apart than a margin, beyond the rounding of any test; nothing is known of what is no pair of balls.</summary>
+    /// <param name="offsetB">Position of B less that of A, m.</param>
+    /// <param name="margin">The margin, m.</param>
+    public readonly bool AreFartherApartThan(in DoubleVector3 offsetB, float margin)
+    {
+        if (!Exists)
+            return false;
+        var length = offsetB.Length;
+        return (isPlane ? -DoubleVector3.Dot(normal, offsetB) : length) - length * RoundingPart > (radiusA + radiusB + margin) * (1 + RoundingPart);
+    }
+
+    // Far more than floats leave of a distance.
+    const double RoundingPart = 1e-4;
+
+    /// <summary>Whether two balls may touch in a time: by how far apart they are, and by how fast.</summary>
+    /// <param name="offsetB">Position of B less that of A at the time zero, m.</param>
+    /// <param name="linear">Velocity of A less that of B, m/s.</param>
+    /// <param name="dt">The time, s.</param>
+    /// <param name="touching">Distance that counts as touching, m.</param>
+    // At the nearest point of their ways, or at the end of the time, whichever comes first; with more to spare than rounding takes.
+    public readonly bool MayMeet(in DoubleVector3 offsetB, in DoubleVector3 linear, double dt, double touching)
+    {
+        var reach = (radiusA + radiusB) * (1 + RoundingPart) + 2 * touching;
+        double along = DoubleVector3.Dot(offsetB, linear), speed = DoubleVector3.Dot(linear, linear);
+        var distance = DoubleVector3.Dot(offsetB, offsetB);
+        if (along > 0)
+            distance -= along >= speed * dt ? (2 * along - speed * dt) * dt : along * along / speed;
+        return distance <= reach * reach + RoundingPart * RoundingPart * DoubleVector3.Dot(offsetB, offsetB);
+    }
 
     /// <summary>Finds when they touch.</summary>
     /// <param name="part">Part by which the cores are thinner.</param>

@@ -1,78 +1,91 @@
-using System.Numerics;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Which of numbered pairs meets first, while the times of some change.</summary>
-// A tree over the times in the order of numbers, in which each node has the earlier one of its two: a change goes up one path, and of equal times the one of
-// the lowest number is found, whatever came before.
+// A binary heap of those that meet at all, which are few. Of equal times that of the lowest number is found, whatever came before.
 struct EarliestTime(BufferPool pool)
 {
-    // Node 1 is the root, nodes 2 i and 2 i + 1 are below node i, and the times are the last half.
-    QuickList<double> nodes = new(32, pool);
+    struct Meeting
+    {
+        public double Time;
+        public int Number;
+    }
 
-    int LeafCount => nodes.Count / 2;
+    QuickList<Meeting> heap = new(16, pool);
+    // Of each number its place in the heap, or -1.
+    QuickList<int> places = new(16, pool);
 
     /// <summary>Begins with numbers that never meet.</summary>
     public void Clear(int count, BufferPool pool)
     {
-        nodes.Count = 0;
-        var size = 2 * (int)BitOperations.RoundUpToPowerOf2((uint)count);
-        nodes.EnsureCapacity(size, pool);
-        nodes.Count = size;
-        nodes.AsSpan().Fill(FastPair.Never);
-    }
-
-    /// <summary>Sets a time before <see cref="Arrange"/>.</summary>
-    public void Note(int number, double time) => nodes[LeafCount + number] = time;
-
-    /// <summary>Makes ready for <see cref="First"/>, when all is noted.</summary>
-    public void Arrange()
-    {
-        for (int i = LeafCount - 1; i > 0; --i)
-            nodes[i] = EarlierBelow(i);
+        heap.Count = 0;
+        places.EnsureCapacity(count, pool);
+        places.Count = count;
+        places.AsSpan().Fill(-1);
     }
 
     /// <summary>Adds the next number.</summary>
     public void Add(int number, double time, BufferPool pool)
     {
-        if (number >= LeafCount)
-        {
-            var old = LeafCount;
-            nodes.EnsureCapacity(4 * old, pool);
-            nodes.Count = 4 * old;
-            nodes.AsSpan().Slice(old, old).CopyTo(nodes.AsSpan()[(2 * old)..]);
-            nodes.AsSpan()[(3 * old)..].Fill(FastPair.Never);
-            Arrange();
-        }
-        Change(number, time);
+        places.Add(-1, pool);
+        Change(number, time, pool);
     }
 
     /// <summary>Changes a time.</summary>
-    public void Change(int number, double time)
+    public void Change(int number, double time, BufferPool pool)
     {
-        var node = LeafCount + number;
-        nodes[node] = time;
-        while ((node /= 2) > 0)
-            nodes[node] = EarlierBelow(node);
-    }
-
-    /// <summary>The number with the earliest time, the lowest if there are several; -1 if nothing meets.</summary>
-    public int First
-    {
-        get
+        var place = places[number];
+        if (time < FastPair.Never)
         {
-            if (!(nodes[1] < FastPair.Never))
-                return -1;
-            var node = 1;
-            while (node < LeafCount)
-                node = nodes[2 * node] <= nodes[2 * node + 1] ? 2 * node : 2 * node + 1;
-            return node - LeafCount;
+            if (place < 0)
+            {
+                place = heap.Count;
+                heap.Add(default, pool);
+            }
+            Settle(place, new() { Time = time, Number = number });
+        }
+        else if (place >= 0)
+        {
+            places[number] = -1;
+            var last = heap[heap.Count - 1];
+            --heap.Count;
+            if (place < heap.Count)
+                Settle(place, last);
         }
     }
 
-    double EarlierBelow(int node) => nodes[2 * node] <= nodes[2 * node + 1] ? nodes[2 * node] : nodes[2 * node + 1];
+    /// <summary>The number with the earliest time, the lowest if there are several; -1 if nothing meets.</summary>
+    public readonly int First => heap.Count > 0 ? heap[0].Number : -1;
 
-    public void Dispose(BufferPool pool) => nodes.Dispose(pool);
+    // Puts a meeting where one has gone.
+    readonly void Settle(int place, in Meeting meeting)
+    {
+        for (; place > 0 && Precedes(meeting, heap[(place - 1) / 2]); place = (place - 1) / 2)
+            Put(place, heap[(place - 1) / 2]);
+        for (int child; (child = 2 * place + 1) < heap.Count; place = child)
+        {
+            if (child + 1 < heap.Count && Precedes(heap[child + 1], heap[child]))
+                ++child;
+            if (!Precedes(heap[child], meeting))
+                break;
+            Put(place, heap[child]);
+        }
+        Put(place, meeting);
+    }
+
+    readonly void Put(int place, in Meeting meeting)
+    {
+        heap[place] = meeting;
+        places[meeting.Number] = place;
+    }
+
+    static bool Precedes(in Meeting a, in Meeting b) => a.Time != b.Time ? a.Time < b.Time : a.Number < b.Number;
+
+    public void Dispose(BufferPool pool)
+    {
+        heap.Dispose(pool);
+        places.Dispose(pool);
+    }
 }

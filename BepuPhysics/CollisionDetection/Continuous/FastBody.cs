@@ -7,31 +7,15 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>The way of a body in a substep: from where it was at its beginning, or at its last impact, to where it is at its end.</summary>
 struct FastBody
 {
-    /// <summary>Index in the active set.</summary>
-    public int Index;
-    /// <summary>Where the body was at the end of the last substep, of which it is known that nothing was passed: from there it is swept.</summary>
-    public Vector3 CheckedPosition;
-    /// <summary>See <see cref="CheckedPosition"/>.</summary>
-    public Quaternion CheckedOrientation;
     /// <summary>Time from which on the way is known, s from the beginning of the substep.</summary>
     public double Time;
     /// <summary>Where the body is at that time.</summary>
     public DoubleVector3 Position;
-    /// <summary>Its orientation at that time.</summary>
-    public Quaternion Orientation;
     /// <summary>
     /// Constant velocities that take it from there to its end, m/s and rad/s. What turns otherwise comes to the same end. That of a ball's turn is not known
     /// before its first impact: nothing asks for it until then.
     /// </summary>
     public DoubleVector3 Linear, Angular;
-    /// <summary>Orientation and velocity at the end of the substep.</summary>
-    public Quaternion EndOrientation;
-    /// <summary>See <see cref="EndOrientation"/>.</summary>
-    public BodyVelocity Velocity;
-    /// <summary>Inverse inertia in the frame of the body.</summary>
-    public BodyInertia Inertia;
-    /// <summary>Radius around the centre that its shape does not leave, m; that of the shape's farthest turning point, 0 for a ball.</summary>
-    public double Radius, TurningRadius;
     /// <summary>Velocity that its bounds contain, m/s, and how fast it may turn about any axis, rad/s.</summary>
     public DoubleVector3 ForeseenLinear;
     /// <summary>See <see cref="ForeseenLinear"/>.</summary>
@@ -40,14 +24,34 @@ struct FastBody
     public DoubleVector3 FreeChange;
     /// <summary>Greatest speed by which it may move otherwise than its bounds have foreseen, m/s.</summary>
     public double UnforeseenSpeed;
+    /// <summary>Radius around the centre that its shape does not leave, m; that of the shape's farthest turning point, 0 for a ball.</summary>
+    public double Radius, TurningRadius;
+    /// <summary>Index in the active set.</summary>
+    public int Index;
     /// <summary>Which of those it is whom the solver has thrown aside in the substep, or -1.</summary>
     public int Look;
     /// <summary>Whether its shape is a ball.</summary>
     public bool IsBall;
     /// <summary>Whether it may have neighbours whom nobody watches: it looks for them even where it has not left its bounds.</summary>
     public bool MayHaveOthers;
+    /// <summary>Whether it has looked around in this step.</summary>
+    public bool HasLooked;
     /// <summary>Whether an impact has changed its way.</summary>
     public bool HasChanged;
+    /// <summary>Where it has looked around last.</summary>
+    public BoundingBox Searched;
+    /// <summary>Where the body was at the end of the last substep, of which it is known that nothing was passed: from there it is swept.</summary>
+    public Vector3 CheckedPosition;
+    /// <summary>See <see cref="CheckedPosition"/>.</summary>
+    public Quaternion CheckedOrientation;
+    /// <summary>Its orientation at the time from which on the way is known.</summary>
+    public Quaternion Orientation;
+    /// <summary>Orientation and velocity at the end of the substep.</summary>
+    public Quaternion EndOrientation;
+    /// <summary>See <see cref="EndOrientation"/>.</summary>
+    public BodyVelocity Velocity;
+    /// <summary>Inverse inertia in the frame of the body.</summary>
+    public BodyInertia Inertia;
 
     /// <summary>Begins with the way from where the body was to where it is.</summary>
     public void Begin(in MotionState end, double dt)
@@ -67,7 +71,7 @@ struct FastBody
 
     /// <summary>Whether it may come to what is not in its bounds.</summary>
     public readonly bool IsUnforeseen =>
-        (Linear - ForeseenLinear).Length + Math.Max(0, Angular.Length - ForeseenSpin) * TurningRadius > UnforeseenSpeed;
+        (Linear - ForeseenLinear).Length + (TurningRadius > 0 ? Math.Max(0, Angular.Length - ForeseenSpin) * TurningRadius : 0) > UnforeseenSpeed;
 
     /// <summary>Where the body is at a time.</summary>
     public readonly DoubleVector3 PositionAt(double time) => Position + Linear * (time - Time);

@@ -35,6 +35,8 @@ sealed unsafe partial class FastPairs
     // Length of the step, s, and its end from the beginning of the substep.
     float stepDt;
     double stepEnd;
+    // End of the substep, s from the beginning of the step.
+    double substepEnd;
 
     // In the order of slots: that of the tree depends on its shape.
     struct ByOrder : IComparerRef<CollidableReference>
@@ -43,23 +45,24 @@ sealed unsafe partial class FastPairs
             (a.Packed & CollidableReference.OrderMask).CompareTo(b.Packed & CollidableReference.OrderMask);
     }
 
-    struct NearList(FastPairs owner, CollidableReference self) : IBreakableForEach<CollidableReference>
+    // Most of what is found is watched already.
+    struct NearList(FastPairs owner, int body, CollidableReference self) : IBreakableForEach<CollidableReference>
     {
         public readonly bool LoopBody(CollidableReference collidable)
         {
-            if (collidable != self)
+            if (collidable != self && !owner.IsWatched(body, collidable))
                 owner.near.Add(collidable, owner.Pool);
             return true;
         }
     }
 
-    struct FoundList(CollidableReference self, CollidableReference* places) : IBreakableForEach<CollidableReference>
+    struct FoundList(FastPairs owner, int body, CollidableReference self, CollidableReference* places) : IBreakableForEach<CollidableReference>
     {
         public int Count;
 
         public bool LoopBody(CollidableReference collidable)
         {
-            if (collidable == self)
+            if (collidable == self || owner.IsWatched(body, collidable))
                 return true;
             if (Count < FoundPerLook)
                 places[Count] = collidable;
@@ -112,14 +115,11 @@ sealed unsafe partial class FastPairs
         looks.Count = 0;
         for (int i = 0; i < movers.Count; ++i)
         {
-            ref var mover = ref movers[i];
-            mover.ForeseenLinear += mover.FreeChange;
-            mover.Look = -1;
-            if (!TryGrow(i, 0, out var look))
+            if (!thrown[i] || !TryGrow(i, 0, out var look))
                 continue;
             if (!looks.Span.Allocated)
                 (looks, found) = (new(16, pool), new(16 * FoundPerLook, pool));
-            mover.Look = looks.Count;
+            movers[i].Look = looks.Count;
             looks.Add(look, pool);
         }
         if (looks.Count == 0)
@@ -133,7 +133,7 @@ sealed unsafe partial class FastPairs
     {
         for (int i = StartOf(block, blockCount, looks.Count); i < StartOf(block + 1, blockCount, looks.Count); ++i)
         {
-            var list = new FoundList(ReferenceOf(looks[i].Body), found.Span.Memory + i * FoundPerLook);
+            var list = new FoundList(this, looks[i].Body, ReferenceOf(looks[i].Body), found.Span.Memory + i * FoundPerLook);
             simulation.BroadPhase.FindOverlapping(looks[i].Way, ref list);
             looks[i].FoundCount = list.Count;
         }
@@ -158,7 +158,7 @@ sealed unsafe partial class FastPairs
             for (int j = first; j < pairs.Count; ++j)
             {
                 Find(ref pairs[j], 0, dt, pool);
-                times.Change(j, pairs[j].Time);
+                times.Change(j, pairs[j].Time, pool);
             }
         }
     }
@@ -166,18 +166,17 @@ sealed unsafe partial class FastPairs
     /// <summary>Pairs a body that moves otherwise than was foreseen with all that is new on its way.</summary>
     void LookAround(int body, double time, double dt)
     {
-        if (body < 0 || !TryGrow(body, time, out var look))
+        if (body < 0 || !movers[body].IsUnforeseen || !TryGrow(body, time, out var look))
             return;
         FindNear(look);
         PairWithNear(look, looks.Count, dt);
     }
 
+    // Of a body that moves otherwise than was foreseen.
     bool TryGrow(int body, double time, out Look look)
     {
         ref var mover = ref movers[body];
         look = default;
-        if (!mover.IsUnforeseen)
-            return false;
         if (knowsApart)
             LookAtPairsOf(body);
         mover.ForeseenLinear = mover.Linear;
@@ -192,12 +191,12 @@ sealed unsafe partial class FastPairs
         look.Body = body;
         look.Way = new(Exact.Min(from, to) - reach, Exact.Max(from, to) + reach);
         look.Known = tree.GetBounds(leaf);
-        // Whatever meets the bounds that it began with was found before, and is watched. Of bounds that have grown this does not hold: a box around two
-        // contains more than both.
-        var hasLeft = !BoundingBox.Contains(look.Known, look.Way);
-        if (!hasLeft && !mover.MayHaveOthers)
+        // Whatever meets the bounds that it began with, or those of its last look, was found then, and is watched; and whoever has come to meet them since has
+        // looked, and found this one. Of bounds that have grown this does not hold: a box around two contains more than both.
+        if (!mover.MayHaveOthers && BoundingBox.Contains(mover.HasLooked ? mover.Searched : look.Known, look.Way))
             return false;
-        mover.MayHaveOthers |= hasLeft;
+        mover.HasLooked = true;
+        mover.Searched = look.Way;
         tree.UpdateBounds(leaf, Exact.Min(look.Way.Min, look.Known.Min), Exact.Max(look.Way.Max, look.Known.Max));
         return true;
     }
@@ -214,7 +213,7 @@ sealed unsafe partial class FastPairs
     void FindNear(in Look look)
     {
         ClearNear();
-        var list = new NearList(this, ReferenceOf(look.Body));
+        var list = new NearList(this, look.Body, ReferenceOf(look.Body));
         simulation.BroadPhase.FindOverlapping(look.Way, ref list);
     }
 
@@ -243,9 +242,12 @@ sealed unsafe partial class FastPairs
 
     void Pair(int body, CollidableReference self, CollidableReference other, double dt)
     {
+        // Who came before may have found it.
+        if (IsWatched(body, other))
+            return;
         NarrowPhase.SortCollidableReferencesForPair(self, other, out _, out _, out var a, out var b);
         var pair = new FastPair { Pair = new(a, b), Time = FastPair.Never };
-        if (IsWatched(body, pair.Pair) || !TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) ||
+        if (!TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) ||
             !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B))
             return;
         if (!narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
@@ -261,12 +263,16 @@ sealed unsafe partial class FastPairs
         times.Add(number, pair.Time, pool);
     }
 
-    bool IsWatched(int body, in CollidablePair pair)
+    // Whether a body's pair with something is watched.
+    bool IsWatched(int body, CollidableReference other)
     {
-        for (int i = firstPairs[body]; i >= 0; i = pairs[i].NextOf(body))
+        for (int i = firstPairs[body]; i >= 0;)
         {
-            if (pairs[i].Pair.A == pair.A && pairs[i].Pair.B == pair.B)
+            ref var pair = ref pairs[i];
+            var isA = pair.A == body;
+            if ((isA ? pair.Pair.B : pair.Pair.A) == other)
                 return true;
+            i = isA ? pair.NextOfA : pair.NextOfB;
         }
         return false;
     }

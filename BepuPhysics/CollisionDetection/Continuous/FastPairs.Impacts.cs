@@ -16,7 +16,7 @@ sealed unsafe partial class FastPairs
             // Once is enough to know, and in the order of times: nobody sees a way on which a wall before it has let nothing go.
             pair.HasPassed = pair.Passes = true;
             pair.Time = FastPair.Never;
-            times.Change(index, pair.Time);
+            times.Change(index, pair.Time, pool);
             return;
         }
         if (!pair.IsAsked)
@@ -29,7 +29,7 @@ sealed unsafe partial class FastPairs
             if (pair.Passes)
             {
                 pair.Time = FastPair.Never;
-                times.Change(index, pair.Time);
+                times.Change(index, pair.Time, pool);
                 return;
             }
         }
@@ -52,8 +52,8 @@ sealed unsafe partial class FastPairs
         // These may find more pairs, which moves all of them in memory.
         LookAround(bodyA, time, dt);
         LookAround(bodyB, time, dt);
-        SweepAgain(bodyA, time, dt);
-        SweepAgain(bodyB, time, dt);
+        SweepAgain(bodyA, -1, time, dt);
+        SweepAgain(bodyB, bodyA, time, dt);
     }
 
     void End(ref FastBody mover, double dt)
@@ -82,14 +82,18 @@ sealed unsafe partial class FastPairs
         mover.GoOn(dt);
     }
 
-    void SweepAgain(int body, double time, double dt)
+    // The pair with somebody whose pairs were swept before is known.
+    void SweepAgain(int body, int done, double time, double dt)
     {
         if (body < 0)
             return;
         for (int i = firstPairs[body]; i >= 0; i = pairs[i].NextOf(body))
         {
-            Find(ref pairs[i], time, dt, pool);
-            times.Change(i, pairs[i].Time);
+            ref var pair = ref pairs[i];
+            if ((done >= 0 && pair.OtherThan(body) == done) || pair.ApartUntil >= substepEnd)
+                continue;
+            Find(ref pair, time, dt, pool);
+            times.Change(i, pair.Time, pool);
         }
     }
 

@@ -40,6 +40,8 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     QuickList<FastBody> movers = new(8, pool);
     // Pairs of each mover that come first.
     QuickList<int> firstPairs = new(16, pool);
+    // Of each mover, whether the solver has thrown it aside in the substep: few have been, and all are asked.
+    QuickList<bool> thrown = new(16, pool);
     // Movers of the active set's bodies; -1 for the others.
     QuickList<int> moverOf = new(16, pool);
     // Of each handle: whether its body is in a marked pair that is too slow to be watched. Nothing where there was no fast pair in the last step.
@@ -109,6 +111,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         pairs.Dispose(pool);
         movers.Dispose(pool);
         firstPairs.Dispose(pool);
+        thrown.Dispose(pool);
         moverOf.Dispose(pool);
         changed.Dispose(pool);
         slow.Dispose(pool);
@@ -127,6 +130,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         pairs = default;
         movers = default;
         firstPairs = default;
+        thrown = default;
         moverOf = default;
         changed = default;
         slow = default;
@@ -168,12 +172,19 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     internal void BeginWays(int block, int blockCount, double dt)
     {
         for (int i = StartOf(block, blockCount, movers.Count); i < StartOf(block + 1, blockCount, movers.Count); ++i)
-            movers[i].Begin(Bodies.ActiveSet.MotionStates[movers[i].Index], dt);
+        {
+            ref var mover = ref movers[i];
+            mover.Begin(Bodies.ActiveSet.MotionStates[mover.Index], dt);
+            mover.ForeseenLinear += mover.FreeChange;
+            mover.Look = -1;
+            thrown[i] = mover.IsUnforeseen;
+        }
     }
 
     /// <summary>Sweeps the pairs of one block along the ways of the substep.</summary>
-    internal void SweepAll(int block, int blockCount, double dt, BufferPool workerPool)
+    internal void SweepAll(int block, int blockCount, double dt, double end, BufferPool workerPool)
     {
+        var until = TimeInStep(dt, end);
         for (int i = StartOf(block, blockCount, pairs.Count); i < StartOf(block + 1, blockCount, pairs.Count); ++i)
         {
             ref var pair = ref pairs[i];
@@ -181,11 +192,16 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             if (!pair.IsKnown && !pair.Passes)
             {
                 SetGate(ref pair);
-                pair.StaysApart = StaysApart(pair, dt);
+                pair.ApartUntil = ApartUntil(pair, dt);
             }
-            Find(ref pair, 0, dt, workerPool);
+            pair.Time = FastPair.Never;
+            if (pair.ApartUntil < until && (!pair.Balls.Exists || MayMeetOfBalls(pair, dt)))
+                Find(ref pair, 0, dt, workerPool);
         }
     }
+
+    // Where a substep of that length ends, s from the beginning of the step, which ends at a time from the substep's beginning.
+    double TimeInStep(double dt, double end) => stepDt - end + dt;
 
     static int StartOf(int block, int blockCount, int count) => (int)((long)count * block / blockCount);
 
@@ -211,7 +227,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     {
         for (int i = 0; i < movers.Count; ++i)
             moverOf[movers[i].Index] = -1;
-        movers.Count = firstPairs.Count = 0;
+        movers.Count = firstPairs.Count = thrown.Count = 0;
         var known = moverOf.Count;
         if (known >= Bodies.ActiveSet.Count)
             return;
@@ -228,10 +244,14 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         var isStatic = collidable.Mobility == CollidableMobility.Static;
         if (!(isStatic ? simulation.Statics.StaticExists(collidable.StaticHandle) : Bodies.BodyExists(collidable.BodyHandle)))
             return false;
-        simulation.GetPoseAndShape(collidable, out pose, out shape);
         // What sleeps does not move.
-        if (!isStatic && !Bodies.IsAsleep(collidable.Slot))
-            index = Bodies.Locations[collidable.Slot].Index;
+        if (isStatic || Bodies.IsAsleep(collidable.Slot))
+        {
+            simulation.GetPoseAndShape(collidable, out pose, out shape);
+            return shape.Exists;
+        }
+        index = Bodies.Locations[collidable.Slot].Index;
+        shape = Bodies.ActiveSet.Collidables[index].Shape;
         return shape.Exists;
     }
 
@@ -245,6 +265,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             mover = movers.Count;
             movers.Add(MoverOf(body), pool);
             firstPairs.Add(-1, pool);
+            thrown.Add(false, pool);
         }
         body = mover;
         var next = firstPairs[body];
@@ -259,14 +280,14 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         {
             BeginWays(0, 1, dt);
             GrowTurnedAside(end);
-            SweepAll(0, 1, dt, pool);
+            SweepAll(0, 1, dt, end, pool);
             LookAll(0, 1);
         }
         knowsApart = true;
+        substepEnd = TimeInStep(dt, end);
         times.Clear(pairs.Count, pool);
         for (int i = 0; i < pairs.Count; ++i)
-            times.Note(i, pairs[i].Time);
-        times.Arrange();
+            times.Change(i, pairs[i].Time, pool);
         changed.Count = 0;
         PairTurnedAside(dt);
         for (int next; (next = times.First) >= 0;)
@@ -278,7 +299,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     void Find(ref FastPair pair, double from, double dt, BufferPool temporary)
     {
         pair.Time = FastPair.Never;
-        if (pair.Passes || pair.StaysApart || pair.ImpactCount >= MaximumCount)
+        if (pair.Passes || pair.ImpactCount >= MaximumCount)
             return;
         if (!pair.IsKnown)
             SetGate(ref pair);
@@ -286,103 +307,5 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             FindOfBalls(ref pair, from, dt);
         else
             FindOfAny(ref pair, from, dt, temporary);
-    }
-
-    void FindOfAny(ref FastPair pair, double from, double dt, BufferPool temporary)
-    {
-        PlaceCentre(pair.A, pair.PoseA, from, out var linearA, out var positionA);
-        PlaceCentre(pair.B, pair.PoseB, from, out var linearB, out var positionB);
-        if (!pair.Gate.MayMeet(positionA, positionB, linearA, linearB, dt - from))
-            return;
-        var motion = new SweepMotion
-        {
-            MaximumT = dt - from,
-            Accuracy = new(0, 0, MaximumRoundCount) { TouchingDistance = TouchingPart * pair.Inner },
-            LinearA = linearA,
-            LinearB = linearB,
-            OffsetB = positionB - positionA,
-        };
-        Place(pair.A, pair.ShapeA, pair.PoseA, from, out motion.AngularA, out motion.OrientationA);
-        Place(pair.B, pair.ShapeB, pair.PoseB, from, out motion.AngularB, out motion.OrientationB);
-        SweepHit hit = default;
-        if (pair.IsSensor)
-        {
-            Sweep(ref pair, motion, temporary, out hit);
-            pair.Time = hit.Overlaps ? from : hit.Exists ? from + hit.T : FastPair.Never;
-            return;
-        }
-        motion.MostThinnerOf = pair.SmallerInner;
-        motion.ThinnerPart = SkinParts[0];
-        Sweep(ref pair, motion, temporary, out hit);
-        if ((hit.Overlaps || hit.RanOut) && !TrySweepThinner(ref pair, motion, temporary, out hit))
-            return;
-        if (!hit.Exists)
-            return;
-        pair.Time = from + hit.T;
-        pair.Normal = hit.Normal;
-        pair.ArmA = hit.Place - motion.LinearA * hit.T;
-        pair.ArmB = hit.Place - motion.OffsetB - motion.LinearB * hit.T;
-    }
-
-    // Whether shapes are apart at all is told without a way.
-    bool TrySweepThinner(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
-    {
-        var way = motion.MaximumT;
-        hit = default;
-        foreach (var part in SkinParts[1..])
-        {
-            (motion.ThinnerPart, motion.MaximumT) = (part, 0);
-            Sweep(ref pair, motion, temporary, out hit);
-            if (hit.Overlaps)
-                continue;
-            motion.MaximumT = way;
-            Sweep(ref pair, motion, temporary, out hit);
-            if (!hit.RanOut)
-                return !hit.Overlaps;
-        }
-        return false;
-    }
-
-    void PlaceCentre(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 position)
-    {
-        if (body < 0)
-        {
-            linear = default;
-            position = new(still.Position);
-            return;
-        }
-        ref var mover = ref movers[body];
-        linear = mover.Linear;
-        position = mover.PositionAt(time);
-    }
-
-    void Place(int body, TypedIndex shape, in RigidPose still, double time, out DoubleVector3 angular, out DoubleMatrix3x3 axes)
-    {
-        angular = default;
-        axes = default;
-        // The core of a ball is a point.
-        if (shape.Type == Sphere.Id)
-            return;
-        if (body < 0)
-        {
-            axes = DoubleMatrix3x3.FromQuaternion(still.Orientation);
-            return;
-        }
-        ref var mover = ref movers[body];
-        angular = mover.Angular;
-        axes = mover.AxesAt(time);
-    }
-
-    void Sweep(ref FastPair pair, in SweepMotion motion, BufferPool temporary, out SweepHit hit)
-    {
-        var children = new AllChildren();
-        SweepPairs.Test(motion, pair.ShapeA.Type, PointerTo(pair.ShapeA), pair.ShapeB.Type, PointerTo(pair.ShapeB), ref children, simulation.Shapes,
-            temporary, out hit);
-        pair.RoundCount += hit.RoundCount;
-    }
-
-    struct AllChildren : ISweepFilter
-    {
-        public readonly bool AllowTest(int childA, int childB) => true;
     }
 }

@@ -38,7 +38,7 @@ sealed class FastPairsShare(FastPairs fastPairs, FastPairsShare.Part part) : ISo
                 fastPairs.GrowTurnedAside(fastPairs.EndOf(point, substep));
                 break;
             default:
-                fastPairs.SweepAll(block, blocks, substep.Dt, workerPool);
+                fastPairs.SweepAll(block, blocks, substep.Dt, fastPairs.EndOf(point, substep), workerPool);
                 fastPairs.LookAll(block, blocks);
                 break;
         }

@@ -76,6 +76,19 @@ struct WayGate
         return ImpactBalls.FirstMeeting(b - a, linearA - linearB, reach + spare) <= dt;
     }
 
+    /// <summary>Time up to which the shapes cannot meet, of a time that is looked at, s: infinite if they cannot in all of it.</summary>
+    /// <inheritdoc cref="MayMeet"/>
+    public readonly double ApartUntil(
+        in DoubleVector3 a, in DoubleVector3 b, in DoubleVector3 linearA, in DoubleVector3 linearB, double dt, double spare)
+    {
+        if (!MayMeet(a, b, linearA, linearB, dt, spare))
+            return double.PositiveInfinity;
+        if (!isPlane)
+            return ImpactBalls.FirstMeeting(b - a, linearA - linearB, reach + spare);
+        double above = DoubleVector3.Dot(first, a - b) - (reachOfA + spare), approach = -DoubleVector3.Dot(first, linearA);
+        return above > 0 && approach > 0 ? above / approach : 0;
+    }
+
     static bool IsBeside(double start, double end, double min, double max, double reach) =>
         Math.Max(start, end) + reach < min || Math.Min(start, end) - reach > max;
 }

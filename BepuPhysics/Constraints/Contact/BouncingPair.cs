@@ -1,42 +1,18 @@
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>A pair with a coefficient of restitution, for one step.</summary>
+// What each impact asks its neighbours for comes first, and what most of them need of one contact after it.
 struct BouncingPair
 {
     /// <summary>Time of a pair whose surfaces do not meet in the substep.</summary>
     internal const float Never = float.PositiveInfinity;
 
-    public ConstraintHandle Constraint;
-    public int ContactCount;
-    public float Coefficient;
-    /// <summary>Velocity of A before the step, then what the integration of a substep adds to it.</summary>
-    public BodyVelocity GainA;
-    /// <summary>As <see cref="GainA"/>, of B.</summary>
-    public BodyVelocity GainB;
-    /// <summary>Where the constraint is in this step.</summary>
-    public ContactPlace Place;
-    /// <summary>Rows of the contacts along the normal: the same in all substeps.</summary>
-    public FourRows Rows;
-    /// <summary>What the integration of a substep adds to the speed at each contact, or to that along the normal, either way, m/s.</summary>
-    public FourFloats Gained;
-    /// <summary>Whether the constraint carries a load in this substep.</summary>
-    public bool IsLoaded;
     /// <summary>When the surfaces meet, s from the beginning of the substep; negative where they did before, and nobody looked.</summary>
     public float Time;
     /// <summary>Speed at which they then approach, m/s.</summary>
     public float Speed;
-    /// <summary>Whether the surfaces overlap, and carry no load.</summary>
-    public bool Overlaps;
-    /// <summary>How far they are to be moved apart in this substep, besides what their velocity does.</summary>
-    public float Overlap;
-    /// <summary>Overlap of each contact that the solver is not told of in this substep.</summary>
-    public FourFloats Hidden;
-    /// <summary>Whether it takes part in the impact that is being made.</summary>
-    public bool Joins;
-    /// <summary>Impacts in this substep.</summary>
-    public int ImpactCount;
-    /// <summary>What impacts have pushed along the normal in this step, N s.</summary>
-    public float Impulse;
+    /// <summary>Place in the queue, or -1.</summary>
+    public int QueueIndex;
     /// <summary>Index of body A in the active set.</summary>
     public int A;
     /// <summary>Index of body B, or -1 where nothing moves it.</summary>
@@ -45,15 +21,40 @@ struct BouncingPair
     public int NextOfA;
     /// <summary>Next pair of B, or -1.</summary>
     public int NextOfB;
+    /// <summary>Impacts in this substep.</summary>
+    public int ImpactCount;
+    public ConstraintHandle Constraint;
+    public int ContactCount;
+    public float Coefficient;
+    /// <summary>What comes nearer by less than this in a substep rests, m.</summary>
+    public float LeastHit;
+    /// <summary>Greatest speed at which it was hit in this substep, m/s; zero where it bounces.</summary>
+    public float Stopped;
+    /// <summary>How far they are to be moved apart in this substep, besides what their velocity does.</summary>
+    public float Overlap;
+    /// <summary>Whether the constraint carries a load in this substep.</summary>
+    public bool IsLoaded;
+    /// <summary>Whether the surfaces overlap, and carry no load.</summary>
+    public bool Overlaps;
+    /// <summary>Whether it takes part in the impact that is being made.</summary>
+    public bool Joins;
+    /// <summary>What impacts have pushed along the normal in this step, N s.</summary>
+    public float Impulse;
+    /// <summary>Where the constraint is in this step.</summary>
+    public ContactPlace Place;
+    /// <summary>What the integration of a substep adds to the speed at each contact, or to that along the normal, either way, m/s.</summary>
+    public FourFloats Gained;
+    /// <summary>Overlap of each contact that the solver is not told of in this substep.</summary>
+    public FourFloats Hidden;
+    /// <summary>Rows of the contacts along the normal: the same in all substeps.</summary>
+    public FourRows Rows;
+    /// <summary>Velocity of A before the step, then what the integration of a substep adds to it.</summary>
+    public BodyVelocity GainA;
+    /// <summary>As <see cref="GainA"/>, of B.</summary>
+    public BodyVelocity GainB;
 
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;
-
-    /// <summary>Place in the queue, or -1.</summary>
-    public int QueueIndex;
-
-    /// <summary>Greatest speed at which it was hit in this substep, m/s; zero where it bounces.</summary>
-    public float Stopped;
 
     /// <summary>
     /// The gap that is closed in a substep at a speed, m. What does not bounce has come as near as it was fast when it was hit: a body that was turned by the

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -67,6 +68,8 @@ sealed unsafe partial class Restitution
             {
                 var first = queue.First;
                 var time = Pairs[first].Time;
+                if (TryMakeLone(first, time, dt))
+                    continue;
                 impact.Begin(time, dt);
                 Join(first);
                 // What does not bounce is by itself.
@@ -85,18 +88,54 @@ sealed unsafe partial class Restitution
                     if (!impact.TryGetChange(i, out var body, out var change))
                         continue;
                     contacts.Push(body, change);
-                    Move(contacts, body, change.Linear * -time, dt);
+                    Shift(contacts, body, change.Linear * -time);
+                }
+                // When all have changed: a pair of two of them is looked at once, for the second one.
+                var second = impact.BodyCount == 2 && impact.TryGetChange(1, out var other, out _) ? other : -1;
+                for (int i = 0; i < impact.BodyCount; ++i)
+                {
+                    if (impact.TryGetChange(i, out var body, out _))
+                        LookAtPairsOf(body, i == 0 ? second : -1, dt);
                 }
             }
+        }
+
+        bool TryMakeLone(int index, float time, float dt)
+        {
+            ref var pair = ref Pairs[index];
+            if (pair.Coefficient > 0 || pair.ContactCount > 1)
+                return false;
+            var contacts = owner.Contacts(pair);
+            Unsafe.SkipInit(out LoneImpact lone);
+            if (!lone.TryMake(pair, contacts, time, dt))
+                return false;
+            Note(ref pair);
+            pair.Impulse += lone.Impulse;
+            contacts.Push(pair.A, lone.ChangeOfA);
+            Shift(contacts, pair.A, lone.ChangeOfA.Linear * -time);
+            if (pair.B >= 0)
+            {
+                contacts.Push(pair.B, lone.ChangeOfB);
+                Shift(contacts, pair.B, lone.ChangeOfB.Linear * -time);
+            }
+            LookAtPairsOf(pair.A, pair.B, dt);
+            if (pair.B >= 0)
+                LookAtPairsOf(pair.B, -1, dt);
+            return true;
+        }
+
+        static void Note(ref BouncingPair pair)
+        {
+            ++pair.ImpactCount;
+            if (pair.Coefficient == 0)
+                pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
         }
 
         void Join(int index)
         {
             ref var pair = ref Pairs[index];
-            ++pair.ImpactCount;
+            Note(ref pair);
             pair.Joins = true;
-            if (pair.Coefficient == 0)
-                pair.Stopped = MathHelper.Max(pair.Stopped, pair.Speed);
             impact.Add(index, pair, owner.Contacts(pair));
         }
 
@@ -128,16 +167,22 @@ sealed unsafe partial class Restitution
         bool IsOneFloor(in BouncingPair a, in BouncingPair b) =>
             a.A == b.A && a.B == b.B && Exact.Dot(owner.Contacts(a).Normal, owner.Contacts(b).Normal) > SameDirection;
 
-        // Moves a body whose velocity has changed, and looks at its pairs again.
-        void Move(in ContactRows contacts, int body, Vector3 way, float dt)
+        readonly void Shift(in ContactRows contacts, int body, Vector3 way)
         {
             contacts.Move(body, way);
             for (int i = owner.groups.FirstOf(body); i >= 0; i = Pairs[i].NextOf(body))
+                owner.Contacts(Pairs[i]).NoteMove(Pairs[i].A == body ? way : -way);
+        }
+
+        // The pairs of a body whose motion has changed, but for that with somebody who is looked at later.
+        void LookAtPairsOf(int body, int later, float dt)
+        {
+            for (int i = owner.groups.FirstOf(body); i >= 0; i = Pairs[i].NextOf(body))
             {
                 ref var pair = ref Pairs[i];
-                var others = owner.Contacts(pair);
-                others.NoteMove(pair.A == body ? way : -way);
-                owner.Predict(ref pair, others, dt);
+                if (later >= 0 && (pair.A == later || pair.B == later))
+                    continue;
+                owner.Predict(ref pair, owner.Contacts(pair), dt);
                 if (pair.ImpactCount == MaximumImpacts)
                     pair.Time = BouncingPair.Never;
                 queue.Update(ref Pairs, i);
@@ -158,9 +203,12 @@ sealed unsafe partial class Restitution
                 if (!(massA + massB > 0))
                     continue;
                 var way = pair.Overlap / (massA + massB);
-                Move(contacts, pair.A, contacts.Normal * (way * massA), dt);
+                Shift(contacts, pair.A, contacts.Normal * (way * massA));
                 if (pair.B >= 0)
-                    Move(contacts, pair.B, contacts.Normal * -(way * massB), dt);
+                    Shift(contacts, pair.B, contacts.Normal * -(way * massB));
+                LookAtPairsOf(pair.A, pair.B, dt);
+                if (pair.B >= 0)
+                    LookAtPairsOf(pair.B, -1, dt);
             }
         }
     }

@@ -36,6 +36,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     // Part of the speed at which two bodies were stopped below which they are not stopped again in the same substep: neighbours push each other on by ever
     // less, and the solver stops what is left. What does not give way stops all: it is met at corners, with something else in turn.
     const float StoppedShare = 1 / 16f;
+    // Part of the least hit of a pair up to which the solver takes out its overlaps.
+    const float OverlapShare = 1e-2f;
     // Speed of approach over speed of the bodies that may be rounding.
     const float RoundingShare = 1e-6f;
 
@@ -45,8 +47,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     bool anyMeets;
 
     /// <summary>Watches a contact constraint in the coming step.</summary>
-    internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient) =>
-        pairs.Add(new() { Constraint = constraint, ContactCount = contactCount, Coefficient = coefficient }, pool);
+    internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient, float leastHit) =>
+        pairs.Add(new() { Constraint = constraint, ContactCount = contactCount, Coefficient = coefficient, LeastHit = leastHit }, pool);
 
     /// <summary>Number of contact constraints that are watched.</summary>
     internal int PairCount => pairs.Count;
@@ -144,7 +146,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
                 pair.GainB = contacts.VelocityB;
                 continue;
             }
-            contacts.Show(ref pair.Hidden);
+            if (pair.Overlaps)
+                contacts.Show(ref pair.Hidden);
             if (substep.Index == 0)
             {
                 pair.GainA = Difference(contacts.VelocityA, pair.GainA);
@@ -189,7 +192,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         {
             var gap = contacts.Gap(i, pair.Rows[i]);
             var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
-            if (gap < 0 && !pair.IsLoaded)
+            if (gap < -OverlapShare * pair.LeastHit && !pair.IsLoaded)
             {
                 pair.Overlaps = true;
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
@@ -197,7 +200,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
                 var left = MathHelper.Min(0, speed) * parting - gap;
                 pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(left, contacts.MaximumRecoveryVelocity * dt));
             }
-            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, pair.Gained[i])) ||
+            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, pair.Gained[i], dt)) ||
                 (pair.B >= 0 && !(speed > StoppedShare * pair.Stopped)))
                 continue;
             var time = MathHelper.Max(earliest, gap / speed);
@@ -210,18 +213,20 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         }
     }
 
-    float RestingSpeed(in BouncingPair pair, in ContactRows contacts, float gained)
+    float RestingSpeed(in BouncingPair pair, in ContactRows contacts, float gained, float dt)
     {
         var moving = MathF.Sqrt(Exact.LengthSquared(contacts.VelocityA.Linear) + Exact.LengthSquared(contacts.VelocityB.Linear));
         // What does not come back from its impact may make it at any speed but that at which it rests.
         var substeps = pair.Coefficient > 0 ? RestingSteps * solver.LastSubstepCount : RestingSteps;
-        return MathHelper.Max(substeps * gained, RoundingShare * moving);
+        return MathHelper.Max(MathHelper.Max(substeps * gained, RoundingShare * moving), pair.LeastHit / dt);
     }
 
     static bool IsLoaded(in BouncingPair pair, in ContactRows contacts)
     {
-        var load = contacts.Load * (contacts.InertiaA.InverseMass + contacts.InertiaB.InverseMass);
         var weight = MathHelper.Max(Exact.LengthSquared(pair.GainA.Linear), Exact.LengthSquared(pair.GainB.Linear));
-        return weight > 0 && load * load > LoadingShare * LoadingShare * weight;
+        if (!(weight > 0))
+            return false;
+        var load = contacts.Load * (contacts.InertiaA.InverseMass + contacts.InertiaB.InverseMass);
+        return load * load > LoadingShare * LoadingShare * weight;
     }
 }
