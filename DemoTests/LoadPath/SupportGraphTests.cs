@@ -19,11 +19,15 @@ public class SupportGraphTests
         public bool MoveAlike(int kinematic, int other) => kinematic == other;
 
         public bool RestsOn(int body, int kinematic) => true;
+
+        public bool Sways(int body, int kinematic) => true;
+
+        public int CountConstraints(int body) => 2;
     }
 
     // Each support has three contacts unless said otherwise.
     static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
-        bool[]? slides = null, bool[]? leans = null, int spoilt = -1)
+        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
@@ -34,6 +38,8 @@ public class SupportGraphTests
             Count = (byte)contacts,
             Slides = slides is not null && slides[i],
             Leans = leans is not null && leans[i],
+            Sways = sways is not null && sways[i],
+            IsWhole = sways is not null,
         }).ToArray();
         pool.Take<byte>(bodyCount, out var isSpoilt);
         isSpoilt.Clear(0, bodyCount);
@@ -158,6 +164,24 @@ public class SupportGraphTests
         Assert.Equal(expected, Build(bodyCount, supports, leans: [.. Enumerable.Repeat(true, bodyCount)]).Islands.Length);
     }
 
+    /// <summary>Column or not: one on the other, whatever of them sways, up to a number of them.</summary>
+    [Fact]
+    public void A_column_sways_as_one()
+    {
+        AssertIslands("0 1 2", Build(3, [(0, Ground), (1, 0), (2, 1)], sways: [false, true, false]).Islands);
+        Assert.Equal([0, 1, 2], Build(3, [(2, 1), (1, 0), (0, Ground)], sways: [false, false, true]).Islands.Single().Order());
+        // Two on one, and one on two.
+        AssertIslands("0", Build(3, [(0, Ground), (1, 0), (2, 0)], sways: [false, true, true]).Islands);
+        AssertIslands("0, 1", Build(3, [(0, Ground), (1, Ground), (2, 0), (2, 1)], sways: [false, false, true, true]).Islands);
+    }
+
+    [Theory, InlineData(128, 1), InlineData(129, 0)]
+    public void A_great_column_does_not_sway(int bodyCount, int expected)
+    {
+        var supports = Enumerable.Range(0, bodyCount - 1).Select(body => (Upper: body + 1, Lower: body)).Prepend((Upper: 0, Lower: Ground)).ToArray();
+        Assert.Equal(expected, Build(bodyCount, supports, sways: [.. Enumerable.Repeat(true, bodyCount)]).Islands.Length);
+    }
+
     // Three planks of which each lies on the next: the lowest is taken first, and what it lies on itself is left out.
     [Fact]
     public void A_circle_is_cut_at_its_lowest_body()
@@ -244,6 +268,10 @@ public class SupportGraphTests
                     var body = random.Next(20);
                     spoilt[body] = (byte)(1 - spoilt[body]);
                     break;
+                case 8:
+                    ref var swaying = ref links[random.Next(links.Length)];
+                    swaying.IsWhole = swaying.Sways = !swaying.Sways;
+                    break;
             }
             var found = new SupportLink[links.Length + Gap];
             links.AsSpan(0, half).CopyTo(found);
@@ -299,7 +327,10 @@ public class SupportGraphTests
         for (int i = 0; i < bodyCount; ++i)
             lines.Append(graph.NodeOf[i]).Append(',');
         foreach (ref var node in graph.Nodes.AsSpan())
+        {
             lines.Append($"|{node.Body} {node.Floor} {node.FirstSupport} {node.SupportCount} {node.Radius} {node.Leans} {node.IsRelaxed}");
+            lines.Append($" {node.IsOfColumn} {node.MayBeColumn}");
+        }
         foreach (ref var link in graph.Links.AsSpan())
             lines.Append($"|{link.Upper} {link.Lower} {link.Count} {link.Slides}");
         return lines.ToString();

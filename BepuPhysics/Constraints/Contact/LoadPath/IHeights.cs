@@ -15,4 +15,10 @@ interface IFloors
 
     /// <summary>Whether a body rests to who moves along with a kinematic one.</summary>
     bool RestsOn(int body, int kinematic);
+
+    /// <summary>Whether a body may sway: to a kinematic one along with which it moves, or, where that is negative, to what does not move.</summary>
+    bool Sways(int body, int kinematic);
+
+    /// <summary>Number of constraints of a body.</summary>
+    int CountConstraints(int body);
 }

@@ -15,6 +15,8 @@ struct LoadNode
     public int FirstSupport, SupportCount;
     /// <summary>Greatest distance of a contact from the centre, m.</summary>
     public float Radius;
+    /// <summary>Velocity that the integration gives it in a substep, m/s.</summary>
+    public float Gain;
     /// <summary>Velocity of its contacts after the warm start up to which it is at rest, m/s.</summary>
     public float Tolerance;
     /// <summary>Whether it hands something down in this substep.</summary>
@@ -27,6 +29,10 @@ struct LoadNode
     public bool Leans;
     /// <summary>Of the first body of an island: whether any of the island leans.</summary>
     public bool IsRelaxed;
+    /// <summary>Of the first body of an island: whether each of its bodies has one support, so that it may be a column.</summary>
+    public bool MayBeColumn;
+    /// <summary>Whether it is of a column that sways.</summary>
+    public bool IsOfColumn;
     /// <summary>What the transfer has changed of its momentum, N s.</summary>
     public Vector3 Linear;
     /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>

@@ -68,7 +68,7 @@ sealed unsafe partial class LoadPathStage
     static Vector3 Change(in MotionState floor, in BodyVelocity before) =>
         floor.Velocity.Linear == before.Linear ? before.Linear - before.Angular : default;
 
-    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, int substepCount) : IHeights, IFloors
+    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<ConstraintList> constraints, int substepCount) : IHeights, IFloors
     {
         public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, Gain(body));
 
@@ -79,12 +79,30 @@ sealed unsafe partial class LoadPathStage
         {
             var gain = Gain(body);
             var squared = Exact.LengthSquared(gain);
+            return Rests(before[body].Linear - before[kinematic].Angular, gain, squared) && Follows(kinematic, gain, squared);
+        }
+
+        public bool Sways(int body, int kinematic)
+        {
+            var gain = Gain(body);
+            var squared = Exact.LengthSquared(gain);
+            var velocity = before[body].Linear;
+            if (kinematic >= 0)
+                velocity -= before[kinematic].Angular;
+            var most = SupportFinder.SwayingShare * QuietSteps * substepCount;
+            return Exact.LengthSquared(velocity) < most * most * squared && (kinematic < 0 || Follows(kinematic, gain, squared));
+        }
+
+        public int CountConstraints(int body) => constraints[body].Count;
+
+        // Whether what stands on a floor follows the change of its velocity.
+        bool Follows(int kinematic, Vector3 gain, float squared)
+        {
             var change = Change(motions[kinematic], before[kinematic]);
             // Against what pulls at the body it is only pressed on.
             var against = MathHelper.Min(0, Exact.Dot(change, gain));
             var greatest = GreatestChange * substepCount;
-            return Rests(before[body].Linear - before[kinematic].Angular, gain, squared) &&
-                Exact.LengthSquared(change) * squared - against * against <= greatest * greatest * squared * squared;
+            return Exact.LengthSquared(change) * squared - against * against <= greatest * greatest * squared * squared;
         }
 
         // As it is found for what rests on the ground.

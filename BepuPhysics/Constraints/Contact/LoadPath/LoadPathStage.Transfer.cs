@@ -6,7 +6,7 @@ namespace BepuPhysics.Constraints.Contact;
 // What is done with an island that has something to hand down.
 sealed unsafe partial class LoadPathStage
 {
-    void Transfer(int island, ref Room room)
+    void Transfer(int island, ref Room room, int block)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
@@ -23,9 +23,44 @@ sealed unsafe partial class LoadPathStage
             if (node.HasLoad && !node.Leans)
                 HandDown(ref node, SupportsOf(node, supports, firstSupport));
         }
-        if (first.IsRelaxed)
-            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length));
+        var isColumn = first.IsOfColumn || (!first.IsRelaxed && first.MayBeColumn && LeavesMuch(start, end) && IsColumn(start, end));
+        if (first.IsRelaxed || isColumn)
+            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length), block, isColumn);
         Apply(start, end, supports);
+    }
+
+    // Whether any body has more left, after all was handed down, than a step of acceleration gives: what tips over does, and turns together with all that is
+    // on it. Less comes and goes in what stands, and a column that was relaxed by turns would fall by the luck of each.
+    bool LeavesMuch(int start, int end)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            ref var velocity = ref set.MotionStates[node.Body].Velocity;
+            ref var inertia = ref set.WorldInertias[node.Body];
+            var speed = Exact.Length(velocity.Linear - FloorVelocity(node) + node.Linear * inertia.InverseMass) +
+                Exact.Length(velocity.Angular + inertia.InverseInertiaTensor * node.Angular) * node.Radius;
+            if (speed > node.Gain * solver.LastSubstepCount)
+                return true;
+        }
+        return false;
+    }
+
+    // Whether bodies of which each has one support stand one on the other, and nothing else touches or holds them but what may be on top.
+    bool IsColumn(int start, int end)
+    {
+        var bottoms = 0;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (graph.Links[node.FirstSupport].Lower < 0)
+                ++bottoms;
+            if (bodies.Awake.Constraints[node.Body].Count > 2)
+                return false;
+        }
+        // Each has one below, and so no more than one above.
+        return bottoms == 1;
     }
 
     Span<LoadSupport> ReadSupports(int island, ref Room room)
@@ -41,7 +76,7 @@ sealed unsafe partial class LoadPathStage
     }
 
     // All of its bodies at once, and all of its patches: those through which nothing was handed down are read here.
-    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches)
+    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches, int block, bool isColumn)
     {
         var firstSupport = graph.Nodes[start].FirstSupport;
         for (int i = start; i < end; ++i)
@@ -58,7 +93,13 @@ sealed unsafe partial class LoadPathStage
             }
         }
         ref var set = ref bodies.Awake;
-        new LoadRelaxation(new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias).Run();
+        var relaxation = new LoadRelaxation(
+            new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias,
+            FloorVelocity(graph.Nodes[start]));
+        if (isColumn)
+            relaxation.RunColumn(new Span<ColumnBlock>(columns.Memory + block * graph.LongestColumn, end - start));
+        else
+            relaxation.Run();
     }
 
     static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>

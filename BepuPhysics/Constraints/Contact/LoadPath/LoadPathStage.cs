@@ -42,6 +42,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     Buffer<LoadSupport> supports;
     // The same for what is relaxed; not there if nothing is.
     Buffer<PatchRelaxation> patches;
+    // The same for columns; not there if none sways.
+    Buffer<ColumnBlock> columns;
     readonly Room[] rooms = new Room[MaximumBlocks];
     // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
@@ -105,7 +107,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                    Transfer(island, ref rooms[block]);
+                    Transfer(island, ref rooms[block], block);
                 break;
             case SolverPoint.AfterSubsteps:
                 LetGo(block);
@@ -162,7 +164,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return;
         }
         ref var set = ref bodies.Awake;
-        graph.Build(found.Memory, used, set.Count, spoilt, new Motions(set.MotionStates, before, solver.LastSubstepCount), pool);
+        graph.Build(found.Memory, used, set.Count, spoilt, new Motions(set.MotionStates, before, set.Constraints, solver.LastSubstepCount), pool);
         MakeRooms();
     }
 
@@ -186,8 +188,10 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
-        if (graph.HasLeaning)
+        if (graph.HasLeaning || graph.LongestColumn > 0)
             pool.TakeAtLeast(Math.Max(1, count), out patches);
+        if (graph.LongestColumn > 0)
+            pool.TakeAtLeast(blockCount * graph.LongestColumn, out columns);
     }
 
     int FirstSupport(int island) => graph.Nodes[graph.Islands[island]].FirstSupport;
@@ -226,8 +230,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             if (lower >= 0)
                 ratio = MathHelper.Min(ratio, inverseMass / set.LocalInertias[lower].InverseMass);
         }
-        var gain = Exact.Length(set.MotionStates[node.Body].Velocity.Linear - before[node.Body].Linear);
-        node.Tolerance = new RestTolerance(ratio, dt).Of(gain, node.Radius);
+        node.Gain = Exact.Length(set.MotionStates[node.Body].Velocity.Linear - before[node.Body].Linear);
+        node.Tolerance = new RestTolerance(ratio, dt).Of(node.Gain, node.Radius);
     }
 
     // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
@@ -293,6 +297,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             pool.Return(ref supports);
         if (patches.Allocated)
             pool.Return(ref patches);
+        if (columns.Allocated)
+            pool.Return(ref columns);
     }
 
     // The sign of the zero tells the next step that they were held.

@@ -17,8 +17,10 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="patches">As many, of which the nodes are written.</param>
 /// <param name="motions">Of the active set.</param>
 /// <param name="inertias">Of the active set.</param>
-readonly unsafe ref struct LoadRelaxation(
-    Span<LoadNode> nodes, Span<LoadSupport> supports, Span<PatchRelaxation> patches, Buffer<MotionState> motions, Buffer<BodyInertia> inertias)
+/// <param name="floorVelocity">Velocity to which they come to rest, m/s.</param>
+readonly unsafe ref partial struct LoadRelaxation(
+    Span<LoadNode> nodes, Span<LoadSupport> supports, Span<PatchRelaxation> patches, Buffer<MotionState> motions, Buffer<BodyInertia> inertias,
+    Vector3 floorVelocity)
 {
     // There and back is a round. An arch that has just been put down stands with twelve of them if it has thirteen stones, with 32 if 21, with 128 if 31; what
     // stands takes few. With fewer a small arch of thirteen creeps by what they leave.
@@ -112,7 +114,7 @@ readonly unsafe ref struct LoadRelaxation(
         ref var velocity = ref motions[node.Body].Velocity;
         body.InverseMass = inertia.InverseMass;
         body.InverseInertia = inertia.InverseInertiaTensor;
-        body.Linear = velocity.Linear + node.Linear * body.InverseMass;
+        body.Linear = velocity.Linear - floorVelocity + node.Linear * body.InverseMass;
         body.Angular = velocity.Angular + body.InverseInertia * node.Angular;
     }
 

@@ -40,6 +40,8 @@ readonly unsafe struct SupportFinder(
     // How much faster than what is quiet a body that leans may be, and the surfaces of its contacts: some steps of acceleration. An arch that is put down falls
     // until it knows its load, and where a stone of it is pushed all others move; let go then it would stand on soft contacts, on which a thin one falls.
     const float LeaningShare = 2;
+    // How much faster than what is quiet bodies of a column that sways may be, and the surfaces of their contacts.
+    internal const float SwayingShare = 4;
 
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
     const float SlidingShare = 0.99f;
@@ -106,7 +108,16 @@ readonly unsafe struct SupportFinder(
             moves = Vector.AndNot(together, rests);
             rests |= together;
         }
-        carries &= rests;
+        var maySway = Vector<int>.Zero;
+        if (count >= LeastContacts)
+        {
+            maySway = carries & flat & (moves | ~rests) & ContactMaterialWide.WasHeld(prestep[ContactPrestepLayout.Damping(count)]);
+            if (maySway != Vector<int>.Zero)
+                maySway &= MaySway(bodyA.Linear - gainA, bodyB.Linear - gainB, fastest);
+        }
+        carries &= rests | maySway;
+        // What moves alike may rest, to a floor that moves, as long as its surfaces are quiet.
+        var sways = Vector.AndNot(maySway, moves);
         if (carries == Vector<int>.Zero)
         {
             Spoil(leans, references, hasB);
@@ -132,6 +143,7 @@ readonly unsafe struct SupportFinder(
         }
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         var quiet = Wide.Select(flat, new Vector<float>(quietSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
+        var bearable = Wide.Select(maySway, new Vector<float>(SwayingShare * quietSteps) * fastest, quiet);
         var slides = Vector<int>.Zero;
         var sliding = new Vector<float>(SlidingSteps) * fastest;
         var extent = new Vector<float>(float.MaxValue);
@@ -142,7 +154,10 @@ readonly unsafe struct SupportFinder(
             var armB = arm - offsetB;
             var velocity = bodyA.Linear + Vector3Wide.Cross(bodyA.Angular, arm) - bodyB.Linear - Vector3Wide.Cross(bodyB.Angular, armB);
             var apart = Vector3Wide.Dot(velocity, normal);
-            carries &= Vector.LessThan(apart, quiet) & Vector.LessThan((velocity - normal * apart).LengthSquared(), quiet * quiet);
+            var aside = (velocity - normal * apart).LengthSquared();
+            carries &= Vector.LessThan(apart, bearable) & Vector.LessThan(aside, bearable * bearable);
+            if (hasFloors)
+                sways |= Vector.AndNot(maySway, Vector.LessThan(apart, quiet) & Vector.LessThan(aside, quiet * quiet));
             // What the integration has added is no sliding: the warm start takes it away.
             velocity -= gainA - gainB;
             velocity -= normal * Vector3Wide.Dot(velocity, normal);
@@ -165,10 +180,12 @@ readonly unsafe struct SupportFinder(
         }
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
         Spoil(Vector.AndNot(leans, carries), references, hasB);
+        var whole = count < LeastContacts ? Vector<int>.Zero : flat & wasHeld & Vector.Equals(Vector.AndNot(open, near), Vector<int>.Zero);
+        carries = Vector.AndNot(carries, Vector.AndNot(sways, whole));
         radius = Vector.SquareRoot(radius);
         if (!hasB)
         {
-            var alone = carries & flat & IsBorne(count, bodyA, normal, impulses, fastest, radius);
+            var alone = Vector.AndNot(carries & flat, sways) & IsBorne(count, bodyA, normal, impulses, fastest, radius);
             if (alone != Vector<int>.Zero)
                 alone &= IsAlone((int*)references);
             if (alone != Vector<int>.Zero)
@@ -207,6 +224,8 @@ readonly unsafe struct SupportFinder(
                 Slides = slides[lane] != 0,
                 Leans = flat[lane] == 0,
                 Moves = moves[lane] != 0,
+                Sways = sways[lane] != 0,
+                IsWhole = whole[lane] != 0,
             };
         }
         return foundCount;
@@ -232,6 +251,15 @@ readonly unsafe struct SupportFinder(
         fall = Wide.Clamp(fall, Vector<float>.Zero, new Vector<float>(FallingShare * quietSteps));
         var aside = Wide.Min(resting * resting, fall * fall * squared * new Vector<float>(StraightShare * StraightShare));
         return Vector.LessThan(velocity.LengthSquared(), resting * resting) | Vector.LessThan((velocity - gain * fall).LengthSquared(), aside);
+    }
+
+    // Where anything is a floor that moves the graph asks each of both to its own, and to what does not move.
+    Vector<int> MaySway(in Vector3Wide a, in Vector3Wide b, Vector<float> gain)
+    {
+        var most = new Vector<float>(SwayingShare * quietSteps) * gain;
+        if (hasFloors)
+            return Vector.LessThan((a - b).LengthSquared(), most * most * new Vector<float>(4));
+        return Vector.LessThan(a.LengthSquared(), most * most) & Vector.LessThan(b.LengthSquared(), most * most);
     }
 
     static Vector<int> Pushes(int count, Vector<float>* impulses)

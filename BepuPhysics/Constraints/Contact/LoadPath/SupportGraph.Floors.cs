@@ -14,7 +14,7 @@ unsafe partial struct SupportGraph
         for (int i = starts[body]; i < starts[body + 1]; ++i)
         {
             ref var support = ref byUpper[i];
-            if (support.Leans || !IsBelow(support))
+            if (support.Leans || support.Sways || !IsBelow(support))
                 continue;
             var below = FloorBelow(support);
             if (below == SupportLink.Still)

@@ -26,6 +26,8 @@ unsafe partial struct SupportGraph
         public bool Leans;
         public bool IsSpoilt;
         public bool Moves;
+        public bool Sways;
+        public bool IsWhole;
         public bool Carries;
     }
 
@@ -49,6 +51,8 @@ unsafe partial struct SupportGraph
     QuickList<int> order;
     // Supports that lean, by index in the order of upper bodies.
     QuickList<int> leaning;
+    // Supports of bodies that may sway, by index in the order of upper bodies.
+    QuickList<int> swaying;
     // What the graph was built of, beside the supports: it is the same of the same.
     QuickList<(int Start, int Count)> builtOf;
     int builtBodyCount;
@@ -63,6 +67,8 @@ unsafe partial struct SupportGraph
     internal QuickList<int> Islands;
     /// <summary>Whether any bodies lean on each other.</summary>
     internal readonly bool HasLeaning => leaning.Count > 0;
+    /// <summary>Most bodies of an island that may be a column; zero if none may.</summary>
+    internal int LongestColumn;
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
     internal Buffer<int> NodeOf;
 
@@ -91,6 +97,8 @@ unsafe partial struct SupportGraph
         OrderUpwards(bodyCount, motions, pool);
         if (leaning.Count > 0)
             FindLeaning(motions, pool);
+        if (swaying.Count > 0)
+            FindSwaying(bodyCount, motions, pool);
         MakeNodes(bodyCount, pool);
         builtOf = new QuickList<(int, int)>(pieces.Length, pool);
         foreach (var piece in pieces)
@@ -108,7 +116,7 @@ unsafe partial struct SupportGraph
             ref var support = ref byUpper[i];
             ref var link = ref found[support.Found];
             if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount ||
-                link.Slides != support.Slides || link.Leans != support.Leans || link.Moves != support.Moves ||
+                link.Slides != support.Slides || link.Leans != support.Leans || link.Moves != support.Moves || link.Sways != support.Sways ||
                 (link.Leans && IsSpoilt(link, spoilt) != support.IsSpoilt))
             {
                 return false;
@@ -133,6 +141,7 @@ unsafe partial struct SupportGraph
         pool.TakeAtLeast(bodyCount, out grounded);
         order = new QuickList<int>(Math.Max(1, bodyCount), pool);
         leaning = new QuickList<int>(16, pool);
+        swaying = new QuickList<int>(16, pool);
         for (int i = 0; i < bodyCount; ++i)
             positions[i] = above[i] = NodeOf[i] = -1;
         waiting.Clear(0, bodyCount);
@@ -168,6 +177,8 @@ unsafe partial struct SupportGraph
                     Slides = link.Slides,
                     Leans = link.Leans,
                     Moves = link.Moves,
+                    Sways = link.Sways,
+                    IsWhole = link.IsWhole,
                     IsSpoilt = link.Leans && IsSpoilt(link, spoilt),
                 };
             }
@@ -182,7 +193,9 @@ unsafe partial struct SupportGraph
             var lower = byUpper[i].Lower;
             if (byUpper[i].Leans)
                 leaning.Add(i, pool);
-            if (lower < 0 || byUpper[i].Leans)
+            if (byUpper[i].IsWhole && (byUpper[i].Sways || byUpper[i].Moves))
+                swaying.Add(i, pool);
+            if (lower < 0 || byUpper[i].Leans || byUpper[i].Sways)
                 continue;
             ++waiting[byUpper[i].Upper];
             nextAbove[i] = above[lower];
@@ -193,7 +206,7 @@ unsafe partial struct SupportGraph
     // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
     void OrderUpwards<TMotions>(int bodyCount, TMotions motions, BufferPool pool) where TMotions : struct, IHeights, IFloors
     {
-        dependsOnMotion = hasFloors;
+        dependsOnMotion = hasFloors || swaying.Count > 0;
         int participants = 0;
         for (int i = 0; i < bodyCount; ++i)
         {
@@ -272,7 +285,7 @@ unsafe partial struct SupportGraph
     }
 
     // What is below must itself be carried, and come earlier: what comes later hands its own load on too late.
-    readonly bool Carries(in Support support) => IsBelow(support) && (hasFloors ? SharesFloor(support) : !support.Moves);
+    readonly bool Carries(in Support support) => !support.Sways && IsBelow(support) && (hasFloors ? SharesFloor(support) : !support.Moves);
 
     readonly bool IsBelow(in Support support) => support.Lower < 0 ||
         (grounded[support.Lower] != 0 && positions[support.Lower] < positions[support.Upper]);
@@ -285,7 +298,7 @@ unsafe partial struct SupportGraph
         for (int i = 0; i < starts[bodyCount]; ++i)
         {
             ref var support = ref byUpper[i];
-            if (!support.Leans)
+            if (!support.Leans && grounded[support.Upper] != OfColumn)
                 support.Carries = Carries(support);
             if (!support.Carries)
                 continue;
@@ -330,7 +343,13 @@ unsafe partial struct SupportGraph
                 continue;
             var node = next[place[DisjointSets.Root(islandOf, order[i])]]++;
             NodeOf[order[i]] = node;
-            Nodes[node] = new() { Body = order[i], Floor = hasFloors ? SupportLink.Floor(floors[order[i]]) : -1, Leans = grounded[order[i]] == Leans };
+            Nodes[node] = new()
+            {
+                Body = order[i],
+                Floor = hasFloors ? SupportLink.Floor(floors[order[i]]) : -1,
+                Leans = grounded[order[i]] >= Leans,
+                IsOfColumn = grounded[order[i]] == OfColumn,
+            };
         }
         if (leaning.Count > 0)
             FindRelaxed(islandCount);
@@ -344,6 +363,7 @@ unsafe partial struct SupportGraph
             node.SupportCount = carrying[node.Body];
             Links.Count += node.SupportCount;
         }
+        FindSingle(islandCount);
     }
 
     /// <summary>Fills in the links of some nodes, and how far their contacts are from their centres; nodes are independent of each other.</summary>
@@ -364,6 +384,8 @@ unsafe partial struct SupportGraph
                 SupportCount = node.SupportCount,
                 Leans = node.Leans,
                 IsRelaxed = node.IsRelaxed,
+                IsOfColumn = node.IsOfColumn,
+                MayBeColumn = node.MayBeColumn,
             };
             var link = node.FirstSupport;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
@@ -404,6 +426,7 @@ unsafe partial struct SupportGraph
                 pool.Return(ref floors);
             order.Dispose(pool);
             leaning.Dispose(pool);
+            swaying.Dispose(pool);
             Nodes.Dispose(pool);
             Links.Dispose(pool);
             Islands.Dispose(pool);
