@@ -113,7 +113,7 @@ public sealed unsafe class ConstraintFixture : IDisposable
     /// <summary>Solves all constraints once.</summary>
     public void Solve() => processor.Solve(ref batch, NewBodies(), substep, 0, Bundles);
 
-    SolverBodies NewBodies() => new(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
+    SolverBodies NewBodies() => new(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory, inertias.Memory);
 
     /// <inheritdoc/>
     public void Dispose()

@@ -33,6 +33,7 @@ public readonly ref struct BodyInertiasReference
     /// <summary>In the body's frame. To make the body kinematic or dynamic, use <see cref="BodyReference.SetLocalInertia"/>.</summary>
     public ref BodyInertia Local => ref local;
     /// <summary>In world axes, as the solver had it in the last substep: zero for a body that was added since, and less than the body's own about the
-    /// axes that a load in point joints stiffens. <see cref="BodyReference.ComputeInverseInertia"/> is what it is now.</summary>
+    /// axes that a load in point joints stiffens, and of a light link between heavy bodies.
+    /// <see cref="BodyReference.ComputeInverseInertia"/> is what it is now.</summary>
     public ref readonly BodyInertia World => ref world;
 }

@@ -51,6 +51,35 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         return arm.LengthSquared() * (trace * trace);
     }
 
+    // What slides on a line has an arm that changes, and with it what its bodies would be taken to have: a source of energy in itself.
+    static bool IConstraint<TBodies, TPrestep, TRows>.TakesAlong
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => TJoint.HoldsPoints || (TJoint.PullsAtPoints && TJoint.Kind == RowKind.Motor);
+    }
+
+    static Vector<int> IConstraint<TBodies, TPrestep, TRows>.IsFirm(in TPrestep prestep)
+    {
+        var unlimited = new Vector<float>(float.MaxValue);
+        if (TJoint.Kind == RowKind.Motor)
+        {
+            var motor = TJoint.Motor(prestep);
+            return Vector.GreaterThanOrEqual(motor.MaximumForce, unlimited) & Vector.GreaterThanOrEqual(motor.Damping, unlimited);
+        }
+        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
+        return TJoint.Kind == RowKind.Servo ? isRigid & Vector.GreaterThanOrEqual(TJoint.Servo(prestep).MaximumForce, unlimited) : isRigid;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void IConstraint<TBodies, TPrestep, TRows>.ReadArms(
+        in TBodies bodies, in TPrestep prestep, in TRows impulses, out Vector<float> squareA, out Vector<float> squareB)
+    {
+        TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.PointLoad(geometry, impulses, out _, out var offsetA, out var offsetB);
+        squareA = offsetA.LengthSquared();
+        squareB = offsetB.LengthSquared();
+    }
+
     // Springs and speeds that a game asked for are what it gets.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> IsRigid(in TPrestep prestep)

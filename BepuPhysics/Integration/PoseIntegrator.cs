@@ -84,9 +84,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
                 StopAndRead(unsound, indices, ref pose, ref velocity);
             if (stage == IntegrationStage.First)
-                Begin(origins, displacements, rows, pose.Position, velocity.Linear);
+                AddLinkInertia(Begin(origins, displacements, rows, pose.Position, velocity.Linear), ref localInertia.InverseInertiaTensor);
             else if (stage != IntegrationStage.Velocities)
-                MovePoses(motions, origins, displacements, indices, rows, wideDt, localInertia, velocity.Linear, ref pose, ref velocity);
+                MovePoses(motions, origins, displacements, indices, rows, wideDt, velocity.Linear, ref localInertia, ref pose, ref velocity);
+            else if (stiffness.Allocated)
+                AddLinkInertia(ReadSecondNeighbour(displacements, rows), ref localInertia.InverseInertiaTensor);
             if (stage is IntegrationStage.Last or IntegrationStage.Poses)
             {
                 // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
@@ -151,7 +153,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 rows = new RowOffsets(indices);
             }
             var mean = (before + velocity.Linear) * new Vector<float>(0.5f);
-            MovePoses(motions, origins, displacements, indices, rows, wideDt, localInertia, mean, ref pose, ref velocity);
+            MovePoses(motions, origins, displacements, indices, rows, wideDt, mean, ref localInertia, ref pose, ref velocity);
             if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
                 StopAndRead(unsound, indices, ref pose, ref velocity);
             WriteVelocity(motions, rows, velocity);
@@ -267,9 +269,9 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     }
 
     // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then. So it is
-    // with a velocity that is not the one that the last step ended with.
+    // with a velocity that is not the one that the last step ended with. What is returned of the last step is what a second neighbour is worth.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Begin(float* origins, float* displacements, in RowOffsets rows, in Vector3Wide position, in Vector3Wide velocity)
+    static Vector<float> Begin(float* origins, float* displacements, in RowOffsets rows, in Vector3Wide position, in Vector3Wide velocity)
     {
         var origin = Transpose.Gather(origins, FloatsPerRow, rows);
         var row = Transpose.Gather(displacements, FloatsPerRow, rows);
@@ -288,6 +290,19 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         origin.R5 = Wide.Mask(keptVelocity, origin.R5);
         origin.R6 = Wide.Mask(keptVelocity, origin.R6);
         Transpose.Scatter(origin, origins, FloatsPerRow, rows);
+        return row.R7;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector<float> ReadSecondNeighbour(float* displacements, in RowOffsets rows) =>
+        Transpose.GatherHalf(displacements + Transpose.FloatsPerHalf, FloatsPerRow, rows).W;
+
+    // The inertia that a body has in all of the step but for its bounds.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void AddLinkInertia(Vector<float> second, ref Symmetric3x3Wide inverseInertia)
+    {
+        if (!Vector.EqualsAll(second, Vector<float>.Zero))
+            LinkInertia.Apply(second, ref inverseInertia);
     }
 
     // Exact by Dekker's two-sum, whichever of the two is larger: what a + b lost by rounding to sum.
@@ -301,7 +316,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void MovePoses(
         float* motions, float* origins, float* displacements, Vector<int> indices, in RowOffsets rows, Vector<float> dt,
-        in BodyInertiaWide localInertia, in Vector3Wide meanLinear, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+        in Vector3Wide meanLinear, ref BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, rows);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + meanLinear * dt;
@@ -317,6 +332,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
 
         var origin = Transpose.GatherHalf(origins, FloatsPerRow, rows);
         pose.Position = new Vector3Wide(origin.X, origin.Y, origin.Z) + translation;
+        AddLinkInertia(row.R7, ref localInertia.InverseInertiaTensor);
         ref readonly var inverseInertia = ref localInertia.InverseInertiaTensor;
         switch (Callbacks.AngularIntegrationMode)
         {

@@ -51,6 +51,16 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Moves the velocities of the bodies towards satisfying the constraint.</summary>
     static abstract void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
 
+    // What light bodies between heavy ones are found by (LinkInertia.cs): whether turning a body takes the other one along, squares of the arms on which it
+    // does, and lanes in which it does whatever they weigh.
+    internal static virtual bool TakesAlong => false;
+
+    internal static virtual Vector<int> IsFirm(in TPrestep prestep) => Vector<int>.Zero;
+
+    internal static virtual void ReadArms(
+        in TBodies bodies, in TPrestep prestep, in TImpulses impulses, out Vector<float> squareA, out Vector<float> squareB) =>
+        squareA = squareB = Vector<float>.Zero;
+
     // What a governor of substeps reads: how far the constraint is from being met, m; zero where it is met, and where it is not meant to be rigid.
     internal static virtual bool HasError => false;
 

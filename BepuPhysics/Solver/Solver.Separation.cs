@@ -29,6 +29,6 @@ public sealed unsafe partial class Solver
             motions[i] = bodies.SetOf(body).MotionStates[body.Index];
             references[i] = new Vector<int>(i);
         }
-        return processor.Separation(ref TypeBatchAt(location), new SolverBodies(motions, null, null, null), references, location.IndexInTypeBatch);
+        return processor.Separation(ref TypeBatchAt(location), new SolverBodies(motions, null, null, null, null), references, location.IndexInTypeBatch);
     }
 }

@@ -5,19 +5,24 @@ using BepuUtilities;
 namespace BepuPhysics.Constraints;
 
 /// <summary>The bodies of the active set as the solver reads and writes them: rows of eight floats, so that each is one transpose.</summary>
-unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements, BodyInertia* stiffness)
+unsafe readonly struct SolverBodies(
+    MotionState* motions, BodyInertia* inertias, BodyVelocity* displacements, BodyInertia* stiffness, BodyInertia* localInertias)
 {
     const int FloatsPerRow = Rows8.Count;
     const int FloatsPerHalf = Transpose.FloatsPerHalf;
     const int FloatsPerMotion = 16;
 
     /// <summary>The bodies of a set.</summary>
-    internal SolverBodies(in BodySet set) : this(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory) { }
+    internal SolverBodies(in BodySet set) : this(
+        set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory, set.LocalInertias.Memory)
+    {
+    }
 
     readonly float* motions = (float*)motions;
     readonly float* inertias = (float*)inertias;
     readonly float* displacements = (float*)displacements;
     readonly float* stiffness = (float*)stiffness;
+    readonly float* localInertias = (float*)localInertias;
 
     /// <summary>Reads the parts of a bundle of bodies that are asked for. Unused lanes read body 0, which is harmless and exists.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -92,6 +97,35 @@ unsafe readonly struct SolverBodies(MotionState* motions, BodyInertia* inertias,
         row.R4 += added.ZY;
         row.R5 += added.ZZ;
         Transpose.Scatter(row, stiffness, FloatsPerRow, references);
+    }
+
+    /// <summary>Takes note of a neighbour of a dynamic body (LinkInertia.cs), in any order.</summary>
+    // Float by float: of a bundle it is hardly ever more than one or two. All of it has what is left over in rows that the integrator reads and writes anyway:
+    // what the second is worth in that of displacements, until the next step begins, what the heaviest is in that of inertias, until the next substep. Both
+    // are zero before the first warm start. Whose that is stands beside the position, and means nothing where it is zero.
+    internal void AddNeighbour(int body, float armSquared, float inverseMass, int neighbour, float inverseMassOfNeighbour)
+    {
+        var row = body * FloatsPerRow;
+        var own = localInertias + row;
+        var inertia = LinkInertia.Of(armSquared, own[0] + own[2] + own[5], inverseMass, inverseMassOfNeighbour);
+        if (inertia == 0)
+            return;
+        ref var heaviest = ref inertias[row + 7];
+        ref var nameOfHeaviest = ref ((int*)motions)[body * FloatsPerMotion + 7];
+        ref var second = ref displacements[row + 7];
+        var name = LinkInertia.NameOf(neighbour);
+        var isSame = name == nameOfHeaviest;
+        if (inertia > heaviest)
+        {
+            if (!isSame)
+                second = heaviest;
+            heaviest = inertia;
+            nameOfHeaviest = name;
+        }
+        else if (!isSame && inertia > second)
+        {
+            second = inertia;
+        }
     }
 
     /// <summary>Writes the velocities of a bundle of bodies that are asked for, except for kinematics and unused lanes.</summary>

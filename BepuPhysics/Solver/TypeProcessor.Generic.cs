@@ -95,10 +95,50 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var isStiffened = TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB, out var turnsFar);
         if (TConstraint.MayTurnFar)
             MarkTurning(ref references[0], turnsFar);
+        if (TConstraint.TakesAlong)
+            LookForNeighbours(references, bodies, slots, prestep, impulses);
         if (!isStiffened)
             return;
         bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA);
         bodies.AddStiffness(new(references[TBodies.Count - 1] & PlaceMask), stiffnessB);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void LookForNeighbours(Vector<int>* references, in SolverBodies bodies, in TBodies slots, in TPrestep prestep, in TImpulses impulses)
+    {
+        var inverseMassA = BodySlots.At(ref Unsafe.AsRef(in slots), 0).InverseMass;
+        var inverseMassB = BodySlots.At(ref Unsafe.AsRef(in slots), TBodies.Count - 1).InverseMass;
+        var lightA = LinkInertia.IsLight(inverseMassA, inverseMassB);
+        var lightB = LinkInertia.IsLight(inverseMassB, inverseMassA);
+        if (!Vector.EqualsAll(lightA | lightB, Vector<int>.Zero))
+            AddNeighbours(references, bodies, slots, prestep, impulses, lightA, lightB);
+    }
+
+    // Of none that is kinematic, and of no empty lane: neither is light.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void AddNeighbours(
+        Vector<int>* references, in SolverBodies bodies, in TBodies slots, in TPrestep prestep, in TImpulses impulses, Vector<int> lightA, Vector<int> lightB)
+    {
+        var isFirm = TConstraint.IsFirm(prestep);
+        lightA &= isFirm;
+        lightB &= isFirm;
+        if (Vector.EqualsAll(lightA | lightB, Vector<int>.Zero))
+            return;
+        TConstraint.ReadArms(slots, prestep, impulses, out var squareA, out var squareB);
+        ref var bodyA = ref BodySlots.At(ref Unsafe.AsRef(in slots), 0);
+        ref var bodyB = ref BodySlots.At(ref Unsafe.AsRef(in slots), TBodies.Count - 1);
+        var referencesA = references[0] & PlaceMask;
+        var referencesB = references[TBodies.Count - 1] & PlaceMask;
+        for (var lanes = Wide.Bits(lightA); lanes != 0; lanes &= lanes - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(lanes);
+            bodies.AddNeighbour(referencesA[lane], squareA[lane], bodyA.InverseMass[lane], referencesB[lane], bodyB.InverseMass[lane]);
+        }
+        for (var lanes = Wide.Bits(lightB); lanes != 0; lanes &= lanes - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(lanes);
+            bodies.AddNeighbour(referencesB[lane], squareB[lane], bodyB.InverseMass[lane], referencesA[lane], bodyA.InverseMass[lane]);
+        }
     }
 
     // An empty reference keeps all of its bits.

@@ -24,7 +24,7 @@ public abstract partial class TypeProcessor
         motions[0] = new() { Pose = RigidPose.Identity };
         inertias.Clear(0, 3);
         var bodies = new SolverBodies(
-            motions.Memory, inertias.Memory, (BodyVelocity*)(inertias.Memory + 1), inertias.Memory + 2);
+            motions.Memory, inertias.Memory, (BodyVelocity*)(inertias.Memory + 1), inertias.Memory + 2, inertias.Memory);
         var split = new SplitBodies(shares.Memory, velocities.Memory);
         // Of the first substep and of a later one, each with and without a relaxation.
         for (int i = 0; i < 6; ++i)

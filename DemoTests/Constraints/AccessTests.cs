@@ -57,9 +57,12 @@ public unsafe class AccessTests
                 if (!TConstraint.CarriesPointLoad)
                     continue;
                 TConstraint.TryGetGeometricStiffness(bodies, substep, prestep, impulses, out var a, out var b, out var turns);
+                TConstraint.ReadArms(bodies, prestep, impulses, out var squareA, out var squareB);
                 var poisoned = Poison(bodies, TConstraint.WarmStartAccess);
                 TConstraint.TryGetGeometricStiffness(poisoned, substep, prestep, impulses, out var otherA, out var otherB, out var otherTurns);
                 Assert.True(Bits(ref a).SequenceEqual(Bits(ref otherA)) && Bits(ref b).SequenceEqual(Bits(ref otherB)) && turns == otherTurns);
+                TConstraint.ReadArms(poisoned, prestep, impulses, out var otherSquareA, out var otherSquareB);
+                Assert.True(squareA == otherSquareA && squareB == otherSquareB);
             }
         }
     }

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
@@ -102,7 +103,7 @@ public unsafe class KernelPurityTests
                 MakeIdle(processor, ref batch, index, motions);
         }
 
-        var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
+        var bodies = new SolverBodies(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory, inertias.Memory);
         Substep[] substeps = [new(0, 1 / 240f, 0.8f), new(1, 1 / 240f), new(1, 1 / 240f, relaxations: 1, isRelaxation: true)];
         foreach (var substep in isSolveAlone ? substeps[1..2] : substeps)
         {
@@ -128,8 +129,10 @@ public unsafe class KernelPurityTests
             {
                 ref var velocity = ref motions[constraint * bodiesPerConstraint + slot].Velocity;
                 outcome.AddRange([velocity.Linear.X, velocity.Linear.Y, velocity.Linear.Z, velocity.Angular.X, velocity.Angular.Y, velocity.Angular.Z]);
-                ref var load = ref stiffness[constraint * bodiesPerConstraint + slot].InverseInertiaTensor;
-                outcome.AddRange([load.XX, load.YX, load.YY, load.ZX, load.ZY, load.ZZ]);
+                var body = constraint * bodiesPerConstraint + slot;
+                // With the heaviest neighbours, in what rows have left over.
+                outcome.AddRange(Floats(ref stiffness[body]));
+                outcome.AddRange([Floats(ref inertias[body])[7], Floats(ref displacements[body])[7], Floats(ref motions[body])[7]]);
             }
             outcomes.Add(constraint, [.. outcome]);
         }
@@ -140,6 +143,8 @@ public unsafe class KernelPurityTests
         pool.Return(ref displacements);
         return outcomes;
     }
+
+    static Span<float> Floats<T>(ref T row) where T : unmanaged => MemoryMarshal.Cast<T, float>(new Span<T>(ref row));
 
     // What is rigid is damped where its load turns a body far.
     static void MakeRigid(TypeProcessor processor, ref TypeBatch batch, int index)

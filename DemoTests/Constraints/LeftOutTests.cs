@@ -172,7 +172,7 @@ public class LeftOutTests
         public static void Read(TestWorld world, ConstraintHandle joint, in Substep substep, ConstraintRow[] rows)
         {
             ref var set = ref world.Bodies.ActiveSet;
-            var bodies = new SolverBodies(set.MotionStates.Memory, set.WorldInertias.Memory, set.Displacements.Memory, set.Stiffness.Memory);
+            var bodies = new SolverBodies(set);
             var (processor, index) = Place(world, joint);
             processor.ReadRows(ref BatchOf(world, joint), bodies, substep, index, rows);
         }

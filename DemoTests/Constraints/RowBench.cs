@@ -62,7 +62,7 @@ sealed unsafe class RowBench : IDisposable
 
     public int RowCount => Processor.RowCount;
 
-    SolverBodies SolverBodies => new(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory);
+    SolverBodies SolverBodies => new(motions.Memory, inertias.Memory, displacements.Memory, stiffness.Memory, inertias.Memory);
 
     /// <summary>How far a body has moved since collision detection.</summary>
     public ref BodyVelocity Displacement(int body) => ref displacements[body];
