@@ -29,11 +29,12 @@ public sealed partial class Simulation
         if (!RuntimeFeature.IsDynamicCodeCompiled)
             return;
         var used = Array.FindAll(convexTypes, Shapes.HasAny);
-        var work = new WarmUpWork(this, used.Length > 0 ? used : convexTypes);
+        var types = used.Length > 0 ? used : convexTypes;
+        var work = new WarmUpWork(this, types);
         StagedWork.Run(ref work, threadDispatcher);
         // The world once more, with threads: these are free again now.
         if (threadDispatcher is not null)
-            WarmUpWorld.Run(work.ShapeTypes, threadDispatcher);
+            WarmUpWorld.Run(types, threadDispatcher);
     }
 
     // Parts that have nothing to do with each other. The compiler takes as many threads as call it.
@@ -44,8 +45,6 @@ public sealed partial class Simulation
         const int NarrowPhase = 1;
         const int Integrator = 2;
         const int FirstConstraintType = 3;
-
-        public int[] ShapeTypes => shapeTypes;
 
         public int StageCount => 1;
 

@@ -29,7 +29,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         finally
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
-            Release(ref order, Pool);
+            order.DisposeIfTaken(Pool);
             ReleaseWorkers();
         }
     }

@@ -365,20 +365,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             worker.Pool.RemoveUser(this);
         worker.Batcher.Dispose();
         worker.TestedPairs.Dispose(worker.Pool);
-        Release(ref worker.Pending, worker.Pool);
-        Release(ref worker.Old, worker.Pool);
-        Release(ref worker.Bouncing, worker.Pool);
-        Release(ref worker.Gone, worker.Pool);
-        Release(ref worker.Fast, worker.Pool);
-        Release(ref worker.Sensed, worker.Pool);
+        worker.Pending.DisposeIfTaken(worker.Pool);
+        worker.Old.DisposeIfTaken(worker.Pool);
+        worker.Bouncing.DisposeIfTaken(worker.Pool);
+        worker.Gone.DisposeIfTaken(worker.Pool);
+        worker.Fast.DisposeIfTaken(worker.Pool);
+        worker.Sensed.DisposeIfTaken(worker.Pool);
         worker.Statics.Release(worker.Pool);
         worker.Pool = null!;
-    }
-
-    static void Release<T>(ref QuickList<T> notes, BufferPool pool) where T : unmanaged
-    {
-        if (notes.Span.Allocated)
-            notes.Dispose(pool);
     }
 
     void ReleaseWorkers()

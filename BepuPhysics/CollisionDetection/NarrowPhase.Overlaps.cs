@@ -72,7 +72,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         catch
         {
             // Callbacks are the game's and may throw: the step is lost, the memory is not.
-            Release(ref order, Pool);
+            order.DisposeIfTaken(Pool);
             ReleaseWorkers();
             AgreedPairs.Clear();
             throw;

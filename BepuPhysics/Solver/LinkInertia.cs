@@ -55,9 +55,6 @@ static class LinkInertia
         return armSquared * trace * (Part / 3) * beyond > product ? MathHelper.Min(armSquared * beyond / product, float.MaxValue) : 0;
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static Vector<float> Trace(in Symmetric3x3Wide m) => m.XX + m.YY + m.ZZ;
-
     /// <summary>Adds to the inertia of bodies what they lack.</summary>
     /// <param name="second">The second greatest inertia of a neighbour, kg m2; zero of others.</param>
     /// <param name="inverseInertia">Inverse inertia of the bodies.</param>
@@ -66,7 +63,7 @@ static class LinkInertia
     [MethodImpl(MethodImplOptions.NoInlining)]
     internal static void Apply(Vector<float> second, ref Symmetric3x3Wide inverseInertia)
     {
-        var trace = Trace(inverseInertia);
+        var trace = inverseInertia.XX + inverseInertia.YY + inverseInertia.ZZ;
         var factor = Wide.Min(second * trace * new Vector<float>(Part / 3), new Vector<float>(GreatestFactor));
         var isLink = Vector.GreaterThan(factor, Vector<float>.One);
         if (Vector.EqualsAll(isLink, Vector<int>.Zero))

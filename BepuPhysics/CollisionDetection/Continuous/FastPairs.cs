@@ -115,8 +115,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         moverOf.Dispose(pool);
         changed.Dispose(pool);
         slow.Dispose(pool);
-        if (near.Span.Allocated)
-            near.Dispose(pool);
+        near.DisposeIfTaken(pool);
         if (looks.Span.Allocated)
         {
             looks.Dispose(pool);

@@ -262,8 +262,7 @@ public sealed unsafe partial class CollisionEvents
 
     void Release<T>(ref QuickList<T> list) where T : unmanaged
     {
-        if (list.Span.Allocated)
-            list.Dispose(pool);
+        list.DisposeIfTaken(pool);
         list = default;
     }
 

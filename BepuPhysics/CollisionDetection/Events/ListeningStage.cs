@@ -199,8 +199,7 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
 
     internal void Release()
     {
-        if (bundles.Span.Allocated)
-            bundles.Dispose(pool);
+        bundles.DisposeIfTaken(pool);
         Return(ref states);
         Return(ref centers);
         Return(ref firstBundles);

@@ -207,10 +207,8 @@ struct AgreedPairs
     /// <summary>Returns all memory.</summary>
     public void Dispose(BufferPool pool)
     {
-        if (pairs.Span.Allocated)
-            pairs.Dispose(pool);
-        if (bodies.Span.Allocated)
-            bodies.Dispose(pool);
+        pairs.DisposeIfTaken(pool);
+        bodies.DisposeIfTaken(pool);
         if (entries.Allocated)
             pool.Return(ref entries);
         this = default;

@@ -108,10 +108,11 @@ readonly unsafe struct SupportFinder(
             moves = Vector.AndNot(together, rests);
             rests |= together;
         }
+        var wasHeld = ContactMaterialWide.WasHeld(prestep[ContactPrestepLayout.Damping(count)]);
         var maySway = Vector<int>.Zero;
         if (count >= LeastContacts)
         {
-            maySway = carries & flat & (moves | ~rests) & ContactMaterialWide.WasHeld(prestep[ContactPrestepLayout.Damping(count)]);
+            maySway = carries & flat & (moves | ~rests) & wasHeld;
             if (maySway != Vector<int>.Zero)
                 maySway &= MaySway(bodyA.Linear - gainA, bodyB.Linear - gainB, fastest);
         }
@@ -170,7 +171,6 @@ readonly unsafe struct SupportFinder(
         var band = new Vector<float>(ContactMaterialWide.BandPerExtent) * extent;
         var open = Vector<int>.Zero;
         var near = Vector<int>.Zero;
-        var wasHeld = ContactMaterialWide.WasHeld(prestep[ContactPrestepLayout.Damping(count)]);
         var reach = Wide.Mask(wasHeld, fastest * new Vector<float>(SinkingSteps * dt));
         for (int i = 0; i < count; ++i)
         {
