@@ -7,7 +7,11 @@ namespace BepuPhysics.CollisionDetection;
 public abstract partial class NarrowPhase
 {
     /// <summary>Moves the pair of a contact constraint among those that sleep.</summary>
-    internal void PutToSleep(int constraint) => Pairs.PutToSleep(pairOfConstraint[constraint], Pool);
+    internal void PutToSleep(int constraint)
+    {
+        Pairs.PutToSleep(pairOfConstraint[constraint], Pool);
+        Restitution.NoteSleep();
+    }
 
     /// <summary>Moves the pair of a contact constraint among those that are tested in each step.</summary>
     internal void Awaken(int constraint)

@@ -21,10 +21,7 @@ public class SolveAgainTests
     public void WhatBouncesIsLinkedAnewWhereABodyWasRemoved(int substeps)
     {
         using var pool = new BufferPool();
-        using var simulation = Simulation.Create(
-            pool, new DefaultNarrowPhaseCallbacks { Surface = new() { Restitution = 1 }, Material = new(0, 2, SpringSettings.Rigid) },
-            new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, substeps));
-        simulation.Statics.Add(new StaticDescription(new Vector3(0, -1, 0), simulation.Shapes.Add(new Box(100, 2, 100))));
+        using var simulation = Bouncing(pool, substeps);
         // The first one meets the floor when half of the step is solved, the others when all of it is. Gaps are those at collision detection each time.
         var first = Add(simulation, 0, .1f * Speed * Dt);
         BodyHandle[] others = [Add(simulation, 3, .8f * Speed * Dt), Add(simulation, 6, .8f * Speed * Dt), Add(simulation, 9, .9f * Speed * Dt)];
@@ -39,6 +36,59 @@ public class SolveAgainTests
         foreach (var body in others)
             Assert.Equal(Speed, simulation.Bodies[body].Velocity.Linear.Y, 1e-4f);
         simulation.Validate();
+    }
+
+    /// <summary>
+    /// Pairs that bounce referred to the bodies of a constraint that had fallen asleep since they were found, whose indices in the sleeping set are anybody's
+    /// in the active one, or nobody's.
+    /// </summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(4)]
+    public void WhatBouncesIsForgottenWhereItIsPutToSleep(int substeps)
+    {
+        using var pool = new BufferPool();
+        using var simulation = Bouncing(pool, substeps);
+        BodyHandle[] others = [Add(simulation, 0, .8f * Speed * Dt), Add(simulation, 3, .8f * Speed * Dt)];
+        var sleepers = new BodyHandle[6];
+        for (int i = 0; i < sleepers.Length; ++i)
+            sleepers[i] = Add(simulation, 6 + 3 * i, .1f * Speed * Dt);
+        simulation.PredictBoundingBoxes(Dt);
+        simulation.CollisionDetection(Dt);
+        SetAwake(simulation, sleepers, false);
+        simulation.Solve(Dt);
+
+        foreach (var body in others)
+            Assert.Equal(Speed, simulation.Bodies[body].Velocity.Linear.Y, 1e-4f);
+        foreach (var body in sleepers)
+            Assert.False(simulation.Bodies[body].Awake);
+        simulation.Validate();
+
+        // Awake again they bounce, found anew.
+        SetAwake(simulation, sleepers, true);
+        foreach (var body in sleepers)
+            simulation.Bodies[body].Velocity = new(new Vector3(0, -Speed, 0));
+        simulation.Timestep(Dt);
+        foreach (var body in sleepers)
+            Assert.Equal(Speed, simulation.Bodies[body].Velocity.Linear.Y, 1e-4f);
+    }
+
+    static void SetAwake(Simulation simulation, BodyHandle[] bodies, bool isAwake)
+    {
+        foreach (var body in bodies)
+        {
+            var reference = simulation.Bodies[body];
+            reference.Awake = isAwake;
+        }
+    }
+
+    static Simulation Bouncing(BufferPool pool, int substeps)
+    {
+        var simulation = Simulation.Create(
+            pool, new DefaultNarrowPhaseCallbacks { Surface = new() { Restitution = 1 }, Material = new(0, 2, SpringSettings.Rigid) },
+            new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, substeps));
+        simulation.Statics.Add(new StaticDescription(new Vector3(0, -1, 0), simulation.Shapes.Add(new Box(100, 2, 100))));
+        return simulation;
     }
 
     static BodyHandle Add(Simulation simulation, float x, float height)

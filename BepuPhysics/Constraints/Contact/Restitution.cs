@@ -45,6 +45,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     ImpactGroups groups = new(pool);
     bool isLinked;
     bool anyMeets;
+    bool anySleeps;
 
     /// <summary>Watches a contact constraint in the coming step.</summary>
     internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient, float leastHit) =>
@@ -69,7 +70,14 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     }
 
     /// <summary>Begins a step: nothing is watched.</summary>
-    internal void BeginStep() => pairs.Count = 0;
+    internal void BeginStep()
+    {
+        pairs.Count = 0;
+        anySleeps = false;
+    }
+
+    /// <summary>Tells that a contact constraint, which may be watched, falls asleep.</summary>
+    internal void NoteSleep() => anySleeps = true;
 
     /// <summary>No longer watches a contact constraint that is removed between collision detection and the solver.</summary>
     internal void Forget(ConstraintHandle constraint)
@@ -96,12 +104,27 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         groups = default;
     }
 
-    // Where a game calls the stages of a step by itself, it may solve again what it has removed bodies from in between.
+    // Where a game calls the stages of a step by itself, it may solve again what it has removed bodies from in between, or put them to sleep.
     bool ISolverStage.BeginStep()
     {
         isLinked = false;
         anyMeets = false;
+        if (anySleeps)
+            ForgetSleepers();
         return pairs.Count > 0;
+    }
+
+    // Whole islands fall asleep at once: all their pairs are looked for in one pass.
+    void ForgetSleepers()
+    {
+        anySleeps = false;
+        int kept = 0;
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            if (!solver.IsAsleep(pairs[i].Constraint.Slot))
+                pairs[kept++] = pairs[i];
+        }
+        pairs.Count = kept;
     }
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
