@@ -96,7 +96,6 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
         var last = bodies.Asleep.Count + island.Length - 1;
         for (int i = 0; i < island.Length; ++i)
         {
-            solver.CountHubOfSleeper(bodies.Locations[island[i]].Index, isLeaving: true);
             var index = bodies.PutToSleep(island[i]);
             bodies.Asleep.Islands[index] = id;
             bodies.Asleep.NextOfIsland[index] = island[index == last ? 0 : i + 1];
@@ -172,7 +171,6 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
     {
         bodies.Awaken(slot);
         events.NoteTurned(slot);
-        solver.CountHubOfSleeper(bodies.Locations[slot].Index, isLeaving: false);
     }
 
     ConstraintList ConstraintsOf(int slot)

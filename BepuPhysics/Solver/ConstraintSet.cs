@@ -30,6 +30,8 @@ public enum BatchKind
     Direct,
     /// <summary>Not at all, until they are enabled again: a body may occur any number of times.</summary>
     Disabled,
+    /// <summary>As coloured ones, but in a random order, before all others: joints of bodies with so many that a fixed order is not stable.</summary>
+    Shuffled,
 }
 
 /// <summary>Constraints that can be solved at the same time: no dynamic body occurs in two of them, unless the batch is of another kind.</summary>
@@ -41,8 +43,14 @@ public struct ConstraintBatch
     public QuickList<TypeBatch> TypeBatches;
     // One more than the place of each type in the list; 0 where the batch has none of it.
     TypePlaces places;
-    /// <summary>Slots of the dynamic bodies that occur in the batch; kept for coloured batches only.</summary>
+    /// <summary>Slots of the dynamic bodies that occur in the batch; kept where none may occur twice.</summary>
     public IndexSet DynamicBodies;
+
+    /// <summary>Whether no dynamic body may occur twice.</summary>
+    internal readonly bool IsOfColour => Kind is BatchKind.Coloured or BatchKind.Shuffled;
+
+    /// <summary>Whether the sweeps go over it.</summary>
+    internal readonly bool IsSwept => Kind is BatchKind.Coloured or BatchKind.Shuffled or BatchKind.Fallback;
 
     /// <summary>Number of constraints of all types.</summary>
     public readonly int CountConstraints()

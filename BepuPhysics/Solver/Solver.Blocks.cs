@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
@@ -7,24 +6,23 @@ namespace BepuPhysics;
 // The constraints of a sweep, cut into blocks, and the stages that go through them.
 public sealed unsafe partial class Solver
 {
-    // A range of bundles of the joints, or of the contacts, of one batch: their type batches are counted one after the other. A batch is cut where it comes out
+    // A range of bundles of one batch: its type batches are counted one after the other. A batch is cut where it comes out
     // even, whatever types it is of, so that each worker has as much to do as the others and finds in its cache what it had in the stage before.
     struct Block
     {
         public int Batch;
-        public bool IsOfJoints;
         public int StartBundle;
         public int EndBundle;
     }
 
-    // Blocks of a batch: those of joints, then those of contacts.
     struct BlockRange
     {
         public int Start;
-        public int JointCount;
         public int Count;
         // Whether it has so few constraints that sharing them takes longer than solving them.
         public bool IsSmall;
+        // Whether it is swept over in random order.
+        public bool IsDrawn;
     }
 
     void BuildBlocks(ref SolveWork work)
@@ -35,46 +33,40 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < batches.Count; ++i)
         {
             var start = work.Blocks.Count;
-            if (batches[i].Kind is BatchKind.Direct or BatchKind.Disabled)
+            if (!batches[i].IsSwept)
             {
                 work.BlocksOfBatch.Add(default, pool);
                 continue;
             }
-            var bundles = AddBlocks(ref work, i, ofJoints: true);
-            var firstContacts = work.Blocks.Count;
-            bundles += AddBlocks(ref work, i, ofJoints: false);
+            var bundles = AddBlocks(ref work, i);
             work.BlocksOfBatch.Add(new()
             {
                 Start = start,
-                JointCount = firstContacts - start,
                 Count = work.Blocks.Count - start,
-                IsSmall = bundles <= ConstraintBundlesPerBlock && batches[i].Kind == BatchKind.Coloured,
+                IsSmall = bundles <= ConstraintBundlesPerBlock && batches[i].IsOfColour,
             }, pool);
         }
     }
 
     // Returns the number of bundles.
-    int AddBlocks(ref SolveWork work, int batchIndex, bool ofJoints)
+    int AddBlocks(ref SolveWork work, int batchIndex)
     {
         ref var batch = ref ActiveSet.Batches[batchIndex];
         var bundles = 0;
         foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
-            bundles += IsOfJoints(typeBatch) == ofJoints ? typeBatch.BundleCount : 0;
+            bundles += typeBatch.BundleCount;
         var count = EvenBlockCount(bundles, ConstraintBundlesPerBlock);
         for (int i = 0; i < count; ++i)
         {
             work.Blocks.Add(new()
             {
                 Batch = batchIndex,
-                IsOfJoints = ofJoints,
                 StartBundle = StartOfBlock(i, count, bundles),
                 EndBundle = StartOfBlock(i + 1, count, bundles),
             }, pool);
         }
         return bundles;
     }
-
-    static bool IsOfJoints(in TypeBatch batch) => batch.TypeId >= ConstraintTypeIds.ContactTypeCount;
 
     // Numbers that two and four workers share evenly, but for what is one block.
     static int EvenBlockCount(int bundles, int mostPerBlock) =>
@@ -84,32 +76,20 @@ public sealed unsafe partial class Solver
 
     void AddSweep(ref SolveWork work, StageKind kind, int substep)
     {
-        if (!work.ShufflesOrder)
-        {
-            for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
-                AddBatch(ref work, kind, substep, i, work.BlocksOfBatch[i].Start, work.BlocksOfBatch[i].Count);
-            return;
-        }
         for (int i = 0; i < work.Order.Count; ++i)
-        {
-            var batch = work.Order[i];
-            ref var blocks = ref work.BlocksOfBatch[batch];
-            // Split bodies are joined once for all of their constraints.
-            AddBatch(ref work, kind, substep, batch, blocks.Start, IsFallback(batch) ? blocks.Count : blocks.JointCount);
-        }
+            AddBatch(ref work, kind, substep, work.Order[i].Batch);
         for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
         {
-            ref var blocks = ref work.BlocksOfBatch[i];
-            if (!IsFallback(i) || blocks.JointCount == 0)
-                AddBatch(ref work, kind, substep, i, blocks.Start + blocks.JointCount, blocks.Count - blocks.JointCount);
+            if (!work.BlocksOfBatch[i].IsDrawn)
+                AddBatch(ref work, kind, substep, i);
         }
     }
 
-    void AddBatch(ref SolveWork work, StageKind kind, int substep, int batch, int firstBlock, int blockCount)
+    void AddBatch(ref SolveWork work, StageKind kind, int substep, int batch)
     {
+        var (firstBlock, blockCount, isSmall) = (work.BlocksOfBatch[batch].Start, work.BlocksOfBatch[batch].Count, work.BlocksOfBatch[batch].IsSmall);
         if (blockCount == 0)
             return;
-        var isSmall = work.BlocksOfBatch[batch].IsSmall;
         if (isSmall && TryContinueRow(ref work, kind, firstBlock, blockCount))
             return;
         work.Stages.Add(new()

@@ -58,22 +58,22 @@ public sealed unsafe partial class Solver
     {
         ref var constraints = ref bodies.SetOf(body, out var recolored).Constraints[recolored];
         var edge = constraints.First;
-        ChangeKindOfHub(recolored);
         for (int i = constraints.Count; i > 0; --i)
         {
             // From the last to the first; those that follow stay where they are when one is removed.
             edge = Edges.Previous(edge);
             var handle = ReferenceOf(edge).ConnectingConstraintHandle;
-            var kind = KindOf(Locations[handle.Slot]);
-            if (!TryMove(handle, kind == BatchKind.Fallback ? BatchKind.Coloured : kind))
+            if (!TryMove(handle, IsSwept(handle) ? BatchKind.Coloured : KindOf(Locations[handle.Slot])))
                 RemoveConstraint(handle);
         }
     }
 
     /// <summary>Whether a constraint that exists is solved by the sweeps.</summary>
-    internal bool IsSwept(ConstraintHandle handle) => KindOf(Locations[handle.Slot]) is BatchKind.Coloured or BatchKind.Fallback;
+    internal bool IsSwept(ConstraintHandle handle) => BatchOf(Locations[handle.Slot]).IsSwept;
 
-    BatchKind KindOf(in ConstraintLocation location) => Sets[location.SetIndex].Batches[location.BatchIndex].Kind;
+    BatchKind KindOf(in ConstraintLocation location) => BatchOf(location).Kind;
+
+    ref ConstraintBatch BatchOf(in ConstraintLocation location) => ref Sets[location.SetIndex].Batches[location.BatchIndex];
 
     /// <summary>
     /// Leaves a constraint that exists and is enabled out of the sweeps, or takes it in again. Whoever leaves it out solves it, by its rows
@@ -85,7 +85,7 @@ public sealed unsafe partial class Solver
             TryMove(handle, isSwept ? BatchKind.Coloured : BatchKind.Direct);
     }
 
-    // Puts a constraint into a batch anew, for what its bodies are now; false where none of them is dynamic.
+    // Puts a constraint into a batch anew, for what its bodies are now; false where none of them is dynamic. Coloured stands for all kinds that are swept.
     bool TryMove(ConstraintHandle handle, BatchKind kind)
     {
         Span<BodyHandle> handles = stackalloc BodyHandle[MaximumBodiesPerConstraint];

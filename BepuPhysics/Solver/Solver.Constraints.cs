@@ -87,6 +87,7 @@ public sealed unsafe partial class Solver
         RemoveFromBodies(handle);
         RemoveFromBatch(Locations[handle.Slot]);
         Locations[handle.Slot].SetIndex = -1;
+        MoveJointsOfTurned();
         owners.Release(handle.Slot);
         HandlePool.Return(handle.Slot, pool);
     }
@@ -205,22 +206,27 @@ public sealed unsafe partial class Solver
         return handle;
     }
 
-    // Coloured stands for both kinds that are swept over.
+    // Coloured stands for all kinds that are swept over.
     ConstraintLocation Allocate(ConstraintHandle handle, ReadOnlySpan<BodyHandle> bodyHandles, int typeId, BatchKind kind = BatchKind.Coloured)
     {
         Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
         Span<int> dynamics = stackalloc int[MaximumBodiesPerConstraint];
         int dynamicCount = 0;
+        var isShuffled = false;
         for (int i = 0; i < bodyHandles.Length; ++i)
         {
             var kinematic = Bodies.IsKinematic(bodies.SetOf(bodyHandles[i], out var bodyIndex).LocalInertias[bodyIndex]);
             encoded[i] = kinematic ? bodyIndex | EncodedBody.KinematicFlag : bodyIndex;
-            if (!kinematic)
-                dynamics[dynamicCount++] = bodyHandles[i].Slot;
+            if (kinematic)
+                continue;
+            dynamics[dynamicCount++] = bodyHandles[i].Slot;
+            isShuffled |= typeId >= ConstraintTypeIds.ContactTypeCount && IsShuffled(bodyIndex);
         }
-        var batchIndex = kind == BatchKind.Coloured ? FindBatch(dynamics[..dynamicCount]) : FindOrCreateBatch(ref ActiveSet, kind);
+        var batchIndex = kind == BatchKind.Coloured
+            ? FindBatch(dynamics[..dynamicCount], isShuffled ? BatchKind.Shuffled : BatchKind.Coloured)
+            : FindOrCreateBatch(ref ActiveSet, kind);
         ref var batch = ref ActiveSet.Batches[batchIndex];
-        if (batch.Kind == BatchKind.Coloured)
+        if (batch.IsOfColour)
         {
             for (int i = 0; i < dynamicCount; ++i)
                 batch.DynamicBodies.Add(dynamics[i], pool);
@@ -231,19 +237,19 @@ public sealed unsafe partial class Solver
         return new() { SetIndex = 0, BatchIndex = batchIndex, TypeId = typeId, IndexInTypeBatch = index };
     }
 
-    int FindBatch(Span<int> dynamics)
+    int FindBatch(Span<int> dynamics, BatchKind kind)
     {
         ref var batches = ref ActiveSet.Batches;
-        var coloured = 0;
+        var colours = 0;
         for (int i = 0; i < batches.Count; ++i)
         {
-            if (batches[i].Kind != BatchKind.Coloured)
+            if (batches[i].Kind != kind)
                 continue;
             if (batches[i].DynamicBodies.CanFit(dynamics))
                 return i;
-            ++coloured;
+            ++colours;
         }
-        return coloured < FallbackBatchThreshold ? AddBatch(ref ActiveSet, BatchKind.Coloured) : FindOrCreateBatch(ref ActiveSet, BatchKind.Fallback);
+        return colours < FallbackBatchThreshold ? AddBatch(ref ActiveSet, kind) : FindOrCreateBatch(ref ActiveSet, BatchKind.Fallback);
     }
 
     int FindOrCreateBatch(ref ConstraintSet set, BatchKind kind) => FindBatch(set, kind) is >= 0 and var index ? index : AddBatch(ref set, kind);
@@ -264,7 +270,7 @@ public sealed unsafe partial class Solver
     {
         ref var batches = ref set.Batches;
         var batch = new ConstraintBatch { Kind = kind, TypeBatches = new QuickList<TypeBatch>(4, pool) };
-        if (kind == BatchKind.Coloured)
+        if (batch.IsOfColour)
             batch.DynamicBodies = new IndexSet(pool, Math.Max(64, bodies.ActiveSet.Count));
         batches.Add(batch, pool);
         return batches.Count - 1;
@@ -277,7 +283,7 @@ public sealed unsafe partial class Solver
         ref var batch = ref batches[location.BatchIndex];
         ref var typeBatch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
-        if (batch.Kind == BatchKind.Coloured)
+        if (batch.IsOfColour)
         {
             for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
             {

@@ -88,7 +88,7 @@ public sealed unsafe partial class Solver
             dynamics[dynamicCount++] = ends.SlotA;
         if (ends.Count > 1 && (ends.ReferenceB & EncodedBody.KinematicFlag) == 0)
             dynamics[dynamicCount++] = ends.SlotB;
-        var batchIndex = FindBatch(dynamics[..dynamicCount]);
+        var batchIndex = FindBatch(dynamics[..dynamicCount], BatchKind.Coloured);
         ref var batch = ref ActiveSet.Batches[batchIndex];
         for (int i = 0; i < dynamicCount && batch.Kind == BatchKind.Coloured; ++i)
             batch.DynamicBodies.Add(dynamics[i], pool);

@@ -94,7 +94,7 @@ public sealed unsafe partial class Solver
         var joints = new QuickList<DirectCandidate>(16, pool);
         foreach (ref var batch in ActiveSet.Batches.AsSpan())
         {
-            if (batch.Kind is BatchKind.Direct or BatchKind.Coloured or BatchKind.Fallback)
+            if (batch.IsSwept || batch.Kind == BatchKind.Direct)
                 AddJoints(batch, ref joints);
         }
         return joints;

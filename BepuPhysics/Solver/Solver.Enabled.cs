@@ -49,6 +49,7 @@ public sealed unsafe partial class Solver
         for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
             ChangeJointCount(processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask, change);
         MarkHubs(location);
+        MoveJointsOfTurned();
     }
 
     void CheckJoint(ConstraintHandle handle)

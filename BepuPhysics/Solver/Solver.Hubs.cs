@@ -18,10 +18,6 @@ public sealed unsafe partial class Solver
     /// <summary>Joints that make a body a hub.</summary>
     const int JointsOfHub = 3;
 
-    // Number of hubs whose joints have to be swept over in random order, with one sweep per substep and with several.
-    int hubsToShuffleForOneSweep;
-    int hubsToShuffleForSweeps;
-
     // The number of joints that are coupled through a body.
     int Degree(int bodyIndex) =>
         Bodies.IsKinematic(bodies.ActiveSet.LocalInertias[bodyIndex]) ? 0 : bodies.ActiveSet.JointCounts[bodyIndex];
@@ -33,6 +29,7 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < bodyHandles.Length; ++i)
             ChangeJointCount(bodies.Locations[bodyHandles[i].Slot].Index, 1);
         MarkHubs(Locations[joint.Slot]);
+        MoveJointsOfTurned();
     }
 
     /// <summary>Follows a body that got a joint, or lost one.</summary>
@@ -41,7 +38,7 @@ public sealed unsafe partial class Solver
         var before = Degree(bodyIndex);
         bodies.ActiveSet.JointCounts[bodyIndex] += change;
         var after = Degree(bodyIndex);
-        CountHub(before, after);
+        NoteTurned(bodyIndex, before, after);
         if (before >= JointsOfHub == after >= JointsOfHub)
             return;
         foreach (var constraint in new BodyConstraints(this, bodies.ActiveSet.Constraints[bodyIndex]))
@@ -50,15 +47,6 @@ public sealed unsafe partial class Solver
             if (Processor(location.TypeId).MakesHubs)
                 MarkHubs(location);
         }
-    }
-
-    /// <summary>Follows a body that became kinematic or dynamic; its joints are marked by who puts them into batches anew.</summary>
-    void ChangeKindOfHub(int bodyIndex)
-    {
-        if (!bodies.ActiveSet.JointCounts.Allocated)
-            return;
-        var after = Degree(bodyIndex);
-        CountHub(bodies.ActiveSet.JointCounts[bodyIndex] - after, after);
     }
 
     /// <summary>Writes into the references of a joint which of its bodies are hubs.</summary>
@@ -72,13 +60,5 @@ public sealed unsafe partial class Solver
             var isHub = isEnabled && Degree(reference & EncodedBody.IndexMask) >= JointsOfHub;
             reference = isHub ? reference | EncodedBody.HubFlag : reference & ~EncodedBody.HubFlag;
         }
-    }
-
-    void CountHub(int before, int after)
-    {
-        hubsToShuffleForOneSweep += Change(JointsToShuffleForOneSweep);
-        hubsToShuffleForSweeps += Change(JointsToShuffleForSweeps);
-
-        int Change(int limit) => (after >= limit ? 1 : 0) - (before >= limit ? 1 : 0);
     }
 }

@@ -1,4 +1,5 @@
-using System;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
@@ -16,7 +17,9 @@ namespace BepuPhysics;
 // and its reverse, where the last joint of a substep is the first of the next. One order for all sweeps of a substep: an exactly straight
 // chain, with three sweeps and the stiffness that they allow, gains energy where each of them has its own.
 //
-// Contacts come after all joints then, in the order of their batches: what touches no joint keeps every bit, whatever hubs there are elsewhere.
+// Joints of such bodies have batches of their own, before all others. So what has no such body keeps every bit, whatever there is elsewhere. Each of
+// these batches draws a number, which follows from its own place among them, the substep and the number of steps: that of others, which may be there or
+// not, does not come into it.
 public sealed unsafe partial class Solver
 {
     /// <summary>Joints of one body from which on a fixed order gains energy at the mass ratio that is worst for it, with one sweep per substep.</summary>
@@ -24,37 +27,148 @@ public sealed unsafe partial class Solver
     /// <summary>The same with several sweeps per substep, be they iterations or relaxations.</summary>
     const int JointsToShuffleForSweeps = 4;
 
-    // Part of the state of a simulation: it begins with zero and takes the same values in each run.
-    uint shuffleState;
+    // Steps since the simulation began, was cleared, or was last empty.
+    uint stepNumber;
+    // Joints of one body from which on they are shuffled, by the settings of the last step.
+    int jointsToShuffle;
+    // Bodies that have begun or ceased to have that many, whose joints are yet to be moved.
+    TurnedBodies turned;
 
-    /// <summary>Lists the batches that have joints, in the order of their indices, if any sweep goes through them in another.</summary>
-    void BuildOrder(ref SolveWork work)
+    struct TurnedBodies
     {
-        if (hubsToShuffleForOneSweep + hubsToShuffleForSweeps == 0)
-            return;
-        work.Order = new QuickList<int>(Math.Max(1, work.BlocksOfBatch.Count), pool);
-        for (int i = 0; i < work.BlocksOfBatch.Count; ++i)
-            if (work.BlocksOfBatch[i].JointCount > 0)
-                work.Order.Add(i, pool);
+        public int Count;
+        public BodyIndices Indices;
     }
 
-    /// <summary>Shuffles the order of joints for the next substep, where a fixed one is not stable.</summary>
-    // Fisher and Yates. Of the linear congruential generator only the upper bits count, which are the good ones.
-    void ShuffleOrder(ref SolveWork work)
+    [InlineArray(MaximumBodiesPerConstraint)]
+    struct BodyIndices
     {
-        var hubs = work.Iterations + relaxationIterationCount > 1 ? hubsToShuffleForSweeps : hubsToShuffleForOneSweep;
-        work.ShufflesOrder = hubs > 0;
-        if (!work.ShufflesOrder)
+        int first;
+    }
+
+    // A batch of the random order.
+    struct Drawn
+    {
+        public int Batch;
+        // Place among the shuffled batches.
+        public int Place;
+        public uint Number;
+
+        public readonly bool IsBefore(in Drawn other) => Number != other.Number ? Number < other.Number : Place < other.Place;
+    }
+
+    int JointsToShuffle => VelocityIterationScheduler is not null || velocityIterationCount + relaxationIterationCount > 1
+        ? JointsToShuffleForSweeps : JointsToShuffleForOneSweep;
+
+    // Whether joints of a body are swept over in random order.
+    bool IsShuffled(int bodyIndex) => bodies.ActiveSet.JointCounts.Allocated && Degree(bodyIndex) >= jointsToShuffle;
+
+    // Takes note of a body that has another number of joints. They are moved when nobody looks at a batch any more.
+    void NoteTurned(int bodyIndex, int before, int after)
+    {
+        if (before >= jointsToShuffle != after >= jointsToShuffle)
+            turned.Indices[turned.Count++] = bodyIndex;
+    }
+
+    // In the order in which they were added, so that they have the colours that they would have if they had always been there.
+    void MoveJointsOfTurned()
+    {
+        var count = turned.Count;
+        turned.Count = 0;
+        for (int i = 0; i < count; ++i)
+            SortJointsOf(turned.Indices[i]);
+    }
+
+    void SortJointsOf(int bodyIndex)
+    {
+        foreach (var constraint in new BodyConstraints(this, bodies.ActiveSet.Constraints[bodyIndex]))
         {
-            // Who comes after the last hub finds what the first one found.
-            shuffleState = 0;
+            var handle = constraint.ConnectingConstraintHandle;
+            ref var location = ref Locations[handle.Slot];
+            if (location.TypeId >= ConstraintTypeIds.ContactTypeCount && location.SetIndex == 0 && BatchOf(location).IsOfColour &&
+                KindOf(location) == BatchKind.Shuffled != HasShuffledBody(location))
+                TryMove(handle, BatchKind.Coloured);
+        }
+    }
+
+    // Whether a joint of the active set belongs to those that are shuffled.
+    bool HasShuffledBody(in ConstraintLocation location)
+    {
+        var processor = Processor(location.TypeId);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            if (IsShuffled(processor.BodyReference(ref TypeBatchAt(location), location.IndexInTypeBatch, slot) & EncodedBody.IndexMask))
+                return true;
+        }
+        return false;
+    }
+
+    // Settings of a solver may change between steps, and with them which joints are shuffled.
+    void SortJoints()
+    {
+        if (jointsToShuffle == JointsToShuffle)
+            return;
+        jointsToShuffle = JointsToShuffle;
+        for (int i = 0; i < bodies.ActiveSet.Count && bodies.ActiveSet.JointCounts.Allocated; ++i)
+        {
+            if (Degree(i) >= JointsToShuffleForSweeps)
+                SortJointsOf(i);
+        }
+    }
+
+    /// <summary>Lists the batches that are swept over in random order.</summary>
+    // What of shuffled joints falls back is in the batch of all that do, which has joints of them only where there are more of these than batches.
+    void BuildOrder(ref SolveWork work)
+    {
+        ref var batches = ref ActiveSet.Batches;
+        var place = 0;
+        for (int i = 0; i < batches.Count; ++i)
+        {
+            if (batches[i].Kind != BatchKind.Shuffled)
+                continue;
+            if (work.BlocksOfBatch[i].Count > 0)
+                AddToOrder(ref work, i, place);
+            ++place;
+        }
+        if (place == 0 || FindBatch(ActiveSet, BatchKind.Fallback) is not (>= 0 and var fallback))
+            return;
+        for (int i = 0; i < batches[fallback].TypeBatches.Count; ++i)
+        {
+            if (batches[fallback].TypeBatches[i].TypeId < ConstraintTypeIds.ContactTypeCount)
+                continue;
+            AddToOrder(ref work, fallback, FallbackBatchThreshold);
             return;
         }
-        for (int i = work.Order.Count - 1; i > 0; --i)
+    }
+
+    void AddToOrder(ref SolveWork work, int batch, int place)
+    {
+        if (!work.Order.Span.Allocated)
+            work.Order = new QuickList<Drawn>(16, pool);
+        work.Order.Add(new() { Batch = batch, Place = place }, pool);
+        work.BlocksOfBatch[batch].IsDrawn = true;
+    }
+
+    /// <summary>Draws the order for the next substep.</summary>
+    void ShuffleOrder(ref SolveWork work, int substep)
+    {
+        if (work.Order.Count == 0)
+            return;
+        var drawn = Mix(Mix(stepNumber) + (uint)substep);
+        foreach (ref var batch in work.Order.AsSpan())
+            batch.Number = Mix(drawn + (uint)batch.Place);
+        for (int i = 1; i < work.Order.Count; ++i)
         {
-            shuffleState = shuffleState * 1664525 + 1013904223;
-            var other = (int)(((ulong)shuffleState * (ulong)(i + 1)) >> 32);
-            (work.Order[i], work.Order[other]) = (work.Order[other], work.Order[i]);
+            for (int j = i; j > 0 && work.Order[j].IsBefore(work.Order[j - 1]); --j)
+                (work.Order[j], work.Order[j - 1]) = (work.Order[j - 1], work.Order[j]);
         }
+    }
+
+    // Each bit of a number to each bit of another: the last steps of MurmurHash3.
+    static uint Mix(uint bits)
+    {
+        bits = (bits ^ bits >> 16) * 0x85ebca6b;
+        bits = (bits ^ bits >> 13) * 0xc2b2ae35;
+        return bits ^ bits >> 16;
     }
 }

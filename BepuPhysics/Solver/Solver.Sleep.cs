@@ -32,7 +32,7 @@ public sealed unsafe partial class Solver
         Span<float> column = stackalloc float[MaximumFloatsPerConstraint];
         Span<int> encoded = stackalloc int[MaximumBodiesPerConstraint];
         var handle = TakeOut(constraint, 1, column, encoded, out var processor, out var kind);
-        kind = kind == BatchKind.Coloured ? BatchKind.Fallback : kind;
+        kind = kind is BatchKind.Coloured or BatchKind.Shuffled ? BatchKind.Fallback : kind;
         ref var set = ref Sets[AsleepSet];
         if (!set.Batches.Span.Allocated)
             set.Batches = new QuickList<ConstraintBatch>(2, pool);
@@ -87,15 +87,6 @@ public sealed unsafe partial class Solver
         kind = KindOf(old);
         RemoveFromBatch(old);
         return handle;
-    }
-
-    /// <summary>Follows a body of the active set that is about to leave it, or has just come.</summary>
-    internal void CountHubOfSleeper(int bodyIndex, bool isLeaving)
-    {
-        if (!bodies.Awake.JointCounts.Allocated)
-            return;
-        var degree = Degree(bodyIndex);
-        CountHub(isLeaving ? degree : 0, isLeaving ? 0 : degree);
     }
 
     void CountAsleep(int kinematic, int change)

@@ -25,9 +25,8 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < Sets.Length; ++i)
             CopySet(ref Sets[i], copy);
         AsleepOfKinematics = copy.Value(AsleepOfKinematics);
-        copy.Value(ref shuffleState);
-        copy.Value(ref hubsToShuffleForOneSweep);
-        copy.Value(ref hubsToShuffleForSweeps);
+        copy.Value(ref stepNumber);
+        copy.Value(ref jointsToShuffle);
         copy.Value(ref chosenMode);
         if (!copy.Restores)
             return;

@@ -94,6 +94,8 @@ public sealed unsafe partial class Solver
             Rest();
             return;
         }
+        ++stepNumber;
+        SortJoints();
         ChooseDirectJoints();
         PreviousDt = previousSubstepDt * LastSubstepCount;
         var substepDt = BeginStep(dt);
@@ -139,7 +141,7 @@ public sealed unsafe partial class Solver
         ForgetDirectJoints();
         ReadNeeds();
         endsWithVelocities = false;
-        shuffleState = 0;
+        stepNumber = bodies.Awake.Count + bodies.Asleep.Count == 0 ? 0 : stepNumber + 1;
     }
 
     // The event is alone with the bodies: it may write to them and ask queries.
@@ -200,7 +202,7 @@ public sealed unsafe partial class Solver
                 AddOptional(ref work, optional, SolverPoint.AmidBeforeFirstWarmStart);
                 AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart);
             }
-            ShuffleOrder(ref work);
+            ShuffleOrder(ref work, substep);
             AddSweep(ref work, StageKind.WarmStart, work.Substep);
             AddOptional(ref work, optional, SolverPoint.AfterWarmStart);
             AddOptional(ref work, optional, SolverPoint.LastAfterWarmStart);
@@ -322,9 +324,8 @@ public sealed unsafe partial class Solver
         public QuickList<Substep> Substeps;
         public QuickList<Block> Blocks;
         public QuickList<BlockRange> BlocksOfBatch;
-        // Batches with joints, in the order in which the present substep sweeps over them if it is random.
-        public QuickList<int> Order;
-        public bool ShufflesOrder;
+        // Batches in random order, as the present substep sweeps over them.
+        public QuickList<Drawn> Order;
         // None without other workers.
         public WorkerBufferPools? WorkerPools;
 
@@ -388,8 +389,6 @@ public sealed unsafe partial class Solver
             for (int i = 0; end > 0; ++i)
             {
                 ref var batch = ref constraints.TypeBatches[i];
-                if (IsOfJoints(batch) != block.IsOfJoints)
-                    continue;
                 var bundles = batch.BundleCount;
                 if (start < bundles)
                     RunConstraints(stage, constraints.Kind, i, ref batch, Math.Max(0, start), Math.Min(end, bundles));

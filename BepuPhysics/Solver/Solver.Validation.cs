@@ -63,7 +63,7 @@ public sealed partial class Solver
             referenceCount += typeBatch.ConstraintCount * Processor(typeBatch.TypeId).BodiesPerConstraint;
             ValidateUnusedLanes(ref typeBatch, batchIndex);
         }
-        if (batch.Kind != BatchKind.Coloured)
+        if (!batch.IsOfColour)
             return;
         for (int handle = 0; handle < found.Length; ++handle)
             Invariant.Require(batch.DynamicBodies.Contains(handle) == found[handle], "bodies of batch", batchIndex, handle);
@@ -74,11 +74,12 @@ public sealed partial class Solver
     // As many coloured batches as there may be, and one of each other kind.
     void ValidateKinds(in QuickList<ConstraintBatch> batches)
     {
-        Span<int> counts = stackalloc int[4];
+        Span<int> counts = stackalloc int[5];
         counts.Clear();
         for (int i = 0; i < batches.Count; ++i)
             ++counts[(int)batches[i].Kind];
-        Invariant.Require(counts[(int)BatchKind.Coloured] <= FallbackBatchThreshold, "number of batches", batches.Count);
+        Invariant.Require(counts[(int)BatchKind.Coloured] <= FallbackBatchThreshold && counts[(int)BatchKind.Shuffled] <= FallbackBatchThreshold,
+            "number of batches", batches.Count);
         Invariant.Require(counts[(int)BatchKind.Fallback] <= 1 && counts[(int)BatchKind.Direct] <= 1 &&
             counts[(int)BatchKind.Disabled] <= 1, "number of batches of a kind", batches.Count);
     }
@@ -125,7 +126,7 @@ public sealed partial class Solver
                 continue;
             anyDynamic = true;
             ref var isFound = ref found[body];
-            Invariant.Require(!isFound || Sets[location.SetIndex].Batches[location.BatchIndex].Kind != BatchKind.Coloured,
+            Invariant.Require(!isFound || !BatchOf(location).IsOfColour,
                 "second constraint in its batch of the body of constraint", handle.Slot, slot);
             isFound = true;
         }
@@ -163,7 +164,6 @@ public sealed partial class Solver
 
     void ValidateHubs()
     {
-        int shuffledForOneSweep = 0, shuffledForSweeps = 0;
         for (int i = 0; bodies.ActiveSet.JointCounts.Allocated && i < bodies.ActiveSet.Count; ++i)
         {
             int joints = 0;
@@ -176,13 +176,13 @@ public sealed partial class Solver
                 joints += makesHubs ? 1 : 0;
                 var isHub = makesHubs && Degree(i) >= JointsOfHub;
                 Invariant.Require((reference & EncodedBody.HubFlag) != 0 == isHub, "flag of a hub of body", i, location.TypeId);
+                if (location.SetIndex == 0 && BatchOf(location).IsOfColour)
+                    Invariant.Require(KindOf(location) == BatchKind.Shuffled == (location.TypeId >= ConstraintTypeIds.ContactTypeCount &&
+                        HasShuffledBody(location)), "kind of the batch of a constraint of body", i, location.TypeId);
             }
             Invariant.Require(bodies.ActiveSet.JointCounts[i] == joints, "number of joints of body", i, joints);
-            shuffledForOneSweep += Degree(i) >= JointsToShuffleForOneSweep ? 1 : 0;
-            shuffledForSweeps += Degree(i) >= JointsToShuffleForSweeps ? 1 : 0;
         }
-        Invariant.Require(hubsToShuffleForOneSweep == shuffledForOneSweep && hubsToShuffleForSweeps == shuffledForSweeps, "number of hubs",
-            hubsToShuffleForOneSweep, hubsToShuffleForSweeps);
+        Invariant.Require(turned.Count == 0, "number of bodies whose joints are to be moved", turned.Count);
     }
 
     // Unused lanes are gathered from and scattered to: only an empty reference keeps them from touching a body.

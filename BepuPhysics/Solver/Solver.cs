@@ -168,6 +168,7 @@ public sealed unsafe partial class Solver
         OptionalStages.Add(errorStage);
         OptionalStages.Add(new BreakStage(this));
         VelocityIterationScheduler = description.VelocityIterationScheduler;
+        jointsToShuffle = JointsToShuffle;
         FallbackBatchThreshold = description.FallbackBatchThreshold;
         pool.Take(2, out Sets);
         Sets[AsleepSet] = default;
@@ -256,10 +257,8 @@ public sealed unsafe partial class Solver
         needTurn = 0;
         HandlePool.Clear();
         ForgetStepLengths();
-        shuffleState = 0;
+        stepNumber = 0;
         AsleepOfKinematics = 0;
-        hubsToShuffleForOneSweep = 0;
-        hubsToShuffleForSweeps = 0;
     }
 
     void DisposeBatch(ref ConstraintBatch batch)

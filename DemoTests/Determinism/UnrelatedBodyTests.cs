@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using Demos.Accuracy;
@@ -40,7 +39,7 @@ public class UnrelatedBodyTests
             stranger.Pose.Position += new Vector3(0, 5000, 0);
             if (round == 0)
                 stranger.Velocity.Linear = new Vector3(0, 700, 0);
-            AssertSame(expected, Run(settings, scene, i => i == place ? stranger : null), place);
+            expected.AssertSame(Run(settings, scene, i => i == place ? stranger : null), $"a stranger at {place}");
         }
     }
 
@@ -84,7 +83,7 @@ public class UnrelatedBodyTests
         Assert.Equal(expected, world.Bodies[body].Velocity.Linear.Y, 5e-4);
     }
 
-    static List<Vector3[]> Run(AccuracySettings settings, RandomScene scene, Func<int, BodyDescription?> stranger)
+    static BodyStates Run(AccuracySettings settings, RandomScene scene, Func<int, BodyDescription?> stranger)
     {
         using var world = new TestWorld(settings);
         var handles = scene.AddTo(world, i =>
@@ -92,28 +91,6 @@ public class UnrelatedBodyTests
             if (stranger(i) is { } description)
                 world.Bodies.Add(description);
         });
-        var states = new List<Vector3[]>();
-        for (int step = 0; step < Steps; ++step)
-        {
-            world.Step();
-            var state = new Vector3[handles.Count * 3];
-            for (int i = 0; i < handles.Count; ++i)
-            {
-                var body = world.Bodies[handles[i]];
-                (state[i * 3], state[i * 3 + 1], state[i * 3 + 2]) = (body.Pose.Position, body.Velocity.Linear, body.Velocity.Angular);
-            }
-            states.Add(state);
-        }
-        return states;
-    }
-
-    static void AssertSame(List<Vector3[]> expected, List<Vector3[]> actual, int place)
-    {
-        for (int step = 0; step < expected.Count; ++step)
-        {
-            for (int i = 0; i < expected[step].Length; ++i)
-                Assert.True(expected[step][i].Equals(actual[step][i]),
-                    $"With a stranger at {place}, step {step}, body {i / 3}, {i % 3}: {expected[step][i]:R} became {actual[step][i]:R}.");
-        }
+        return BodyStates.Of(world, handles, Steps);
     }
 }

@@ -59,9 +59,10 @@ static class EngineDefaults
     /// <summary>Constraints of bodies that have more of them than there are colours.</summary>
     public static int? CountFallback(Simulation simulation)
     {
-        ref ConstraintSet active = ref simulation.Solver.ActiveSet;
-        int threshold = simulation.Solver.FallbackBatchThreshold;
-        return active.Batches.Count > threshold ? active.Batches[threshold].CountConstraints() : 0;
+        var count = 0;
+        foreach (ref ConstraintBatch batch in simulation.Solver.ActiveSet.Batches.AsSpan())
+            count += batch.Kind == BatchKind.Fallback ? batch.CountConstraints() : 0;
+        return count;
     }
 
     /// <summary>Bytes that a pool has lent; null where the engine does not tell.</summary>

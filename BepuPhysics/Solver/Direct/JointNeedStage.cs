@@ -142,6 +142,7 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
         int batch;
         int typeBatch = -1;
         int colour;
+        int shuffledColour;
 
         public readonly ref TypeBatch Current => ref solver.ActiveSet.Batches[batch].TypeBatches[typeBatch];
 
@@ -154,17 +155,18 @@ sealed unsafe class JointNeedStage(Solver solver, DirectStage direct, Bodies bod
             for (; batch < batches.Count; ++batch, typeBatch = -1)
             {
                 ref var current = ref batches[batch];
-                var isColoured = current.Kind == BatchKind.Coloured;
-                if (!isColoured && current.Kind != BatchKind.Fallback)
+                if (!current.IsSwept)
                     continue;
+                var place = current.Kind == BatchKind.Coloured ? colour : current.Kind == BatchKind.Shuffled ? shuffledColour : ColourOfFallback;
                 while (++typeBatch < current.TypeBatches.Count)
                 {
                     var typeId = current.TypeBatches[typeBatch].TypeId;
-                    IsOfCurrent = ((isColoured ? colour : ColourOfFallback) + typeId) % Solver.NeedTurns == solver.NeedTurn;
+                    IsOfCurrent = (place + typeId) % Solver.NeedTurns == solver.NeedTurn;
                     if ((IsOfCurrent || solver.HasNewJoints) && solver.MayAsk(typeId))
                         return true;
                 }
-                colour += isColoured ? 1 : 0;
+                colour += current.Kind == BatchKind.Coloured ? 1 : 0;
+                shuffledColour += current.Kind == BatchKind.Shuffled ? 1 : 0;
             }
             return false;
         }
