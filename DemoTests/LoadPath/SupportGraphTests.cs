@@ -12,7 +12,7 @@ public class SupportGraphTests
     const int Ground = -1;
     const int Gap = 3;
 
-    readonly struct Heights(float[] heights) : IHeights, IFloors
+    readonly struct Heights(float[] heights, bool isBalanced = true) : IHeights, IFloors
     {
         public float Of(int body) => heights[body];
 
@@ -22,12 +22,14 @@ public class SupportGraphTests
 
         public bool Sways(int body, int kinematic) => true;
 
+        public bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load) => isBalanced && heights[support.Upper] < 0.5f;
+
         public int CountConstraints(int body) => 2;
     }
 
     // Each support has three contacts unless said otherwise.
     static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
-        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null)
+        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null, bool[]? held = null, bool isBalanced = true)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
@@ -40,6 +42,7 @@ public class SupportGraphTests
             Leans = leans is not null && leans[i],
             Sways = sways is not null && sways[i],
             IsWhole = sways is not null,
+            WasHeld = held is null || held[i],
         }).ToArray();
         pool.Take<byte>(bodyCount, out var isSpoilt);
         isSpoilt.Clear(0, bodyCount);
@@ -52,7 +55,8 @@ public class SupportGraphTests
         links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
         fixed (SupportLink* memory = found)
         {
-            graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, isSpoilt, new Heights(heights ?? new float[bodyCount]), pool);
+            var motions = new Heights(heights ?? new float[bodyCount], isBalanced);
+            graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, isSpoilt, motions, pool);
             var middle = graph.Nodes.Count / 2;
             graph.Fill(memory, middle, graph.Nodes.Count);
             graph.Fill(memory, 0, middle);
@@ -175,6 +179,17 @@ public class SupportGraphTests
         AssertIslands("0, 1", Build(3, [(0, Ground), (1, Ground), (2, 0), (2, 1)], sways: [false, false, true, true]).Islands);
     }
 
+    /// <summary>With faces that were not held it sways where all of it is balanced; else what is below them does, if what is on them does not rest.</summary>
+    [Fact]
+    public void What_was_not_held_sways_where_it_is_balanced()
+    {
+        (int, int)[] supports = [(0, Ground), (1, 0), (2, 1)];
+        AssertIslands("0 1 2", Build(3, supports, sways: [true, true, true], held: [false, false, false]).Islands);
+        AssertIslands("", Build(3, supports, sways: [true, true, true], held: [false, true, true], isBalanced: false).Islands);
+        AssertIslands("0 1", Build(3, supports, sways: [true, true, true], held: [true, true, false], isBalanced: false).Islands);
+        AssertIslands("0", Build(3, supports, sways: [false, true, true], held: [true, false, true], isBalanced: false).Islands);
+    }
+
     [Theory, InlineData(128, 1), InlineData(129, 0)]
     public void A_great_column_does_not_sway(int bodyCount, int expected)
     {
@@ -271,6 +286,7 @@ public class SupportGraphTests
                 case 8:
                     ref var swaying = ref links[random.Next(links.Length)];
                     swaying.IsWhole = swaying.Sways = !swaying.Sways;
+                    swaying.WasHeld = random.Next(2) > 0;
                     break;
             }
             var found = new SupportLink[links.Length + Gap];

@@ -19,6 +19,9 @@ interface IFloors
     /// <summary>Whether a body may sway: to a kinematic one along with which it moves, or, where that is negative, to what does not move.</summary>
     bool Sways(int body, int kinematic);
 
+    /// <summary>Takes the upper body of a support into the load of a column, from the top down, and says whether it stays over the support.</summary>
+    bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load);
+
     /// <summary>Number of constraints of a body.</summary>
     int CountConstraints(int body);
 }

@@ -68,7 +68,8 @@ sealed unsafe partial class LoadPathStage
     static Vector3 Change(in MotionState floor, in BodyVelocity before) =>
         floor.Velocity.Linear == before.Linear ? before.Linear - before.Angular : default;
 
-    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<ConstraintList> constraints, int substepCount) : IHeights, IFloors
+    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<BodyInertia> inertias, Buffer<ConstraintList> constraints,
+        int substepCount, float dt) : IHeights, IFloors
     {
         public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, Gain(body));
 
@@ -91,6 +92,17 @@ sealed unsafe partial class LoadPathStage
                 velocity -= before[kinematic].Angular;
             var most = SupportFinder.SwayingShare * QuietSteps * substepCount;
             return Exact.LengthSquared(velocity) < most * most * squared && (kinematic < 0 || Follows(kinematic, gain, squared));
+        }
+
+        public bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load)
+        {
+            var body = support.Upper;
+            var mass = 1 / inertias[body].InverseMass;
+            var velocity = before[body].Linear;
+            if (kinematic >= 0)
+                velocity -= before[kinematic].Angular;
+            load.Add(mass, motions[body].Pose.Position, velocity, Gain(body) * (1 / dt));
+            return load.IsOver(new LoadSupport(support), motions[body].Pose.Position);
         }
 
         public int CountConstraints(int body) => constraints[body].Count;

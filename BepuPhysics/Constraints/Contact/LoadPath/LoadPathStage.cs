@@ -97,7 +97,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 Find(block, substep);
                 break;
             case SolverPoint.AmidBeforeFirstWarmStart:
-                Build();
+                Build(substep.Dt);
                 break;
             case SolverPoint.LastBeforeFirstWarmStart:
                 Fill(block, substep.Dt);
@@ -152,7 +152,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         pieces[block] = (start * Vector<float>.Count, count);
     }
 
-    void Build()
+    void Build(float dt)
     {
         var used = pieces.AsSpan(0, blockCount);
         int count = 0;
@@ -164,7 +164,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return;
         }
         ref var set = ref bodies.Awake;
-        graph.Build(found.Memory, used, set.Count, spoilt, new Motions(set.MotionStates, before, set.Constraints, solver.LastSubstepCount), pool);
+        var motions = new Motions(set.MotionStates, before, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
+        graph.Build(found.Memory, used, set.Count, spoilt, motions, pool);
         MakeRooms();
     }
 

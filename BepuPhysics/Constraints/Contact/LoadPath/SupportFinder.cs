@@ -37,10 +37,9 @@ readonly unsafe struct SupportFinder(
     // stands already. What falls over moves aside as it falls, and is let go: up to this part of the fall it falls straight.
     internal const float FallingShare = 4;
     internal const float StraightShare = 0.1f;
-    // How much faster than what is quiet a body that leans may be, and the surfaces of its contacts: some steps of acceleration. An arch that is put down falls
-    // until it knows its load, and where a stone of it is pushed all others move; let go then it would stand on soft contacts, on which a thin one falls.
-    const float LeaningShare = 2;
-    // How much faster than what is quiet bodies of a column that sways may be, and the surfaces of their contacts.
+    // How much faster than what is quiet bodies may be that lean on each other, or are of a column that sways, and the surfaces of their contacts: some steps
+    // of acceleration. An arch that is put down falls until it knows its load, and where a stone of it is pushed all others move; let go then it would stand
+    // on soft contacts, on which a thin one falls.
     internal const float SwayingShare = 4;
 
     // Part of its limit from which on friction slides, and least speed of sliding, in substeps of acceleration.
@@ -96,7 +95,7 @@ readonly unsafe struct SupportFinder(
         if (count < LeastContacts)
             carries &= flat;
         isUpperA |= fixedB;
-        var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
+        var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(SwayingShare * quietSteps)) * fastest;
         var rests = Rests(bodyA.Linear - gainA, gainA, resting) & Rests(bodyB.Linear - gainB, gainB, resting);
         var moves = Vector<int>.Zero;
         if (hasB && hasFloors)
@@ -112,7 +111,7 @@ readonly unsafe struct SupportFinder(
         var maySway = Vector<int>.Zero;
         if (count >= LeastContacts)
         {
-            maySway = carries & flat & (moves | ~rests) & wasHeld;
+            maySway = carries & flat & (moves | ~rests);
             if (maySway != Vector<int>.Zero)
                 maySway &= MaySway(bodyA.Linear - gainA, bodyB.Linear - gainB, fastest);
         }
@@ -143,7 +142,7 @@ readonly unsafe struct SupportFinder(
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
         }
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
-        var quiet = Wide.Select(flat, new Vector<float>(quietSteps), new Vector<float>(LeaningShare * quietSteps)) * fastest;
+        var quiet = Wide.Select(flat, new Vector<float>(quietSteps), new Vector<float>(SwayingShare * quietSteps)) * fastest;
         var bearable = Wide.Select(maySway, new Vector<float>(SwayingShare * quietSteps) * fastest, quiet);
         var slides = Vector<int>.Zero;
         var sliding = new Vector<float>(SlidingSteps) * fastest;
@@ -180,7 +179,7 @@ readonly unsafe struct SupportFinder(
         }
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
         Spoil(Vector.AndNot(leans, carries), references, hasB);
-        var whole = count < LeastContacts ? Vector<int>.Zero : flat & wasHeld & Vector.Equals(Vector.AndNot(open, near), Vector<int>.Zero);
+        var whole = count < LeastContacts ? Vector<int>.Zero : flat & Vector.Equals(Vector.AndNot(open, near), Vector<int>.Zero);
         carries = Vector.AndNot(carries, Vector.AndNot(sways, whole));
         radius = Vector.SquareRoot(radius);
         if (!hasB)
@@ -226,6 +225,7 @@ readonly unsafe struct SupportFinder(
                 Moves = moves[lane] != 0,
                 Sways = sways[lane] != 0,
                 IsWhole = whole[lane] != 0,
+                WasHeld = wasHeld[lane] != 0,
             };
         }
         return foundCount;

@@ -32,7 +32,7 @@ unsafe partial struct SupportGraph
 
     // What moves too fast to rest is carried all the same where it is of a column that nothing else touches or holds, but what may be on top of it. In the
     // order from the ground upwards it has no place, as the order of all others would be another then.
-    void FindSwaying<TMotions>(int bodyCount, TMotions motions, BufferPool pool) where TMotions : struct, IFloors
+    void FindSwaying<TMotions>(SupportLink* found, int bodyCount, TMotions motions, BufferPool pool) where TMotions : struct, IFloors
     {
         foreach (var i in swaying.AsSpan())
         {
@@ -50,7 +50,7 @@ unsafe partial struct SupportGraph
             var body = byUpper[i].Upper;
             if (grounded[body] != 0 || !FindBottom(body, out var bottom))
                 continue;
-            if (IsColumn(bottom, motions, ref column))
+            if (IsColumn(found, bottom, motions, ref column))
                 AddColumn(column);
             foreach (var other in column.AsSpan())
                 waiting[other] = Seen;
@@ -77,12 +77,27 @@ unsafe partial struct SupportGraph
 
     readonly bool StandsOnWholeFace(int body) => starts[body + 1] - starts[body] == 1 && byUpper[starts[body]].IsWhole;
 
-    // What moves too fast, or on less than a face, is on top of a column and none of it; but not what rests, whose load nobody would know.
-    readonly bool IsColumn<TMotions>(int bottom, TMotions motions, ref QuickList<int> column) where TMotions : struct, IFloors
+    // What lands moving aside rocks, and is held where all of it is balanced: so what falls over is not held again on its way. Else faces that were not held
+    // are as if they were no faces.
+    readonly bool IsColumn<TMotions>(SupportLink* found, int bottom, TMotions motions, ref QuickList<int> column) where TMotions : struct, IFloors
     {
         column.Count = 0;
+        var isColumn = Climb(bottom, motions, ref column);
+        int held = 0;
+        while (held < column.Count && byUpper[starts[column[held]]].WasHeld)
+            ++held;
+        if (held < column.Count && !(isColumn && IsBalanced(column, found, motions)))
+        {
+            isColumn = grounded[column[held]] == 0;
+            column.Count = held;
+        }
+        return isColumn && column.Count > 1 && Sways(column);
+    }
+
+    // What moves too fast, or on less than a face, is on top of a column and none of it; but not what rests, whose load nobody would know.
+    readonly bool Climb<TMotions>(int bottom, TMotions motions, ref QuickList<int> column) where TMotions : struct, IFloors
+    {
         var floor = SupportLink.Floor(byUpper[starts[bottom]].Lower);
-        var sways = false;
         for (int body = bottom; ;)
         {
             if (starts[body + 1] - starts[body] != 1)
@@ -97,7 +112,6 @@ unsafe partial struct SupportGraph
             if (column.Count == MaximumColumn)
                 return false;
             column.AddUnsafely(body);
-            sways |= grounded[body] == 0;
             var next = above[body];
             // One below, and one above.
             var constraints = motions.CountConstraints(body);
@@ -111,7 +125,29 @@ unsafe partial struct SupportGraph
                 return false;
             body = byUpper[next].Upper;
         }
-        return sways && column.Count > 1;
+        return true;
+    }
+
+    readonly bool Sways(in QuickList<int> column)
+    {
+        foreach (var body in column.AsSpan())
+        {
+            if (grounded[body] == 0)
+                return true;
+        }
+        return false;
+    }
+
+    readonly bool IsBalanced<TMotions>(in QuickList<int> column, SupportLink* found, TMotions motions) where TMotions : struct, IFloors
+    {
+        var floor = SupportLink.Floor(byUpper[starts[column[0]]].Lower);
+        var load = default(ColumnLoad);
+        for (int i = column.Count - 1; i >= 0; --i)
+        {
+            if (!motions.IsBalanced(found[byUpper[starts[column[i]]].Found], floor, ref load))
+                return false;
+        }
+        return true;
     }
 
     // Where both of its bodies rest to their floor, a support whose surfaces are not quiet is none, as on the ground.

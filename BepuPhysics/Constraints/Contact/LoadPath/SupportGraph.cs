@@ -28,6 +28,7 @@ unsafe partial struct SupportGraph
         public bool Moves;
         public bool Sways;
         public bool IsWhole;
+        public bool WasHeld;
         public bool Carries;
     }
 
@@ -98,7 +99,7 @@ unsafe partial struct SupportGraph
         if (leaning.Count > 0)
             FindLeaning(motions, pool);
         if (swaying.Count > 0)
-            FindSwaying(bodyCount, motions, pool);
+            FindSwaying(found, bodyCount, motions, pool);
         MakeNodes(bodyCount, pool);
         builtOf = new QuickList<(int, int)>(pieces.Length, pool);
         foreach (var piece in pieces)
@@ -179,6 +180,7 @@ unsafe partial struct SupportGraph
                     Moves = link.Moves,
                     Sways = link.Sways,
                     IsWhole = link.IsWhole,
+                    WasHeld = link.WasHeld,
                     IsSpoilt = link.Leans && IsSpoilt(link, spoilt),
                 };
             }

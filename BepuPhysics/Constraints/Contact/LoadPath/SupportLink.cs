@@ -31,10 +31,10 @@ unsafe struct SupportLink
     public bool Slides;
     /// <summary>Whether the contacts are too steep to hand a load down: their bodies hold each other.</summary>
     public bool Leans;
-    // Three of those that follow.
+    // Four of those that follow.
     byte motion;
 
-    const byte MovesBit = 1, SwaysBit = 2, WholeBit = 4;
+    const byte MovesBit = 1, SwaysBit = 2, WholeBit = 4, HeldBit = 8;
 
     /// <summary>Whether its bodies rest to each other, but not to what does not move.</summary>
     public bool Moves { readonly get => (motion & MovesBit) != 0; set => Set(MovesBit, value); }
@@ -42,8 +42,11 @@ unsafe struct SupportLink
     /// <summary>Whether its bodies move too fast to rest, and may but sway.</summary>
     public bool Sways { readonly get => (motion & SwaysBit) != 0; set => Set(SwaysBit, value); }
 
-    /// <summary>Whether all of its contacts, three or four, touch, and were held in the last step: it may be of a column that sways.</summary>
+    /// <summary>Whether all of its contacts, three or four, touch: it may be of a column that sways.</summary>
     public bool IsWhole { readonly get => (motion & WholeBit) != 0; set => Set(WholeBit, value); }
+
+    /// <summary>Whether its contacts were held in the last step.</summary>
+    public bool WasHeld { readonly get => (motion & HeldBit) != 0; set => Set(HeldBit, value); }
 
     void Set(byte bit, bool value) => motion = (byte)(value ? motion | bit : motion & ~bit);
 
