@@ -36,9 +36,15 @@ unsafe struct ContactQueue
     uint added;
     uint located;
     uint written;
+    bool writesAtOnce;
 
     /// <summary>Forgets all contacts.</summary>
-    public void Clear() => added = located = written = 0;
+    /// <param name="isNearby">Whether constraints are so few that they are waited for no longer than a queue takes: then they are written at once.</param>
+    public void Clear(bool isNearby)
+    {
+        added = located = written = 0;
+        writesAtOnce = isNearby;
+    }
 
     /// <summary>Adds the contacts of a manifold whose constraint has as many.</summary>
     /// <param name="solver">The constraints.</param>
@@ -50,6 +56,11 @@ unsafe struct ContactQueue
     public void Add(Solver solver, FeatureIds* features, ConstraintHandle constraint, in ConvexContactManifold manifold, in PairMaterialProperties material,
         in Vector3 frictionCenter = default)
     {
+        if (writesAtOnce)
+        {
+            new ContactConstraint(solver, constraint, manifold.Count).Update(manifold, material, frictionCenter, ref *features);
+            return;
+        }
         ref var update = ref updates[(int)(added++ % Length)];
         update.Features = features;
         update.Handle = constraint;

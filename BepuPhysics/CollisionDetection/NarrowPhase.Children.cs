@@ -19,28 +19,31 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void TestParent(int workerIndex, CollisionTask task, int taskIndex, bool flipped, in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB,
+    void TestParent(int workerIndex, CollisionTask task, int taskIndex, bool flipped, int pairId, TypedIndex shapeA, TypedIndex shapeB,
         in RigidPose poseA, in RigidPose poseB, float margin)
     {
+        ref var worker = ref workers[workerIndex];
+        ref var tested = ref worker.TestedPairs[pairId];
         var bodies = Simulation.Bodies;
         ref var locationA = ref bodies.Locations[tested.Pair.A.Slot];
         ref var setA = ref bodies.SetOf(locationA);
         var expansion = MaximumExpansion(setA.Collidables[locationA.Index]);
-        var velocityB = default(BodyVelocity);
+        ref readonly var velocityA = ref setA.MotionStates[locationA.Index].Velocity;
+        var still = default(BodyVelocity);
+        ref readonly var velocityB = ref still;
         if (tested.Pair.B.Mobility != CollidableMobility.Static)
         {
             ref var locationB = ref bodies.Locations[tested.Pair.B.Slot];
             ref var setB = ref bodies.SetOf(locationB);
-            velocityB = setB.MotionStates[locationB.Index].Velocity;
+            velocityB = ref setB.MotionStates[locationB.Index].Velocity;
             expansion = Math.Max(expansion, MaximumExpansion(setB.Collidables[locationB.Index]));
         }
+        tested.TurnsFast = TurnsFast(velocityA, velocityB, worker.Batcher.Dt);
         // Where they will touch, nothing is ahead.
         if (tested.IsImpact)
             expansion = margin;
-        ref var worker = ref workers[workerIndex];
         worker.Batcher.AddParent(task, taskIndex, flipped, shapeA.Index, shapeB.Index, poseB.Position - poseA.Position, poseA.Orientation,
-            poseB.Orientation, margin, worker.TestedPairs.Add(tested, worker.Pool),
-            new PairMotion(setA.MotionStates[locationA.Index].Velocity, velocityB, expansion));
+            poseB.Orientation, margin, pairId, velocityA, velocityB, expansion);
     }
 
     static float MaximumExpansion(in Collidable collidable) =>

@@ -45,6 +45,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public int RefusedPairCount;
         /// <summary>Manifold of the pair that is expanded which comes next, in the order of children.</summary>
         public int NextManifold;
+        public RimMemory Rims;
     }
 
     // Receives the manifolds of one worker's batcher.
@@ -151,7 +152,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             margin = 0;
         var offsetB = poseB.Position - poseA.Position;
         var task = CollisionTaskRegistry.GetTask(collidableA.Shape.Type, shapeB.Type, out var taskIndex, out var flipped);
-        Unsafe.SkipInit(out TestedPair tested);
+        ref var worker = ref workers[workerIndex];
+        // Where it will wait: written elsewhere by parts, and then copied as a whole, it would wait for the parts.
+        var pairId = worker.TestedPairs.Allocate(worker.Pool);
+        ref var tested = ref worker.TestedPairs[pairId];
         tested.Pair = pair;
         tested.CacheIndex = isSensor ? -1 : cacheIndex;
         tested.Constraint = default;
@@ -159,8 +163,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.KeepsHistory = task.KeepsHistories;
         tested.HasHistory = false;
         tested.IsSensor = isSensor;
-        tested.MayCarry = tested.IsCarried = tested.IsExact = tested.IsImpact = false;
-        tested.LeastHit = 0;
+        tested.TurnsFast = tested.MayCarry = tested.IsCarried = tested.IsExact = tested.IsImpact = false;
+        tested.LeastHit = tested.ImpactTime = 0;
         tested.IsAtSeam = b.Mobility != CollidableMobility.Dynamic && setA.Activity[locationA.Index].IsAtSeam;
         tested.SpeculativeMargin = margin;
         if (tested.IsAtSeam)
@@ -177,18 +181,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             else if (isApart)
             {
                 CompleteApart(workerIndex, tested, offsetB);
+                worker.TestedPairs.Free(pairId, worker.Pool);
                 return;
             }
             margin = tested.SpeculativeMargin;
         }
-        tested.MayHaveRims = MayHaveRims(tested, collidableA.Shape, shapeB);
+        tested.MayHaveRims = MayHaveRims(ref worker.Rims, tested, collidableA.Shape, shapeB);
         tested.MayRoll = task.Expands && MayRoll(tested, collidableA.Shape);
         if (task.Expands)
         {
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
             if (!TCallbacks.DecidesOnChildren && !tested.IsImpact && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
-                return;
-            TestParent(workerIndex, task, taskIndex, flipped, tested, collidableA.Shape, shapeB, poseA, poseB, margin);
+                worker.TestedPairs.Free(pairId, worker.Pool);
+            else
+                TestParent(workerIndex, task, taskIndex, flipped, pairId, collidableA.Shape, shapeB, poseA, poseB, margin);
             return;
         }
         var history = PairInput.NoHistory;
@@ -208,13 +214,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             if (Reuse(history, collidableA.Shape, shapeB, offsetB, poseA.Orientation, poseB.Orientation, margin, ref manifold))
             {
                 Complete(workerIndex, tested, ref manifold);
+                worker.TestedPairs.Free(pairId, worker.Pool);
                 return;
             }
             Pairs.Histories.PrefetchRest(history);
             history = Pairs.Histories.Memory[history].GetReference(history);
         }
-        ref var worker = ref workers[workerIndex];
-        var pairId = worker.TestedPairs.Add(tested, worker.Pool);
         worker.Batcher.Add(task, taskIndex, flipped, collidableA.Shape.Index, shapeB.Index, offsetB, poseA.Orientation, poseB.Orientation,
             margin, pairId, history);
     }

@@ -14,8 +14,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     const int LeavesToAskFirst = 4096;
     const float NotAsked = -1;
 
+    // Bytes of pairs, their constraints and their histories up to which these stay in the second cache, from which they come in less time than a queue takes.
+    const int BytesNearby = 3 << 18;
+    // About what a pair has in the cache, and a constraint in its columns.
+    const int BytesPerPair = 256;
+
     Crowd crowd;
     bool asksFirst;
+    // Whether what is known of pairs and their constraints is so little that nothing has to be asked for ahead.
+    bool isNearby;
     // Pairs that were refused in the last step: nothing of a step depends on it but the time that it takes.
     long refusedPairCount;
 
@@ -88,6 +95,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         Pairs.BeginStep();
         asksFirst = IsWorthAskingFirst(Simulation.BroadPhase.ActiveTree.LeafCount);
+        isNearby = IsNearby(Simulation.BroadPhase.ActiveTree.LeafCount);
         crowd.Begin(Simulation.BroadPhase.ActiveTree.LeafCount);
         var room = RoomForNotes(Simulation.BroadPhase.ActiveTree.LeafCount, workerCount);
         for (int i = 0; i < workerCount; ++i)
@@ -134,7 +142,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         worker.Batcher = new CollisionBatcher<Completion>(
             worker.Pool, Simulation.Shapes, CollisionTaskRegistry, dt, new Completion(this, index), Pairs.Histories.Memory);
         worker.TestedPairs = new WaitingList<TestedPair>(CollisionTaskRegistry.TaskCount * PairBatch.Capacity);
-        worker.Contacts.Clear();
+        worker.Contacts.Clear(isNearby);
+        worker.Rims = default;
         worker.Room = room;
         // What is remembered waits again, with whichever worker finds it.
         worker.Statics.Room = Math.Max(room, Math.Min(AgreedPairs.Pairs.Length, 2 * AgreedPairs.Pairs.Length / workerCount));
@@ -179,6 +188,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var margin = NotAsked;
         if (asksFirst && !AskFirst(workerIndex, found, ref margin))
             return;
+        if (isNearby)
+        {
+            TestPair(workerIndex, found, Pairs.Pairs.IndexOf(found), margin);
+            return;
+        }
         worker.Queue.Add(Pairs, Simulation.Bodies, Simulation.Statics, found, margin);
         if (worker.Queue.TryTake(out var pair, out var guess, out margin))
             TestPair(workerIndex, pair, Pairs.IndexOf(pair, guess), margin);
@@ -187,6 +201,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Only where many were refused in the last step. Of a pair with a sensor the game is asked only if somebody listens.
     bool IsWorthAskingFirst(int leafCount) =>
         leafCount <= LeavesToAskFirst && refusedPairCount > leafCount / 2 && !Simulation.Events.UsesSensors;
+
+    bool IsNearby(int leafCount) => leafCount <= LeavesToAskFirst && (long)PairCount * BytesPerPair +
+        (long)Pairs.Histories.Count * sizeof(PairHistory) + (long)Pairs.Parents.Count * sizeof(ParentHistory) <= BytesNearby;
 
     // A pair that is refused here is spared the queue: parts of one character are most of the pairs that it has.
     bool AskFirst(int workerIndex, in CollidablePair pair, ref float margin)
@@ -197,6 +214,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return IsAllowed(workerIndex, pair, ref margin);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     float MarginOf(CollidableReference body)
     {
         ref var location = ref Simulation.Bodies.Locations[body.Slot];

@@ -37,21 +37,27 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     bool HasParentHistory(in TestedPair tested) =>
         tested.CacheIndex >= 0 && Pairs.Pairs.Values[tested.CacheIndex] is { IsOfChildren: true, Single.History: >= 0 };
 
+    /// <summary>Whether one of two bodies turns too fast, as the other sees it, for patches to be carried along, however large it is.</summary>
+    static bool TurnsFast(in BodyVelocity velocityA, in BodyVelocity velocityB, float dt) =>
+        Exact.Length(velocityB.Angular - velocityA.Angular) * dt > RetestBound.Tolerance * (1 + RetestBound.Rounding);
+
     /// <summary>Keeps the patches that a test has found, if they may be carried along and the bodies are hardly moving.</summary>
-    [MethodImpl(MethodImplOptions.NoInlining)]
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void Record(in TestedPair tested, float dt, Vector3 offsetB, ReadOnlySpan<ChildResult> results)
     {
+        Pairs.Pairs.Values[tested.CacheIndex].CarriedPatchCount = 0;
+        // Then nothing else has to be looked for.
+        if (tested.MayCarry && !tested.TurnsFast)
+            RecordSlow(tested, dt, offsetB, results);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void RecordSlow(in TestedPair tested, float dt, Vector3 offsetB, ReadOnlySpan<ChildResult> results)
+    {
         ref var cached = ref Pairs.Pairs.Values[tested.CacheIndex];
-        cached.CarriedPatchCount = 0;
-        if (!tested.MayCarry)
-            return;
         var velocityA = VelocityOf(tested.Pair.A);
         var velocityB = VelocityOf(tested.Pair.B);
-        var angular = velocityB.Angular - velocityA.Angular;
-        var turn = Exact.Length(angular);
-        // Turns too fast, however large it is: then nothing else has to be looked for.
-        if (turn * dt > RetestBound.Tolerance * (1 + RetestBound.Rounding))
-            return;
+        var turn = Exact.Length(velocityB.Angular - velocityA.Angular);
         Simulation.GetPoseAndShape(tested.Pair.A, out var poseA, out var shapeA);
         Simulation.GetPoseAndShape(tested.Pair.B, out var poseB, out var shapeB);
         ref var history = ref Pairs.Parents.Memory[cached.Single.History];

@@ -19,11 +19,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         rimTime = (dt - Simulation.Solver.ForeseeSubstepDt(dt)) * 0.5f;
     }
 
-    // Contacts where a pair will touch are those of another time.
-    static bool MayHaveRims(in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB) => !tested.IsImpact && (MayHaveRims(shapeA) || MayHaveRims(shapeB));
+    // The compound that was asked about last, and whether it has a cylinder: a level is asked about again and again.
+    struct RimMemory
+    {
+        public TypedIndex Compound;
+        public bool HasCylinder;
+    }
 
-    // Of a compound it is known when its children have been looked at. Those of many children are not: there are too many.
-    static bool MayHaveRims(TypedIndex shape) => shape.Type is Cylinder.Id or Compound.Id;
+    // Contacts where a pair will touch are those of another time.
+    bool MayHaveRims(ref RimMemory memory, in TestedPair tested, TypedIndex shapeA, TypedIndex shapeB) =>
+        !tested.IsImpact && (MayHaveRims(ref memory, shapeA) || MayHaveRims(ref memory, shapeB));
+
+    // Of a compound its children say it. Those of many children are not looked at: there are too many.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    bool MayHaveRims(ref RimMemory memory, TypedIndex shape) => shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasCylinder(ref memory, shape));
+
+    bool HasCylinder(ref RimMemory memory, TypedIndex shape)
+    {
+        if (memory.Compound.Packed == shape.Packed)
+            return memory.HasCylinder;
+        memory.Compound = shape;
+        memory.HasCylinder = false;
+        ref var compound = ref Simulation.Shapes.GetShape<Compound>(shape.Index);
+        for (int i = 0; i < compound.Children.Length; ++i)
+            memory.HasCylinder |= compound.Children[i].ShapeIndex.Type == Cylinder.Id;
+        return memory.HasCylinder;
+    }
 
     /// <summary>The contacts of a pair as the solver is to have them.</summary>
     /// <param name="pair">The pair, which may have rims.</param>

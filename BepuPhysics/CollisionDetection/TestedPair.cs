@@ -22,6 +22,9 @@ struct TestedPair
     /// <summary>Of a pair with children: whether its patches may be carried along, and whether they are.</summary>
     public bool MayCarry, IsCarried;
 
+    /// <summary>Of a pair with children: whether one turns too fast as the other sees it to be carried along, however large it is.</summary>
+    public bool TurnsFast;
+
     /// <summary>Whether impacts of the pair are made exactly (<see cref="ThinImpacts"/>, <see cref="CornerHits"/>, and what is fast).</summary>
     public bool IsExact;
 

@@ -62,6 +62,7 @@ unsafe struct ChildPairs(BufferPool pool)
     public bool HitsThin;
     WaitingList<WaitingChild> waiting = new(InitialCapacity);
     WaitingList<OpenParent> parents = new(InitialCapacity);
+    WaitingList<LoneChild> lone = new(InitialCapacity);
 
     const int InitialCapacity = 64;
 
@@ -80,9 +81,6 @@ unsafe struct ChildPairs(BufferPool pool)
         public float SpeculativeMargin;
         public bool MoverIsB;
         public bool HasRound;
-        // Of a parent with one child that agrees with nobody: whether it is such, and from how many contacts on that may be carried along.
-        public bool IsAlone;
-        public int LeastCarriedContactCount;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -147,7 +145,22 @@ unsafe struct ChildPairs(BufferPool pool)
     public WaitingChild Take(int id, BufferPool pool) => waiting.Take(id, pool);
 
     /// <summary>The slot of a child that waits.</summary>
-    public readonly ref ChildResult Slot(int id) => ref Slot(waiting[id]);
+    public readonly ref ChildResult Slot(int id) => ref id < 0 ? ref Lone(id).Child : ref Slot(waiting[id]);
+
+    /// <summary>Lets a child wait that is alone.</summary>
+    /// <returns>The id that it is to be tested with: a negative one.</returns>
+    public int OpenLone(in ParentPair pair, ChildIds ids, bool keepsHistory, in ChildShapes shapes, BufferPool pool)
+    {
+        var id = lone.Allocate(pool);
+        lone[id].Begin(pair, ids, keepsHistory, shapes);
+        return ~id;
+    }
+
+    /// <summary>A child that is alone, by its id.</summary>
+    public readonly ref LoneChild Lone(int id) => ref lone[~id];
+
+    /// <summary>Closes a parent with a child that is alone.</summary>
+    public void CloseLone(int id, BufferPool pool) => lone.Free(~id, pool);
 
     /// <summary>The slot of a child.</summary>
     public readonly ref ChildResult Slot(WaitingChild child) => ref parents[child.Parent].Slots[PatchSet.Capacity + child.Slot];
@@ -159,39 +172,11 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>Whether children of a parent become patches.</summary>
     public readonly bool Joins(int parent) => parents[parent].Placed.Allocated;
 
-    /// <summary>Notes that a parent has one child, which is not joined.</summary>
-    /// <param name="parent">The parent.</param>
-    /// <param name="leastCarriedContactCount">Number of contacts from which on they may be carried along.</param>
-    public readonly void SetAlone(int parent, int leastCarriedContactCount)
-    {
-        parents[parent].IsAlone = true;
-        parents[parent].LeastCarriedContactCount = leastCarriedContactCount;
-    }
-
-    /// <summary>Whether a parent has one child, which is not joined.</summary>
-    public readonly bool IsAlone(int parent) => parents[parent].IsAlone;
-
     /// <summary>Forgets what became of the parent that was completed last: the next has nothing of it.</summary>
     public void ForgetOutcome()
     {
         Kept.Count = 0;
         MayCarry = HitsThin = false;
-    }
-
-    /// <summary>Makes a patch of what was found for the child of a parent that has one.</summary>
-    /// <param name="parent">The parent.</param>
-    /// <param name="known">Patches of the last step.</param>
-    /// <returns>Number of patches.</returns>
-    public int BuildPatch(int parent, in KnownPatches known)
-    {
-        ForgetOutcome();
-        ref var open = ref parents[parent];
-        ref var child = ref open.Slots[PatchSet.Capacity];
-        if (child.Manifold.Count == 0)
-            return 0;
-        MayCarry = open.HasRound || child.Manifold.Count >= open.LeastCarriedContactCount;
-        PatchSet.BuildOfOne(ref child, known, ref open.Slots[PatchSet.Capacity - 1]);
-        return 1;
     }
 
     /// <summary>Lets a parent wait for others to be joined with, as nothing more is waited for.</summary>
@@ -291,6 +276,7 @@ unsafe struct ChildPairs(BufferPool pool)
         }
         parents.Dispose(pool);
         waiting.Dispose(pool);
+        lone.Dispose(pool);
         Tested.DisposeIfTaken(pool);
         Found.Dispose(pool);
         Seams.Dispose(pool);

@@ -22,11 +22,16 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
 
     /// <summary>Adds a pair of shapes that exist to a task that expands it, with a pose that is known to be sound.</summary>
     internal void AddParent(CollisionTask task, int taskIndex, bool flipped, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
-        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in PairMotion motion)
+        in Quaternion orientationA, in Quaternion orientationB, float speculativeMargin, int pairId, in BodyVelocity velocityA,
+        in BodyVelocity velocityB, float maximumExpansion)
     {
         ref var batch = ref Write(task, taskIndex, flipped, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, speculativeMargin, pairId,
             PairInput.NoHistory);
-        ((ExpandingTask)task).Parent(batch, batch.Count - 1).Motion = motion;
+        // Part by part, as it comes from several places.
+        ref var motion = ref Unsafe.As<ExpandingTask>(task).Parent(batch, batch.Count - 1).Motion;
+        motion.A = velocityA;
+        motion.B = velocityB;
+        motion.MaximumExpansion = maximumExpansion;
         if (batch.Count == PairBatch.Capacity)
             Execute(task, ref batch);
     }
@@ -97,12 +102,29 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             return;
         }
         task.GetChildren(batch, Shapes, found, out var children);
-        var joins = children.TypeA == Triangle.Id || children.TypeB == Triangle.Id || TCallbacks.KeepsChildren(ref Callbacks, pair.PairId);
-        var parent = Children->Open(pair, 1, joins, Dt, Pool);
-        if (!joins)
-            Children->SetAlone(parent, PlacedChildren.FindLeastCarriedContactCount(children.TypeA, children.TypeB));
+        if (children.TypeA != Triangle.Id && children.TypeB != Triangle.Id && !TCallbacks.KeepsChildren(ref Callbacks, pair.PairId))
+        {
+            AddLone(found.Children, children, pair);
+            return;
+        }
+        var parent = Children->Open(pair, 1, joins: true, Dt, Pool);
         AddChild(parent, found.Children, children, pair);
         Release(parent);
+    }
+
+    void AddLone(ChildIds ids, in ChildShapes children, in ParentPair pair)
+    {
+        var task = FindTask(children, out var taskIndex, out var flipped);
+        var keepsHistories = task.KeepsHistories && !children.LeadsOut;
+        var id = Children->OpenLone(pair, ids, keepsHistories, children, Pool);
+        var history = PairInput.NoHistory;
+        if (keepsHistories &&
+            TCallbacks.Recall(ref Callbacks, pair.PairId, ids, children, pair.SpeculativeMargin, out history, ref Children->Lone(id).Child.Manifold))
+        {
+            CompleteLone(id);
+            return;
+        }
+        AddToTask(task, taskIndex, flipped, children, new(pair.SpeculativeMargin, id, flipped, history));
     }
 
     void CompleteWithoutChildren(in ParentPair pair)
@@ -113,12 +135,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
 
     void AddChild(int parent, ChildIds ids, in ChildShapes children, in ParentPair pair)
     {
-        var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
-        if (task.Expands)
-        {
-            throw new InvalidOperationException(
-                $"Pieces of a shape must be convex: {task.Description}. A compound was changed in place to what could not be added.");
-        }
+        var task = FindTask(children, out var taskIndex, out var flipped);
         var keepsHistories = task.KeepsHistories && !children.LeadsOut;
         var slot = Children->TakeSlot(parent, ids, keepsHistories, children);
         var history = PairInput.NoHistory;
@@ -128,11 +145,25 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             CompleteChild(slot);
             return;
         }
+        AddToTask(task, taskIndex, flipped, children, new(pair.SpeculativeMargin, Children->Wait(slot, Pool), flipped, history));
+    }
+
+    CollisionTask FindTask(in ChildShapes children, out int taskIndex, out bool flipped)
+    {
+        var task = registry.GetTask(children.TypeA, children.TypeB, out taskIndex, out flipped);
+        if (!task.Expands)
+            return task;
+        throw new InvalidOperationException(
+            $"Pieces of a shape must be convex: {task.Description}. A compound was changed in place to what could not be added.");
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void AddToTask(CollisionTask task, int taskIndex, bool flipped, in ChildShapes children, in PairInput input)
+    {
         ref var batches = ref Children->Batches;
         if (!batches.Has(taskIndex))
             batches.Take(task, taskIndex, registry.TaskCount, Pool);
         ref var batch = ref batches[taskIndex];
-        var input = new PairInput(pair.SpeculativeMargin, Children->Wait(slot, Pool), flipped, history);
         var offsetB = children.OffsetB - children.OffsetA;
         if (flipped)
             task.WriteDirectly(ref batch, children.ShapeB, children.ShapeA, offsetB, children.OrientationB, children.OrientationA, input);
@@ -170,7 +201,29 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         var receiver = new ChildReceiver(Children);
         task.Execute(ref batch, histories, ref receiver);
         for (int i = 0; i < tested.Count; ++i)
-            CompleteChild(Children->Take(tested[i], Pool));
+        {
+            if (tested[i] < 0)
+                CompleteLone(tested[i]);
+            else
+                CompleteChild(Children->Take(tested[i], Pool));
+        }
+    }
+
+    void CompleteLone(int id)
+    {
+        ref var lone = ref Children->Lone(id);
+        lone.Child.MoveToParent(lone.OffsetB);
+        Callbacks.OnChildPairCompleted(lone.PairId, lone.Child.Children.A, lone.Child.Children.B, ref lone.Child.Manifold);
+        Children->ForgetOutcome();
+        var hasPatch = lone.Child.Manifold.Count > 0;
+        if (hasPatch)
+        {
+            Children->MayCarry = lone.MayCarry;
+            TCallbacks.RecallPatches(ref Callbacks, lone.PairId, out var known);
+            lone.BuildPatch(known);
+        }
+        TCallbacks.OnChildrenCompleted(ref Callbacks, lone.PairId, lone.OffsetB, lone.Results(hasPatch));
+        Children->CloseLone(id, Pool);
     }
 
     void CompleteChild(ChildPairs.WaitingChild child)
@@ -185,12 +238,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     {
         if (!Children->Release(parent))
             return;
-        if (Children->IsAlone(parent))
-        {
-            TCallbacks.RecallPatches(ref Callbacks, Children->PairId(parent), out var known);
-            Complete(parent, Children->BuildPatch(parent, known));
-        }
-        else if (!Children->Joins(parent))
+        if (!Children->Joins(parent))
         {
             Children->ForgetOutcome();
             Complete(parent, 0);

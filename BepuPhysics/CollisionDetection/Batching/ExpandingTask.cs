@@ -11,7 +11,7 @@ namespace BepuPhysics.CollisionDetection;
 /// <param name="A">Velocity of A.</param>
 /// <param name="B">Velocity of B.</param>
 /// <param name="MaximumExpansion">Greatest distance by which these expand the bounds of children, m.</param>
-readonly record struct PairMotion(BodyVelocity A, BodyVelocity B, float MaximumExpansion);
+record struct PairMotion(BodyVelocity A, BodyVelocity B, float MaximumExpansion);
 
 /// <summary>A pair that is to be expanded, in the order of the caller.</summary>
 struct ParentPair
@@ -124,14 +124,15 @@ abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.
         entry.A = *(TShapeA*)shapeA;
         entry.B = *(TShapeB*)shapeB;
         var flipped = pair.FlipMask != 0;
-        entry.Pair = new()
-        {
-            OffsetB = offsetB,
-            OrientationA = flipped ? orientationB : orientationA,
-            OrientationB = flipped ? orientationA : orientationB,
-            SpeculativeMargin = pair.SpeculativeMargin,
-            PairId = pair.PairId,
-            Flipped = flipped,
-        };
+        // Field by field: what is made elsewhere first is copied as a whole.
+        ref var parent = ref entry.Pair;
+        parent.OffsetB = offsetB;
+        parent.OrientationA = flipped ? orientationB : orientationA;
+        parent.OrientationB = flipped ? orientationA : orientationB;
+        parent.Motion = default;
+        parent.SpeculativeMargin = pair.SpeculativeMargin;
+        parent.PairId = pair.PairId;
+        parent.Flipped = flipped;
+        parent.NameA = parent.NameB = default;
     }
 }

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -32,12 +33,31 @@ struct WaitingList<T>(int initialCapacity) where T : unmanaged
         return id;
     }
 
+    /// <summary>Adds an item that is to be written where it is: it holds what an earlier one held, or anything.</summary>
+    /// <returns>Its id, until it is taken.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public int Allocate(BufferPool pool) => freeIds.Count > 0 ? freeIds[--freeIds.Count] : AllocateNew(pool);
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    int AllocateNew(BufferPool pool)
+    {
+        items.EnsureCapacity(initialCapacity, pool);
+        items.Allocate(pool);
+        return items.Count - 1;
+    }
+
     /// <summary>Takes an item out.</summary>
     public T Take(int id, BufferPool pool)
     {
+        Free(id, pool);
+        return items[id];
+    }
+
+    /// <summary>Takes an item out that is not asked for any more.</summary>
+    public void Free(int id, BufferPool pool)
+    {
         freeIds.EnsureCapacity(initialCapacity, pool);
         freeIds.Add(id, pool);
-        return items[id];
     }
 
     public void Dispose(BufferPool pool)

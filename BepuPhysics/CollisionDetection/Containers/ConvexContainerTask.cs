@@ -42,6 +42,12 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         {
             var count = Math.Min(Vector<float>.Count, batch.Count - start);
             FindBoxes(entries + start, count, dt, out var boxes);
+            if (TContainer.IsList && IsOneList(entries + start, count))
+            {
+                List(entries[start], shapes, ref list, ref listed, pool);
+                if (TryFindInList(entries, start, count, boxes, shapes, list.Memory, ref found, pool))
+                    continue;
+            }
             for (int i = 0; i < count; ++i)
             {
                 ref var entry = ref entries[start + i];
@@ -61,6 +67,53 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         }
         if (list.Allocated)
             pool.Return(ref list);
+    }
+
+    static bool IsOneList(Entry* entries, int count)
+    {
+        var name = NameOf(entries[0].Pair);
+        var isOne = name.Exists;
+        for (int i = 1; i < count; ++i)
+            isOne &= NameOf(entries[i].Pair).Packed == name.Packed;
+        return isOne;
+    }
+
+    // What touches one list asks each of its children together; for all else there is the list's own way.
+    static bool TryFindInList(Entry* entries, int start, int count, in Boxes boxes, Shapes shapes, NodeChild* list, ref QuickList<FoundChild> found,
+        BufferPool pool)
+    {
+        const int mostChildren = 64;
+        var childCount = entries[start].B.FanOut(0, shapes);
+        if (childCount > mostChildren)
+            return false;
+        var foundBy = stackalloc ulong[Vector<float>.Count];
+        for (int i = 0; i < count; ++i)
+            foundBy[i] = 0;
+        for (int child = 0; child < childCount; ++child)
+        {
+            ref var node = ref list[child];
+            if (node.Index >= 0)
+                return false;
+            Vector3Wide.Broadcast(node.Min, out var min);
+            Vector3Wide.Broadcast(node.Max, out var max);
+            var overlap = Vector.GreaterThanOrEqual(boxes.Max.X, min.X) & Vector.GreaterThanOrEqual(boxes.Max.Y, min.Y) &
+                Vector.GreaterThanOrEqual(boxes.Max.Z, min.Z) & Vector.GreaterThanOrEqual(max.X, boxes.Min.X) &
+                Vector.GreaterThanOrEqual(max.Y, boxes.Min.Y) & Vector.GreaterThanOrEqual(max.Z, boxes.Min.Z);
+            for (var lanes = Wide.Bits(overlap) & ((1u << count) - 1); lanes != 0; lanes &= lanes - 1)
+                foundBy[BitOperations.TrailingZeroCount(lanes)] |= 1ul << child;
+        }
+        for (int i = 0; i < count; ++i)
+        {
+            for (var children = foundBy[i]; children != 0; children &= children - 1)
+            {
+                // Field by field: what is made elsewhere first is copied as a whole.
+                ref var pair = ref found.Allocate(pool);
+                pair.Parent = start + i;
+                pair.Children = Ids(entries[start + i].Pair, BitOperations.TrailingZeroCount(children));
+                pair.LeadsOut = false;
+            }
+        }
+        return true;
     }
 
     // Who is inside of a solid asks nothing; a place in the order of the batch is kept for its way out.
@@ -130,10 +183,12 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
 
     static ChildIds Ids(in ParentPair pair, int child) => pair.Flipped ? new(child, 0) : new(0, child);
 
+    static TypedIndex NameOf(in ParentPair pair) => pair.Flipped ? pair.NameA : pair.NameB;
+
     // Measures the children of a container, unless they are those that were measured last.
     static void List(in Entry entry, Shapes shapes, ref Buffer<NodeChild> list, ref TypedIndex listed, BufferPool pool)
     {
-        var name = entry.Pair.Flipped ? entry.Pair.NameA : entry.Pair.NameB;
+        var name = NameOf(entry.Pair);
         if (name.Exists && name.Packed == listed.Packed)
             return;
         listed = name;

@@ -275,6 +275,8 @@ static class ChildAgreement
                 break;
             if (!MayYield(ranked[i], child, view))
                 continue;
+            if (CannotFollow(view, index, i, tolerance) && CannotFollow(view, i, index, tolerance))
+                continue;
             var areNear = Exact.Dot(view.Result(ranked[i]).Manifold.Normal, view.Result(child).Manifold.Normal) > NearNormal;
             AddFollower(ref tests, view, index, i, tolerance, pool, areNear);
             AddFollower(ref tests, view, i, index, tolerance, pool, areNear);
@@ -328,11 +330,19 @@ static class ChildAgreement
                 // A rival was allowed what the leader is, which may be another child of the body.
                 if (isRival && tests[known].GreatestDepth == OverlapOf(ref view.Ranked[index], view) + tolerance)
                     Follow(view, tests[known]);
-                else
+                else if (!CannotFollow(view, i, index, tolerance))
                     AddFollower(ref tests, view, i, index, tolerance, pool);
             }
             known += isRival ? 2 : 0;
         }
+    }
+
+    // Whether it is known without a test that a child is too deep along the normal of a leader: a floor has no way out to its sides. A triangle hardly ever is.
+    static bool CannotFollow(SeamView view, int follower, int leader, float tolerance)
+    {
+        ref var placed = ref view.Placed(view.Ranked[follower]);
+        return placed.TypeA != Triangle.Id && placed.TypeB != Triangle.Id &&
+            placed.AreDeeper(view.Result(view.Ranked[leader]).Manifold.Normal, OverlapOf(ref view.Ranked[leader], view) + tolerance);
     }
 
     static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, float tolerance, BufferPool pool, bool findsFace = false)

@@ -146,4 +146,16 @@ unsafe struct PlacedChildren
     /// <summary>By how much A has to move along a unit direction, from B to A, to be off B, m; of shapes that are known.</summary>
     public readonly float DepthAlong(in Vector3 normal) =>
         Exact.Dot(OffsetB, normal) + new ShapeReach(TypeB, ShapeB, OrientationB).Along(normal) + new ShapeReach(TypeA, ShapeA, OrientationA).Along(-normal);
+
+    /// <summary>
+    /// Whether a test along a unit direction would find for sure that two shapes are deeper than so much, m; of shapes that are known. It looks along faces,
+    /// too, which are within 1e-2 rad of the direction: a point at a distance comes nearer by no more than a hundredth of that.
+    /// </summary>
+    public readonly bool AreDeeper(in Vector3 normal, float depth)
+    {
+        const float near = 1.01e-2f;
+        var a = new ShapeReach(TypeA, ShapeA, OrientationA);
+        var b = new ShapeReach(TypeB, ShapeB, OrientationB);
+        return Exact.Dot(OffsetB, normal) + b.Along(normal) + a.Along(-normal) - near * (Exact.Length(OffsetB) + a.Size + b.Size) > depth;
+    }
 }

@@ -99,6 +99,71 @@ public sealed unsafe class ShapeReachTests : IDisposable
         tests.Dispose(pool);
     }
 
+    /// <summary>What is said to be deeper without a test is so for the test, which looks along faces too; and it is said of what is much deeper.</summary>
+    [Theory, MemberData(nameof(Pairs))]
+    public void What_is_deeper_for_sure_is_so_for_the_test(ConvexKind kindA, ConvexKind kindB)
+    {
+        var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)(300 + (int)kindA * 6 + (int)kindB));
+        var tests = new DirectedTests();
+        var isDeeper = new bool[CaseCount];
+        for (int i = 0; i < CaseCount; ++i)
+        {
+            var placed = Create(kindA, kindB, i, random, out var normal, out var depth, out var sizes);
+            // From what is not known to what must be.
+            var greatest = (float)(depth - sizes * (i % 10) * .01);
+            isDeeper[i] = placed.AreDeeper(normal, greatest);
+            Assert.False(isDeeper[i] && i % 10 == 0, $"{i}");
+            Assert.True(isDeeper[i] || i % 10 < 6, $"{i}");
+            tests.Add(placed, normal, greatest, (float)sizes, i, pool);
+        }
+        tests.Execute();
+        for (int i = 0; i < CaseCount; ++i)
+            Assert.False(isDeeper[i] && tests[i].IsWithinDepth, $"{i}");
+        tests.Dispose(pool);
+    }
+
+    /// <summary>A ball in a corner has no way out of the floor to its side, nor up out of the wall: nobody has to look for one.</summary>
+    [Fact]
+    public void A_ball_in_a_corner_of_boxes_asks_for_no_test()
+    {
+        var memory = new SeamMemory();
+        var ball = new Sphere(.3f);
+        Box[] boxes = [new(10, 1, 10), new(1, 10, 10)];
+        Vector3[] normals = [Vector3.UnitY, Vector3.UnitX];
+        var (results, placed) = (new ChildResult[boxes.Length], new PlacedChildren[boxes.Length]);
+        for (int i = 0; i < boxes.Length; ++i)
+        {
+            var depth = .001f * (i + 1);
+            fixed (Box* box = &boxes[i])
+            {
+                placed[i].Write(new ChildShapes
+                {
+                    TypeA = Sphere.Id,
+                    ShapeA = &ball,
+                    TypeB = Box.Id,
+                    ShapeB = box,
+                    OffsetB = -(ball.Radius + .5f - depth) * normals[i],
+                    OrientationA = Quaternion.Identity,
+                    OrientationB = Quaternion.Identity,
+                }, default, moverIsB: false, .1f);
+            }
+            results[i].Children = new(0, i);
+            results[i].Manifold.Count = 1;
+            results[i].Manifold.Normal = normals[i];
+            results[i].Manifold.Contact0 = new() { Offset = -ball.Radius * normals[i], Depth = depth };
+        }
+        fixed (ChildResult* first = results)
+        fixed (PlacedChildren* places = placed)
+        {
+            memory.Add(first, places, boxes.Length, owner: 0, pool);
+            SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
+        }
+        Assert.Equal((1, 1), (results[0].Manifold.Count, results[1].Manifold.Count));
+        Assert.Equal((normals[0], normals[1]), (results[0].Manifold.Normal, results[1].Manifold.Normal));
+        Assert.Equal(0, memory.Tests.FoundCount);
+        memory.Dispose(pool);
+    }
+
     /// <summary>A ball on one of two triangles of a floor is beside the other, whose edge is near: nothing is looked at for that.</summary>
     [Fact]
     public void A_ball_beside_an_edge_asks_for_no_test()
