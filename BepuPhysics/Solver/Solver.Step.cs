@@ -353,6 +353,9 @@ public sealed unsafe partial class Solver
                         Solver.BuildSplitBodies(ref Split);
                         break;
                     }
+                    var above = stackalloc byte[StackLine.Length];
+                    var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(byte))];
+                    *line = 0;
                     var bundles = BundleIndexing.GetBundleCount(Solver.bodies.Awake.Count);
                     var blockCount = EvenBlockCount(bundles, BodyBundlesPerBlock);
                     Integrator.Integrate(stage.Integration, SubstepDt, FreeBodies, StartOfBlock(blockIndex, blockCount, bundles),
@@ -400,6 +403,10 @@ public sealed unsafe partial class Solver
         readonly void RunConstraints(in Stage stage, BatchKind kind, int index, ref TypeBatch batch, int start, int end)
         {
             var processor = Solver.Processor(batch.TypeId);
+            // A loop is the frame of what is inlined into it.
+            var above = stackalloc byte[StackLine.Length];
+            var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(byte))];
+            *line = 0;
             ref readonly var substep = ref Substeps[stage.Substep];
             if (kind == BatchKind.Fallback)
             {

@@ -24,8 +24,10 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         var places = PlaceMask;
-        Unsafe.SkipInit(out LineAligned<Slots> memory);
-        var slots = memory.Pointer;
+        // What gathers hand to kernels begins with a line, and so do the frames of kernels.
+        var above = stackalloc byte[StackLine.Length];
+        var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(Slots))];
+        var slots = (Slots*)line;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
             Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out slots->Rows, out slots->Bodies);
@@ -43,8 +45,10 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var prestep = (TPrestep*)batch.Prestep.Memory;
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         var places = PlaceMask;
-        Unsafe.SkipInit(out LineAligned<Slots> memory);
-        var slots = memory.Pointer;
+        // What gathers hand to kernels begins with a line, and so do the frames of kernels.
+        var above = stackalloc byte[StackLine.Length];
+        var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(Slots))];
+        var slots = (Slots*)line;
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
             Gather(references, places, bodies, TConstraint.SolveAccess, substep, out slots->Rows, out slots->Bodies);
