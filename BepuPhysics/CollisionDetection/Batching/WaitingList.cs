@@ -21,14 +21,7 @@ struct WaitingList<T>(int initialCapacity) where T : unmanaged
     /// <returns>Its id, until it is taken.</returns>
     public int Add(in T item, BufferPool pool)
     {
-        if (freeIds.Count == 0)
-        {
-            items.EnsureCapacity(initialCapacity, pool);
-            items.Add(item, pool);
-            return items.Count - 1;
-        }
-        var id = freeIds[freeIds.Count - 1];
-        --freeIds.Count;
+        var id = Allocate(pool);
         items[id] = item;
         return id;
     }
@@ -36,7 +29,14 @@ struct WaitingList<T>(int initialCapacity) where T : unmanaged
     /// <summary>Adds an item that is to be written where it is: it holds what an earlier one held, or anything.</summary>
     /// <returns>Its id, until it is taken.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public int Allocate(BufferPool pool) => freeIds.Count > 0 ? freeIds[--freeIds.Count] : AllocateNew(pool);
+    public int Allocate(BufferPool pool)
+    {
+        if (freeIds.Count == 0)
+            return AllocateNew(pool);
+        var id = freeIds[freeIds.Count - 1];
+        --freeIds.Count;
+        return id;
+    }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     int AllocateNew(BufferPool pool)
