@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
@@ -37,13 +36,7 @@ public sealed unsafe partial class Solver
     struct TurnedBodies
     {
         public int Count;
-        public BodyIndices Indices;
-    }
-
-    [InlineArray(MaximumBodiesPerConstraint)]
-    struct BodyIndices
-    {
-        int first;
+        public BodyNumbers Indices;
     }
 
     // A batch of the random order.

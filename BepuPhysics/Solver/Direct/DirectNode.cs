@@ -32,7 +32,7 @@ struct DirectNode
     /// <summary>Whether its rows see linear velocities: those of joints about axes do not.</summary>
     public bool SeesLinear;
     /// <summary>Places of its bodies among those of the plan.</summary>
-    public DirectBodies Bodies;
+    public BodyNumbers Bodies;
 
     /// <summary>Whether it is a limit, a servo or a motor.</summary>
     internal readonly bool HasBounds => Limit != RowLimit.None;
@@ -47,9 +47,9 @@ struct DirectMember
     public int Index;
 }
 
-/// <summary>A number for each body of a joint.</summary>
+/// <summary>A number for each body of a constraint.</summary>
 [InlineArray(Solver.MaximumBodiesPerConstraint)]
-struct DirectBodies
+struct BodyNumbers
 {
     int first;
 }

@@ -136,28 +136,14 @@ public sealed unsafe class ShapeReachTests : IDisposable
             var depth = .001f * (i + 1);
             fixed (Box* box = &boxes[i])
             {
-                placed[i].Write(new ChildShapes
-                {
-                    TypeA = Sphere.Id,
-                    ShapeA = &ball,
-                    TypeB = Box.Id,
-                    ShapeB = box,
-                    OffsetB = -(ball.Radius + .5f - depth) * normals[i],
-                    OrientationA = Quaternion.Identity,
-                    OrientationB = Quaternion.Identity,
-                }, default, moverIsB: false, .1f);
+                Place(ref placed[i], &ball, Box.Id, box, -(ball.Radius + .5f - depth) * normals[i]);
             }
             results[i].Children = new(0, i);
             results[i].Manifold.Count = 1;
             results[i].Manifold.Normal = normals[i];
             results[i].Manifold.Contact0 = new() { Offset = -ball.Radius * normals[i], Depth = depth };
         }
-        fixed (ChildResult* first = results)
-        fixed (PlacedChildren* places = placed)
-        {
-            memory.Add(first, places, boxes.Length, owner: 0, pool);
-            SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
-        }
+        Agree(ref memory, results, placed);
         Assert.Equal((1, 1), (results[0].Manifold.Count, results[1].Manifold.Count));
         Assert.Equal((normals[0], normals[1]), (results[0].Manifold.Normal, results[1].Manifold.Normal));
         Assert.Equal(0, memory.Tests.FoundCount);
@@ -177,17 +163,7 @@ public sealed unsafe class ShapeReachTests : IDisposable
         {
             fixed (Triangle* triangle = &triangles[i])
             {
-                placed[i].Write(new ChildShapes
-                {
-                    TypeA = Sphere.Id,
-                    ShapeA = &ball,
-                    TypeB = Triangle.Id,
-                    ShapeB = triangle,
-                    OffsetB = -center,
-                    OrientationA = Quaternion.Identity,
-                    OrientationB = Quaternion.Identity,
-                    ConeB = new() { Cosines = Vector3.One },
-                }, default, moverIsB: false, .1f);
+                Place(ref placed[i], &ball, Triangle.Id, triangle, -center, new() { Cosines = Vector3.One });
             }
             var nearest = i == 0 ? center with { Y = 0 } : new Vector3(.5f, 0, .5f);
             results[i].Children = new(0, i);
@@ -195,14 +171,32 @@ public sealed unsafe class ShapeReachTests : IDisposable
             results[i].Manifold.Normal = Vector3.Normalize(center - nearest);
             results[i].Manifold.Contact0 = new() { Offset = nearest - center, Depth = ball.Radius - (center - nearest).Length() };
         }
-        fixed (ChildResult* first = results)
-        fixed (PlacedChildren* places = placed)
-        {
-            memory.Add(first, places, triangles.Length, owner: 0, pool);
-            SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
-        }
+        Agree(ref memory, results, placed);
         Assert.Equal((1, 0), (results[0].Manifold.Count, results[1].Manifold.Count));
         Assert.Equal(0, memory.Tests.FoundCount);
         memory.Dispose(pool);
+    }
+
+    static void Place(ref PlacedChildren placed, Sphere* ball, int type, void* shape, Vector3 offset, TriangleCone cone = default) =>
+        placed.Write(new ChildShapes
+        {
+            TypeA = Sphere.Id,
+            ShapeA = ball,
+            TypeB = type,
+            ShapeB = shape,
+            OffsetB = offset,
+            OrientationA = Quaternion.Identity,
+            OrientationB = Quaternion.Identity,
+            ConeB = cone,
+        }, default, moverIsB: false, .1f);
+
+    void Agree(ref SeamMemory memory, ChildResult[] results, PlacedChildren[] placed)
+    {
+        fixed (ChildResult* first = results)
+        fixed (PlacedChildren* places = placed)
+        {
+            memory.Add(first, places, results.Length, owner: 0, pool);
+            SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
+        }
     }
 }
