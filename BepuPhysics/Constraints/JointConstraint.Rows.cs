@@ -145,7 +145,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         isHard = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
         var slots = bodies;
         softness = Softness(ref slots, substep, prestep);
-        if (MayTurnFar && !substep.IsRelaxation)
+        if (MayTurnFar && !substep.IsRelaxation && !Vector.EqualsAll(BodySlots.At(ref slots, 0).TurnMask, Vector<int>.Zero))
         {
             TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
             var off = TJoint.Kind == RowKind.Inequality ? TRows.Min(error, default) : error;

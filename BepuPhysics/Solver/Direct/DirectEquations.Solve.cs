@@ -80,6 +80,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         var count = node.RowCount;
         var x = rows + node.FirstRow;
         var diagonal = numbers + node.Diagonal;
+        if (count == Three)
+        {
+            SolveForwardThree(diagonal, x);
+            return;
+        }
         for (int row = 1; row < count; ++row)
         {
             for (int i = 0; i < row; ++i)
@@ -101,6 +106,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
             var mask = IsFree(joint) & IsFree(blocks[a].Joint);
             if (!TNumbers.Any(mask))
                 continue;
+            if (count == Three)
+            {
+                GoForwardThree(block, x, rows + later.FirstRow, later.RowCount, mask);
+                continue;
+            }
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 TNumbers sum = default;
@@ -124,6 +134,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
             var mask = IsFree(joint) & IsFree(blocks[a].Joint);
             if (!TNumbers.Any(mask))
                 continue;
+            if (count == Three)
+            {
+                GoBackThree(block, x, rows + later.FirstRow, later.RowCount, mask);
+                continue;
+            }
             for (int row = 0; row < later.RowCount; ++row, block += count)
             {
                 var known = rows[later.FirstRow + row].X;
@@ -138,6 +153,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         var count = node.RowCount;
         var x = rows + node.FirstRow;
         var diagonal = numbers + node.Diagonal;
+        if (count == Three)
+        {
+            SolveBackThree(diagonal, x);
+            return;
+        }
         for (int row = count - 2; row >= 0; --row)
         {
             for (int i = row + 1; i < count; ++i)
@@ -151,14 +171,26 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         {
             ref var row = ref rows[node.FirstRow + i];
             Write(ref row.Impulse, row.Impulse + row.X, mask);
-            Apply(node, i, row.X, mask);
         }
+        ApplyRows(node, rows + node.FirstRow, changes: true, mask);
     }
 
-    void Apply(in DirectNode node, int row, TNumbers impulse, TNumbers mask)
+    // A body's velocity stays in registers until all rows have changed it.
+    void ApplyRows(in DirectNode node, DirectRow<TNumbers>* ofRows, bool changes, TNumbers mask)
     {
-        var w = weighted + node.Jacobian + row * node.BodyCount;
-        for (int slot = 0; slot < node.BodyCount; ++slot, ++w)
-            bodies[node.Bodies[slot]].Velocity.Add(*w, impulse, mask);
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            ref var velocity = ref bodies[node.Bodies[slot]].Velocity;
+            var (linear, angular) = (velocity.Linear, velocity.Angular);
+            var w = weighted + node.Jacobian + slot;
+            for (int row = 0; row < node.RowCount; ++row, w += node.BodyCount)
+            {
+                var impulse = changes ? ofRows[row].X : ofRows[row].Impulse;
+                linear += w->Linear * impulse;
+                angular += w->Angular * impulse;
+            }
+            velocity.Linear = TVectors.Choose(mask, linear, velocity.Linear);
+            velocity.Angular = TVectors.Choose(mask, angular, velocity.Angular);
+        }
     }
 }

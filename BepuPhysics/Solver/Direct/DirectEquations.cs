@@ -50,8 +50,7 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
             if (IsIdle(k))
                 continue;
             var mask = nodes[k].Limit == RowLimit.Positive ? ~holds[k].IsHeld : TNumbers.All;
-            for (int i = 0; i < nodes[k].RowCount; ++i)
-                Apply(nodes[k], i, rows[nodes[k].FirstRow + i].Impulse, mask);
+            ApplyRows(nodes[k], rows + nodes[k].FirstRow, changes: false, mask);
         }
     }
 
@@ -111,15 +110,16 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
     // M^-1 J^T.
     void Weigh(in DirectNode node)
     {
-        var j = jacobians + node.Jacobian;
-        var w = weighted + node.Jacobian;
-        for (int row = 0; row < node.RowCount; ++row)
+        for (int slot = 0; slot < node.BodyCount; ++slot)
         {
-            for (int slot = 0; slot < node.BodyCount; ++slot, ++j, ++w)
+            ref var body = ref bodies[node.Bodies[slot]];
+            var (inverseMass, x, y, z) = (body.InverseMass, body.InverseInertiaX, body.InverseInertiaY, body.InverseInertiaZ);
+            var j = jacobians + node.Jacobian + slot;
+            var w = weighted + node.Jacobian + slot;
+            for (int row = node.RowCount; row > 0; --row, j += node.BodyCount, w += node.BodyCount)
             {
-                ref var body = ref bodies[node.Bodies[slot]];
-                w->Linear = j->Linear * body.InverseMass;
-                w->Angular = body.InverseInertiaX * j->Angular.X + body.InverseInertiaY * j->Angular.Y + body.InverseInertiaZ * j->Angular.Z;
+                w->Linear = j->Linear * inverseMass;
+                w->Angular = x * j->Angular.X + y * j->Angular.Y + z * j->Angular.Z;
             }
         }
     }
@@ -129,6 +129,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
         var block = numbers + node.Diagonal;
         var count = node.BodyCount;
         var scale = TNumbers.Of(1) + rows[node.FirstRow].Softness;
+        if (TNumbers.Count == 1 && node.RowCount == Three && count == 2)
+        {
+            AddDiagonalThree(block, jacobians + node.Jacobian, weighted + node.Jacobian, rows + node.FirstRow, scale, mask);
+            return;
+        }
         for (int row = 0; row < node.RowCount; ++row)
         {
             var j = jacobians + node.Jacobian + row * count;
@@ -151,6 +156,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
         ref var later = ref nodes[coupling.Later];
         var block = numbers + coupling.Place;
         var j = jacobians + later.Jacobian + coupling.LaterSlot;
+        if (TNumbers.Count == 1 && earlier.RowCount == Three)
+        {
+            AddCouplingThree(block, j, later.BodyCount, later.RowCount, weighted + earlier.Jacobian + coupling.EarlierSlot, earlier.BodyCount);
+            return;
+        }
         for (int row = 0; row < later.RowCount; ++row, j += later.BodyCount)
         {
             var w = weighted + earlier.Jacobian + coupling.EarlierSlot;
@@ -163,24 +173,10 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
     {
         ref var node = ref nodes[joint];
         var isFree = IsFree(joint);
-        var count = node.RowCount;
-        var diagonal = numbers + node.Diagonal;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
         {
-            if (!TNumbers.Any(isFree & IsFree(blocks[a].Joint)))
-                continue;
-            // Times the inverse of L^T: what is left is L D.
-            var block = numbers + blocks[a].Place;
-            for (int row = nodes[blocks[a].Joint].RowCount; row > 0; --row, block += count)
-            {
-                for (int column = 1; column < count; ++column)
-                {
-                    var value = block[column];
-                    for (int i = 0; i < column; ++i)
-                        value -= block[i] * diagonal[column * count + i];
-                    block[column] = value;
-                }
-            }
+            if (TNumbers.Any(isFree & IsFree(blocks[a].Joint)))
+                Scale(node, blocks[a]);
         }
         var target = targets + node.FirstTarget;
         for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
@@ -200,11 +196,39 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
         }
     }
 
+    // Times the inverse of L^T: what is left is L D.
+    void Scale(in DirectNode node, in DirectBlock below)
+    {
+        var count = node.RowCount;
+        var diagonal = numbers + node.Diagonal;
+        var block = numbers + below.Place;
+        if (count == Three)
+        {
+            ScaleThree(diagonal, block, nodes[below.Joint].RowCount);
+            return;
+        }
+        for (int row = nodes[below.Joint].RowCount; row > 0; --row, block += count)
+        {
+            for (int column = 1; column < count; ++column)
+            {
+                var value = block[column];
+                for (int i = 0; i < column; ++i)
+                    value -= block[i] * diagonal[column * count + i];
+                block[column] = value;
+            }
+        }
+    }
+
     // L D L^T of a block; a pivot that is rounding is left out, and what its row asks for is left to the rows that say the same.
     void FactorDiagonal(in DirectNode node, TNumbers mask)
     {
         var count = node.RowCount;
         var block = numbers + node.Diagonal;
+        if (count == Three)
+        {
+            FactorThree(block, rows + node.FirstRow, mask);
+            return;
+        }
         for (int column = 0; column < count; ++column)
         {
             var pivot = block[column * count + column];
@@ -227,20 +251,34 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(in DirectPlan
     void Subtract(in DirectNode node, in DirectBlock a, in DirectBlock b, TNumbers* target, TNumbers mask)
     {
         var count = node.RowCount;
-        var scaled = stackalloc TNumbers[DirectPlan.MostRows];
+        var pivots = rows + node.FirstRow;
         var left = numbers + a.Place;
-        var columns = nodes[b.Joint].RowCount;
-        for (int row = nodes[a.Joint].RowCount; row > 0; --row, left += count)
+        var (rowCount, columns) = (nodes[a.Joint].RowCount, nodes[b.Joint].RowCount);
+        if (count == 1)
+        {
+            SubtractOne(pivots->InversePivot, left, rowCount, numbers + b.Place, columns, target, mask);
+            return;
+        }
+        // What is above the diagonal of the matrix nobody reads.
+        var isDiagonal = a.Joint == b.Joint;
+        if (count == Three)
+        {
+            SubtractThree(pivots, left, rowCount, numbers + b.Place, columns, isDiagonal, target, mask);
+            return;
+        }
+        var scaled = stackalloc TNumbers[DirectPlan.MostRows];
+        for (int row = 0; row < rowCount; ++row, left += count, target += columns)
         {
             for (int i = 0; i < count; ++i)
-                scaled[i] = left[i] * rows[node.FirstRow + i].InversePivot;
+                scaled[i] = left[i] * pivots[i].InversePivot;
             var right = numbers + b.Place;
-            for (int column = columns; column > 0; --column, right += count, ++target)
+            var end = isDiagonal ? row + 1 : columns;
+            for (int column = 0; column < end; ++column, right += count)
             {
                 var sum = scaled[0] * right[0];
                 for (int i = 1; i < count; ++i)
                     sum += scaled[i] * right[i];
-                Write(ref *target, *target - sum, mask);
+                Write(ref target[column], target[column] - sum, mask);
             }
         }
     }

@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 
 namespace BepuPhysics.Constraints;
 
@@ -13,16 +14,19 @@ static class DirectLane
 
     /// <summary>Writes a vector of a structure.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static void Write<TVectors, TNumbers>(ref TVectors vectors, int lane, double x, double y, double z)
+    internal static void Write<TVectors, TNumbers>(ref TVectors vectors, int lane, float x, float y, float z)
         where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
     {
+        if (TVectors.Stride == 1)
+        {
+            // The fourth number is zero.
+            Unsafe.As<TVectors, Vector256<double>>(ref vectors) = Vector256.WidenLower(Vector128.Create(x, y, z, 0).ToVector256Unsafe());
+            return;
+        }
         ref var first = ref Unsafe.Add(ref Unsafe.As<TVectors, double>(ref vectors), lane);
         first = x;
         Unsafe.Add(ref first, TVectors.Stride) = y;
         Unsafe.Add(ref first, 2 * TVectors.Stride) = z;
-        // The fourth number is zero.
-        if (TVectors.Stride == 1)
-            Unsafe.Add(ref first, 3) = 0;
     }
 
     /// <summary>Reads a vector of a structure.</summary>

@@ -1,6 +1,7 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 
 namespace BepuPhysics.Constraints;
 
@@ -84,6 +85,9 @@ interface IVectors<T, TNumbers> where T : unmanaged, IVectors<T, TNumbers> where
 
     /// <summary>Sum of the components, always in this order: x + y + (z + 0).</summary>
     static abstract TNumbers Sum(T vector);
+
+    /// <summary>Sums of the components of two vectors, in that order.</summary>
+    static abstract (TNumbers A, TNumbers B) Sums(T a, T b);
 
     /// <summary>Vectors where a mask is set, others where not. One structure alone is not asked where its mask is not set.</summary>
     static abstract T Choose(TNumbers mask, T set, T others);
@@ -274,6 +278,16 @@ readonly struct OneVector(Vector256<double> components) : IVectors<OneVector, On
     public static OneNumber Sum(OneVector vector) => new(
         vector.components[0] + vector.components[1] + (vector.components[2] + vector.components[3]));
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static (OneNumber A, OneNumber B) Sums(OneVector a, OneVector b)
+    {
+        if (!Avx.IsSupported)
+            return (Sum(a), Sum(b));
+        var halves = Avx.HorizontalAdd(a.components, b.components);
+        var sums = halves.GetLower() + halves.GetUpper();
+        return (new(sums[0]), new(sums[1]));
+    }
+
     public static OneVector Choose(OneNumber mask, OneVector set, OneVector others) => set;
 
     public OneNumber X => new(components[0]);
@@ -305,6 +319,9 @@ readonly struct ManyVectors<TNumbers>(TNumbers x, TNumbers y, TNumbers z) : IVec
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static TNumbers Sum(ManyVectors<TNumbers> vector) => vector.x + vector.y + (vector.z + default(TNumbers));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static (TNumbers A, TNumbers B) Sums(ManyVectors<TNumbers> a, ManyVectors<TNumbers> b) => (Sum(a), Sum(b));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static ManyVectors<TNumbers> Choose(TNumbers mask, ManyVectors<TNumbers> set, ManyVectors<TNumbers> others) => new(
