@@ -256,7 +256,7 @@ unsafe struct ChildPairs(BufferPool pool)
     public void Close(int parent, BufferPool pool)
     {
         Return(ref parents[parent], pool);
-        parents.Take(parent, pool);
+        parents.Free(parent, pool);
     }
 
     static void Return(ref OpenParent parent, BufferPool pool)

@@ -24,22 +24,29 @@ struct PairBatches
 
     /// <summary>Whether the batch of a task has memory.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly bool Has(int taskIndex) => taskIndex < batches.Length && batches[taskIndex].Bundles.Allocated;
+    public readonly bool Has(int taskIndex) => (uint)(taskIndex - First) < (uint)(End - First) && batches[taskIndex].Bundles.Allocated;
 
     /// <summary>Takes the memory of the batch of a task, which has none.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public void Take(CollisionTask task, int taskIndex, int taskCount, BufferPool pool)
     {
         if (taskIndex >= batches.Length)
+            pool.ResizeToAtLeast(ref batches, Math.Max(taskCount, taskIndex + 1), End);
+        // What is not between two that have memory was never written: a question has one batch of fifty.
+        if (First == End)
+            (First, End) = (taskIndex, taskIndex + 1);
+        else if (taskIndex < First)
         {
-            var previousCount = batches.Length;
-            pool.ResizeToAtLeast(ref batches, Math.Max(taskCount, taskIndex + 1), previousCount);
-            batches.Clear(previousCount, batches.Length - previousCount);
+            batches.Clear(taskIndex + 1, First - taskIndex - 1);
+            First = taskIndex;
+        }
+        else if (taskIndex >= End)
+        {
+            batches.Clear(End, taskIndex - End);
+            End = taskIndex + 1;
         }
         pool.Take(task.BatchByteCount, out batches[taskIndex].Bundles);
         batches[taskIndex].Count = 0;
-        First = End == 0 ? taskIndex : Math.Min(First, taskIndex);
-        End = Math.Max(End, taskIndex + 1);
     }
 
     /// <summary>Returns all memory; pairs that wait are forgotten. May be called any number of times.</summary>

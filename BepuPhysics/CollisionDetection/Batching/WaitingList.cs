@@ -49,13 +49,20 @@ struct WaitingList<T>(int initialCapacity) where T : unmanaged
     /// <summary>Takes an item out.</summary>
     public T Take(int id, BufferPool pool)
     {
+        var item = items[id];
         Free(id, pool);
-        return items[id];
+        return item;
     }
 
     /// <summary>Takes an item out that is not asked for any more.</summary>
     public void Free(int id, BufferPool pool)
     {
+        // The last one needs no note: where one thing waits at a time, as in a question, there are none.
+        if (id == items.Count - 1)
+        {
+            --items.Count;
+            return;
+        }
         freeIds.EnsureCapacity(initialCapacity, pool);
         freeIds.Add(id, pool);
     }

@@ -144,7 +144,10 @@ static class TriangleNeighbours
         ref readonly var cone = ref isA ? ref placed.ConeA : ref placed.ConeB;
         surface.Bound(cone);
         // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
-        if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine || surface.Violated(direction) == default)
+        if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine)
+            return;
+        var bound = surface.Violated(direction);
+        if (bound == default)
             return;
         ref readonly var triangle = ref isA ? ref placed.ShapeA : ref placed.ShapeB;
         ref readonly var shape = ref isA ? ref placed.ShapeB : ref placed.ShapeA;
@@ -155,9 +158,12 @@ static class TriangleNeighbours
         if (cone.Sines != default)
         {
             var clamped = direction;
-            for (int i = 0; i < MaximumClampCount && surface.Violated(clamped) is var bound && bound != default; ++i)
+            for (int i = 0; i < MaximumClampCount && bound != default; ++i)
+            {
                 clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
-            if (surface.Violated(clamped) == default)
+                bound = surface.Violated(clamped);
+            }
+            if (bound == default)
                 best.Add(clamped, DepthAlong(clamped, surface, other, center));
             for (int edge = 0; edge < 3; ++edge)
             {
