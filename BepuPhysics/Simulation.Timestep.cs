@@ -62,7 +62,7 @@ public sealed partial class Simulation
         if (NarrowPhase.IsAtRest)
             return;
         using var timer = Profiler.Time(PoseIntegrator);
-        Bodies.RipeCount = 0;
+        Bodies.RestCounts = 0;
         Quarantine.EnsureCapacity();
         // What rests may be apart by a part of its size, which the margin of a usual step covers and that of a much shorter one does not: its
         // contacts would go, and with them what they bear. See Docs/decisions/step-length.md.

@@ -6,8 +6,19 @@ public sealed partial class Bodies
     /// <summary>Set of the bodies that sleep.</summary>
     internal const int AsleepSet = 1;
 
-    /// <summary>Bodies that had rested long enough to sleep when the last step began. Workers add to it.</summary>
-    internal int RipeCount;
+    /// <summary>A body that has rested long enough to sleep.</summary>
+    internal const long OneRipe = 1;
+    /// <summary>A body that had not when the step before began.</summary>
+    internal const long OneJustRipened = 1L << 32;
+
+    /// <summary>How many bodies had rested long enough to sleep when the last step began, and how many just so. Workers add to it.</summary>
+    internal long RestCounts;
+
+    /// <summary>Bodies that had rested long enough to sleep when the last step began.</summary>
+    internal int RipeCount => (int)RestCounts;
+
+    /// <summary>Those of them that had not when the step before began.</summary>
+    internal int JustRipenedCount => (int)(RestCounts >> 32);
 
     /// <summary>Bodies that sleep.</summary>
     internal ref BodySet Asleep => ref Sets[AsleepSet];

@@ -10,7 +10,7 @@ public sealed partial class Bodies
         copy.Rows(ref Locations, HandlePool.HighestPossiblyClaimedId + 1, new BodyMemoryLocation { SetIndex = -1 });
         if (copy.Restores)
             EnsureSlots(Locations.Length);
-        copy.Value(ref RipeCount);
+        copy.Value(ref RestCounts);
         for (int i = 0; i < Sets.Length; ++i)
             Sets[i].CopyState(copy);
     }

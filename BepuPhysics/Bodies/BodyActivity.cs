@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 
 namespace BepuPhysics;
@@ -27,15 +28,31 @@ public struct BodyActivity
     public byte TimestepsUnderThresholdCount;
     /// <summary>Whether it has rested long enough: it sleeps as soon as all that it is connected with has.</summary>
     public bool SleepCandidate;
-    /// <summary>Whether the body touched several things in the last step that do not give way; their contacts then wait for each other.</summary>
     // Here is a byte to spare, and collidables keep their 32 bytes.
-    internal bool IsAtSeam;
+    Marks marks;
+
+    [Flags]
+    enum Marks : byte
+    {
+        AtSeam = 1,
+        JustRipened = 2,
+    }
+
+    /// <summary>Whether the body touched several things in the last step that do not give way; their contacts then wait for each other.</summary>
+    internal bool IsAtSeam
+    {
+        readonly get => (marks & Marks.AtSeam) != 0;
+        set => marks = value ? marks | Marks.AtSeam : marks & ~Marks.AtSeam;
+    }
+
+    /// <summary>Whether it had rested long enough in the last step, and not before.</summary>
+    internal readonly bool HasJustRipened => (marks & Marks.JustRipened) != 0;
 
     /// <summary>Takes note of the speed with which a step begins.</summary>
     /// <param name="speedSquared">Speed squared, linear plus angular.</param>
-    /// <returns>1 if the body has rested long enough, else 0.</returns>
+    /// <returns>What the body adds to <see cref="Bodies.RestCounts"/>.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal int Note(float speedSquared)
+    internal long Note(float speedSquared)
     {
         // What is no number does not rest.
         if (!(speedSquared <= SleepThreshold))
@@ -45,14 +62,27 @@ public struct BodyActivity
         }
         if (TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
             ++TimestepsUnderThresholdCount;
-        SleepCandidate = TimestepsUnderThresholdCount >= MinimumTimestepsUnderThreshold;
-        return SleepCandidate ? 1 : 0;
+        if (TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
+        {
+            Forgo();
+            return 0;
+        }
+        marks = SleepCandidate ? marks & ~Marks.JustRipened : marks | Marks.JustRipened;
+        var counts = SleepCandidate ? Bodies.OneRipe : Bodies.OneRipe + Bodies.OneJustRipened;
+        SleepCandidate = true;
+        return counts;
     }
 
     /// <summary>Begins anew to count rest.</summary>
     internal void Forget()
     {
         TimestepsUnderThresholdCount = 0;
+        Forgo();
+    }
+
+    void Forgo()
+    {
         SleepCandidate = false;
+        marks &= ~Marks.JustRipened;
     }
 }

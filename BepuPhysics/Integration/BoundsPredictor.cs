@@ -41,16 +41,16 @@ unsafe struct BoundsPredictor : IStagedWork
     public readonly void Execute(int stage, int block, int workerIndex)
     {
         var end = Math.Min((block + 1) * BundlesPerBlock, BundleCount);
-        int ripe = 0;
+        long rest = 0;
         for (int bundle = block * BundlesPerBlock; bundle < end; ++bundle)
-            ripe += Predict(bundle, workerIndex);
+            rest += Predict(bundle, workerIndex);
         // The sum is the same in any order.
-        if (ripe > 0)
-            Interlocked.Add(ref Bodies.RipeCount, ripe);
+        if (rest > 0)
+            Interlocked.Add(ref Bodies.RestCounts, rest);
     }
 
-    /// <returns>Number of bodies that have rested long enough to sleep.</returns>
-    readonly int Predict(int bundle, int workerIndex)
+    /// <returns>What is added to <see cref="Bodies.RestCounts"/>.</returns>
+    readonly long Predict(int bundle, int workerIndex)
     {
         Integrator.PredictVelocities(bundle, Dt, workerIndex, out var pose, out var velocity, out var speedSquared, out var gain);
         ref var set = ref Bodies.Awake;
@@ -58,9 +58,9 @@ unsafe struct BoundsPredictor : IStagedWork
         var count = Math.Min(Vector<float>.Count, set.Count - start);
         var activities = set.Activity.Memory + start;
         var speeds = (float*)&speedSquared;
-        int ripe = 0;
+        long rest = 0;
         for (int i = 0; i < count; ++i)
-            ripe += activities[i].Note(speeds[i]);
+            rest += activities[i].Note(speeds[i]);
         var collidables = set.Collidables.Memory + start;
         Span<int> shapeIndices = stackalloc int[Vector<float>.Count];
         Unsafe.SkipInit(out Vector<float> radius);
@@ -92,7 +92,7 @@ unsafe struct BoundsPredictor : IStagedWork
         }
         if (done != 0)
             Write(done, collidables, pose.Position, velocity, gain, radius, expansion, min, max);
-        return ripe;
+        return rest;
     }
 
     readonly void Write(

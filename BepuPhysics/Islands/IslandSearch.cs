@@ -36,13 +36,10 @@ readonly unsafe struct IslandSearch
     // Where each island begins, and where the last one ends.
     readonly Buffer<int> starts;
 
-    /// <summary>Number of islands that were found and are given.</summary>
+    /// <summary>Number of islands.</summary>
     internal readonly int Count;
 
-    /// <summary>Whether there are more than are given.</summary>
-    internal readonly bool HasMore;
-
-    /// <summary>Number of bodies of all islands that are given.</summary>
+    /// <summary>Number of bodies of all islands.</summary>
     internal readonly int BodyCount => starts[Count];
 
     /// <summary>Slots of the bodies of an island.</summary>
@@ -52,9 +49,8 @@ readonly unsafe struct IslandSearch
     /// <param name="all">The bodies.</param>
     /// <param name="solver">Their constraints.</param>
     /// <param name="kinds">What each body of the active set is to the search.</param>
-    /// <param name="limit">Number of bodies from which on no further island is given.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal IslandSearch(Bodies all, Solver solver, in Buffer<RestKind> kinds, int limit, BufferPool pool)
+    internal IslandSearch(Bodies all, Solver solver, in Buffer<RestKind> kinds, BufferPool pool)
     {
         ref var set = ref all.Awake;
         var room = Math.Max(1, set.Count);
@@ -88,20 +84,19 @@ readonly unsafe struct IslandSearch
             order.AsSpan()[..islandCount].Sort();
         pool.TakeAtLeast(islandCount + 1, out starts);
         starts[0] = 0;
-        // From here on the size of an island is where its next body comes; negative for those that are not given.
+        // From here on the size of an island is where its next body comes; negative for those that are held.
         if (islandCount > 0)
         {
             sizes.CopyTo(0, lowest, 0, set.Count);
             sizes.AsSpan()[..set.Count].Fill(-1);
         }
-        while (Count < islandCount && starts[Count] < limit)
+        while (Count < islandCount)
         {
             var root = (int)(uint)order[Count];
             sizes[root] = starts[Count];
             starts[Count + 1] = starts[Count] + lowest[root];
             ++Count;
         }
-        HasMore = Count < islandCount;
         pool.TakeAtLeast(Math.Max(1, starts[Count]), out slots);
         for (int i = 0; i < set.Count && Count > 0; ++i)
         {

@@ -11,25 +11,24 @@ namespace BepuPhysics;
 /// its dynamic bodies may and no kinematic body that moves touches it; a kinematic body sleeps when all that it holds does, and it has no velocity at all.
 /// What sleeps costs no step anything.
 /// </remarks>
-// A step in which no body may sleep ends here after one comparison. Where some may and others hold them awake, islands are looked for in every eighth
-// step, and in every 32nd as long as no other number of bodies may; otherwise in each, as long as some are found.
+// An island may sleep when the last of its bodies has rested long enough, so it is looked for in that step; and in every 32nd, as what held it may have
+// gone. When it sleeps follows from its own bodies and the number of steps: what else there is in the world does not come into it, and a step without such a
+// body ends here after two comparisons.
 public sealed unsafe class IslandSleeper
 {
-    // Bodies that are put to sleep in one step, or as many of those that are awake; an island that has more goes as a whole.
-    const int LeastBodiesPerStep = 512;
-    const int ShareOfAwake = 16;
-    const int StepsAfterFinding = 2;
-    const int StepsInVain = 7;
-    const int StepsInVainAgain = 31;
+    // Bodies that are put to sleep in one step, or as many of those that are awake; an island that has more goes as a whole. To fall asleep takes a body about
+    // as long as a step, so that this bounds a step of very many by a part of itself. What is beyond waits a step for others, be they of another part of
+    // the world: only there does it matter what else there is.
+    const int LeastBodiesPerStep = 8192;
+    const int ShareOfAwake = 4;
+    const uint StepsBetweenLooks = 32;
 
     readonly Bodies bodies;
     readonly Solver solver;
     readonly SleepingIslands islands;
     readonly BufferPool pool;
-    int stepsToWait;
-    // Steps since islands were looked for in vain, and how many bodies might have slept then.
-    int stepsInVain;
-    int ripeInVain;
+    // Whether some had to wait in the last step.
+    bool hasMore;
 
     internal IslandSleeper(Bodies bodies, Solver solver, SleepingIslands islands, BufferPool pool)
     {
@@ -42,57 +41,58 @@ public sealed unsafe class IslandSleeper
     /// <summary>Puts islands to sleep, if there are such as may.</summary>
     internal void Update(IThreadDispatcher? dispatcher)
     {
-        var ripeCount = bodies.RipeCount;
-        if (ripeCount != ripeInVain)
-            ripeInVain = 0;
-        if (ripeCount == 0)
+        if (bodies.RipeCount == 0)
             return;
-        if (stepsToWait > 0)
-        {
-            --stepsToWait;
+        var looksAtAll = hasMore || solver.StepNumber % StepsBetweenLooks == 0;
+        if (!looksAtAll && bodies.JustRipenedCount == 0)
             return;
-        }
-        // Who holds the others awake most likely still does.
-        if (ripeInVain > 0 && ++stepsInVain <= StepsInVainAgain - StepsInVain)
-            return;
-        var limit = Math.Max(LeastBodiesPerStep, bodies.Awake.Count / ShareOfAwake);
+        var left = Math.Max(LeastBodiesPerStep, bodies.Awake.Count / ShareOfAwake);
+        hasMore = false;
         var kinematics = new QuickList<int>(16, pool);
         pool.TakeAtLeast<RestKind>(Math.Max(1, bodies.Awake.Count), out var kinds);
         Classify(kinds, ref kinematics);
-        var search = new IslandSearch(bodies, solver, kinds, limit, pool);
-        var asleep = PutToSleep(search, dispatcher);
-        var hasMore = search.HasMore;
+        var search = new IslandSearch(bodies, solver, kinds, pool);
+        PutToSleep(search, looksAtAll, ref left, dispatcher);
         search.Dispose(pool);
         pool.Return(ref kinds);
-        PutKinematicsToSleep(kinematics, limit, ref asleep, ref hasMore);
+        PutKinematicsToSleep(kinematics, looksAtAll, left);
         kinematics.Dispose(pool);
-        stepsToWait = hasMore ? 0 : asleep > 0 ? StepsAfterFinding : StepsInVain;
-        ripeInVain = asleep > 0 || hasMore ? 0 : ripeCount;
-        stepsInVain = 0;
     }
 
-    int PutToSleep(in IslandSearch search, IThreadDispatcher? dispatcher)
+    void PutToSleep(in IslandSearch search, bool looksAtAll, ref int left, IThreadDispatcher? dispatcher)
     {
         if (search.Count == 0)
-            return 0;
+            return;
         var slots = new QuickList<int>(search.BodyCount, pool);
         var ends = new QuickList<int>(search.Count, pool);
         for (int i = 0; i < search.Count; ++i)
         {
             var island = search.SlotsOf(i);
             // Who is no number is looked at here, where few are looked at, and keeps its island awake.
-            if (!AreSound(island))
+            if ((!looksAtAll && !HasJustRipened(island)) || !AreSound(island))
                 continue;
+            hasMore = slots.Count >= left;
+            if (hasMore)
+                break;
             foreach (var slot in island)
                 slots.AddUnsafely(slot);
             ends.AddUnsafely(slots.Count);
         }
-        var count = slots.Count;
-        if (count > 0)
+        left -= slots.Count;
+        if (slots.Count > 0)
             islands.PutToSleep(slots.AsSpan(), ends.AsSpan(), dispatcher);
         slots.Dispose(pool);
         ends.Dispose(pool);
-        return count;
+    }
+
+    bool HasJustRipened(ReadOnlySpan<int> slots)
+    {
+        foreach (var slot in slots)
+        {
+            if (bodies.Awake.Activity[bodies.Locations[slot].Index].HasJustRipened)
+                return true;
+        }
+        return false;
     }
 
     // What a game has written since the last step counts: a body that was given a velocity rests no more.
@@ -115,28 +115,26 @@ public sealed unsafe class IslandSleeper
         }
     }
 
-    void PutKinematicsToSleep(in QuickList<int> kinematics, int limit, ref int asleep, ref bool hasMore)
+    // What a kinematic body held has fallen asleep, or it held nothing when it came to rest.
+    void PutKinematicsToSleep(in QuickList<int> kinematics, bool looksAtAll, int left)
     {
         var slots = kinematics.Span.AsSpan()[..kinematics.Count];
         slots.Sort();
         for (int i = 0; i < slots.Length; ++i)
         {
-            if (!HoldsOnlySleepers(slots[i]))
+            var index = bodies.Locations[slots[i]].Index;
+            var constraints = bodies.Awake.Constraints[index];
+            if (constraints.AsleepCount < constraints.Count ||
+                (!looksAtAll && constraints.Count == 0 && !bodies.Awake.Activity[index].HasJustRipened))
                 continue;
-            if (asleep >= limit)
+            if (left <= 0)
             {
                 hasMore = true;
                 return;
             }
             islands.PutToSleep(slots.Slice(i, 1), [1]);
-            ++asleep;
+            --left;
         }
-    }
-
-    bool HoldsOnlySleepers(int kinematic)
-    {
-        ref var constraints = ref bodies.Awake.Constraints[bodies.Locations[kinematic].Index];
-        return constraints.AsleepCount == constraints.Count;
     }
 
     /// <summary>Puts a body that exists to sleep with its island, whether it rests or not; a kinematic body with all islands that it holds.</summary>
@@ -246,17 +244,13 @@ public sealed unsafe class IslandSleeper
 
     internal void CopyState(StateCopy copy)
     {
-        copy.Value(ref stepsToWait);
-        copy.Value(ref stepsInVain);
-        copy.Value(ref ripeInVain);
+        copy.Value(ref hasMore);
     }
 
     /// <summary>Begins anew, as a new simulation does.</summary>
     internal void Clear()
     {
-        stepsToWait = 0;
-        stepsInVain = 0;
-        ripeInVain = 0;
-        bodies.RipeCount = 0;
+        hasMore = false;
+        bodies.RestCounts = 0;
     }
 }

@@ -26,8 +26,11 @@ public sealed unsafe partial class Solver
     /// <summary>The same with several sweeps per substep, be they iterations or relaxations.</summary>
     const int JointsToShuffleForSweeps = 4;
 
-    // Steps since the simulation began, was cleared, or was last empty.
     uint stepNumber;
+
+    /// <summary>Steps since the simulation began, was cleared, or was last empty.</summary>
+    internal uint StepNumber => stepNumber;
+
     // Joints of one body from which on they are shuffled, by the settings of the last step.
     int jointsToShuffle;
     // Bodies that have begun or ceased to have that many, whose joints are yet to be moved.

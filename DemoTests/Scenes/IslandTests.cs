@@ -116,7 +116,7 @@ public class IslandTests
         simulation.BufferPool.Take<RestKind>(System.Math.Max(1, set.Count), out var kinds);
         for (int i = 0; i < set.Count; ++i)
             kinds[i] = Bodies.IsKinematic(set.LocalInertias[i]) ? RestKind.Fixed : RestKind.Rests;
-        var islands = new IslandSearch(simulation.Bodies, simulation.Solver, kinds, int.MaxValue, simulation.BufferPool);
+        var islands = new IslandSearch(simulation.Bodies, simulation.Solver, kinds, simulation.BufferPool);
         simulation.BufferPool.Return(ref kinds);
         var found = new List<int[]>();
         for (int i = 0; i < islands.Count; ++i)
