@@ -84,7 +84,10 @@ unsafe interface IContainer : IShape
     /// <param name="outline">What the box is around: children beyond it may be left out, but none that it may have been pressed through.</param>
     /// <param name="shapes">Shapes that children refer to.</param>
     /// <param name="list">Of a list, what <see cref="Open"/> writes for its root.</param>
-    /// <param name="found">Receives the numbers of the children, behind those that are in it.</param>
+    /// <param name="found">
+    /// Receives the numbers of the children, behind those that are in it. Of those that the shape touches beyond a neighbour only it may receive complements:
+    /// the first one is touched for sure then, by itself, and the others have no contacts as long as that has.
+    /// </param>
     /// <param name="pool">Source of the list's memory, and of temporary memory.</param>
     void FindOverlaps(Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool);
 

@@ -119,23 +119,54 @@ public unsafe partial struct Mesh : IContainer
     readonly void LeaveOut(in ShapeOutline outline, ref QuickList<int> found, int first)
     {
         var sides = new OutlineSides(outline, IsMirrored);
-        var triangles = Header->Triangles;
-        var vertices = Header->Vertices;
-        var (scaleX, scaleY, scaleZ) = (Vector128.Create(scale.X), Vector128.Create(scale.Y), Vector128.Create(scale.Z));
         var places = found.Span.Memory;
         var count = first;
         for (int i = first; i < found.Count; ++i)
         {
-            var triangle = triangles.Get(places[i]);
-            var a = (float*)(vertices + triangle.A);
-            var b = (float*)(vertices + triangle.B);
-            var c = (float*)(vertices + triangle.C);
-            var isApart = sides.IsApart(Vector128.Create(a[0], b[0], c[0], a[0]) * scaleX, Vector128.Create(a[1], b[1], c[1], a[1]) * scaleY,
-                Vector128.Create(a[2], b[2], c[2], a[2]) * scaleZ);
+            var isApart = sides.IsApart(CornersAt(places[i]));
             places[count] = places[i];
             count += isApart ? 0 : 1;
         }
         found.Count = count;
+    }
+
+    // A, B, C and A of the triangle at a place.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly OutlineSides.Lanes CornersAt(int place)
+    {
+        var triangle = Header->Triangles.Get(place);
+        var vertices = Header->Vertices;
+        var a = (float*)(vertices + triangle.A);
+        var b = (float*)(vertices + triangle.B);
+        var c = (float*)(vertices + triangle.C);
+        return new(
+            Vector128.Create(a[0], b[0], c[0], a[0]) * Vector128.Create(scale.X),
+            Vector128.Create(a[1], b[1], c[1], a[1]) * Vector128.Create(scale.Y),
+            Vector128.Create(a[2], b[2], c[2], a[2]) * Vector128.Create(scale.Z));
+    }
+
+    // Of numbers of triangles that a ball touches beyond a neighbour only, the complements, if it touches another for sure: that one is the first then.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void MarkOfNeighbours(in ShapeOutline ball, ref QuickList<int> found, int first)
+    {
+        var sides = new BallSides(ball);
+        var touched = -1;
+        for (int i = first; i < found.Count; ++i)
+        {
+            GetCone(found[i], out var cone);
+            var side = sides.Find(CornersAt(Header->GetPlace(found[i])), cone);
+            if (side == BallSide.IsOfNeighbour)
+                found[i] = ~found[i];
+            else if (side == BallSide.Touches)
+                touched = i;
+        }
+        if (touched >= 0)
+        {
+            (found[first], found[touched]) = (found[touched], found[first]);
+            return;
+        }
+        for (int i = first; i < found.Count; ++i)
+            found[i] = Math.Max(found[i], ~found[i]);
     }
 
     // Of places in the tree to numbers. What is found is asked for by its number soon; its corners were just looked at.
@@ -148,6 +179,9 @@ public unsafe partial struct Mesh : IContainer
             found[i] = Header->Triangles.GetNumber(found[i]);
             Header->Prefetch(found[i]);
         }
+        // The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
+        if (outline.IsBall && found.Count - first > 1 && !twoSided && !IsMirrored)
+            MarkOfNeighbours(outline, ref found, first);
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)

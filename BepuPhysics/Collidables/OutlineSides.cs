@@ -21,8 +21,8 @@ readonly struct OutlineSides
     readonly Vector128<float> radius, roundRadius, front;
     readonly bool isBox;
 
-    // A vector in each lane.
-    readonly struct Lanes(Vector128<float> x, Vector128<float> y, Vector128<float> z)
+    /// <summary>A vector in each lane.</summary>
+    public readonly struct Lanes(Vector128<float> x, Vector128<float> y, Vector128<float> z)
     {
         public readonly Vector128<float> X = x, Y = y, Z = z;
 
@@ -31,7 +31,15 @@ readonly struct OutlineSides
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector128<float> Dot(in Lanes v) => X * v.X + Y * v.Y + Z * v.Z;
 
-        // The greatest number of all, without signs.
+        /// <summary>From each vector to the next.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Lanes ToNext() => new(Next(X) - X, Next(Y) - Y, Next(Z) - Z);
+
+        /// <summary>One of the vectors in all lanes.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Lanes Spread(int lane) => new(Vector128.Create(X[lane]), Vector128.Create(Y[lane]), Vector128.Create(Z[lane]));
+
+        /// <summary>The greatest number of all, without signs.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector128<float> Greatest()
         {
@@ -57,18 +65,14 @@ readonly struct OutlineSides
     static Vector128<float> Next(Vector128<float> lanes) => Vector128.Shuffle(lanes, Vector128.Create(1, 2, 3, 0));
 
     /// <summary>Whether the shape is apart from a triangle by the side of it that it is on; not where anything is beyond all numbers.</summary>
-    /// <param name="cornersX">X of A, B, C and A, in the frame of the outline.</param>
-    /// <param name="cornersY">Their Y.</param>
-    /// <param name="cornersZ">Their Z.</param>
+    /// <param name="corners">A, B, C and A, in the frame of the outline.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool IsApart(Vector128<float> cornersX, Vector128<float> cornersY, Vector128<float> cornersZ)
+    public bool IsApart(in Lanes corners)
     {
         // AB, BC, CA and nothing; from the corners to the shape.
-        var edges = new Lanes(Next(cornersX) - cornersX, Next(cornersY) - cornersY, Next(cornersZ) - cornersZ);
-        var ways = new Lanes(center.X - cornersX, center.Y - cornersY, center.Z - cornersZ);
-        var ab = Spread(edges, 0);
-        var ca = Spread(edges, 2);
-        var face = Cross(ab, ca);
+        var edges = corners.ToNext();
+        var ways = new Lanes(center.X - corners.X, center.Y - corners.Y, center.Z - corners.Z);
+        var face = Cross(edges.Spread(0), edges.Spread(2));
         var outwards = Cross(face, edges);
         var isFace = Vector128.Create(0, 0, 0, -1).AsSingle();
         var directions = new Lanes(
@@ -91,9 +95,7 @@ readonly struct OutlineSides
         return isApart.ExtractMostSignificantBits() != 0;
     }
 
+    /// <summary>The cross products of vectors side by side.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Lanes Spread(in Lanes v, int lane) => new(Vector128.Create(v.X[lane]), Vector128.Create(v.Y[lane]), Vector128.Create(v.Z[lane]));
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Lanes Cross(in Lanes a, in Lanes b) => new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
+    public static Lanes Cross(in Lanes a, in Lanes b) => new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 }

@@ -19,6 +19,9 @@ struct ShapeOutline
     /// <summary>Whether it is a box, or a cylinder.</summary>
     public bool IsBox, IsRound;
 
+    /// <summary>Whether it is the ball alone, around the centre.</summary>
+    public bool IsBall;
+
     /// <summary>Whether anything is known.</summary>
     public readonly bool IsKnown => IsBox || IsRound;
 
@@ -35,7 +38,7 @@ struct ShapeOutline
                 break;
             case Sphere.Id:
                 result.Radius += ((Sphere*)shape)->Radius;
-                result.IsRound = true;
+                result.IsRound = result.IsBall = true;
                 break;
             case Capsule.Id:
                 result.Radius += ((Capsule*)shape)->Radius;

@@ -53,6 +53,7 @@ public interface INarrowPhaseCallbacks
     /// <remarks>
     /// Where they do not, a compound or a mesh that has hardly moved keeps its contacts for up to 16 steps without a look at its children, as two convex
     /// shapes do: a terrain on which most things rest costs less than half. The method about the pair as a whole is asked in each step all the same.
+    /// A ball is not tested with triangles that it touches beyond a neighbour only then, and nobody is asked about these.
     /// </remarks>
     static virtual bool DecidesOnChildren => true;
 

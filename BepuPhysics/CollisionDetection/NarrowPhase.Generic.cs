@@ -63,6 +63,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         bool ICollisionCallbacks.AllowCollisionTesting(int pairId, int childA, int childB) =>
             narrowPhase.AllowsChildren(workerIndex, pairId, childA, childB);
 
+        static bool ICollisionCallbacks.ChangesChildren => TCallbacks.DecidesOnChildren;
+
         static void ICollisionCallbacks.PrefetchChildren<T>(ref T callbacks, ReadOnlySpan<int> pairIds)
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);

@@ -47,6 +47,8 @@ unsafe struct WorldContacts<THandler> : IBreakableForEach<CollidableReference> w
     {
         public THandler Handler;
 
+        static bool ICollisionCallbacks.ChangesChildren => false;
+
         public bool AllowCollisionTesting(int pairId, int childA, int childB) => Handler.AllowTest(Collidable(pairId), childB);
 
         public readonly void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }

@@ -75,7 +75,7 @@ public unsafe partial struct HeightField
             var triangle = GetTriangle(x, z, isSecond, 0, 0, 0);
             var (a, b, c) = (triangle.A, triangle.B, triangle.C);
             var isApart = sides.IsApart(
-                Vector128.Create(a.X, b.X, c.X, a.X), Vector128.Create(a.Y, b.Y, c.Y, a.Y), Vector128.Create(a.Z, b.Z, c.Z, a.Z));
+                new(Vector128.Create(a.X, b.X, c.X, a.X), Vector128.Create(a.Y, b.Y, c.Y, a.Y), Vector128.Create(a.Z, b.Z, c.Z, a.Z)));
             children[count] = children[i];
             count += isApart ? 0 : 1;
         }

@@ -54,9 +54,29 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             while (end < found.Count && found[end].Parent == i)
                 ++end;
             Children->SortFound(start, end);
-            Expand(task, batch, i, start, end);
+            Expand(task, batch, i, start, TCallbacks.ChangesChildren ? end : LeaveOutOfNeighbours(task.Parent(batch, i).PairId, start, end));
             start = end;
         }
+    }
+
+    // What is touched beyond a neighbour only has nothing as long as another is touched, which is if that is to be tested. Returns the end of what is left.
+    int LeaveOutOfNeighbours(int pairId, int start, int end)
+    {
+        var found = Children->Found.Span.Memory;
+        var touching = start;
+        while (touching < end && !found[touching].Touches)
+            ++touching;
+        if (touching == end)
+            return end;
+        var isAllowed = Callbacks.AllowCollisionTesting(pairId, found[touching].Children.A, found[touching].Children.B);
+        found[touching].IsAllowed = isAllowed;
+        var count = start;
+        for (int i = start; i < end; ++i)
+        {
+            if (isAllowed ? !found[i].IsOfNeighbour : i != touching)
+                found[count++] = found[i];
+        }
+        return count;
     }
 
     void PrefetchChildren(ExpandingTask task, in PairBatch batch)
@@ -85,7 +105,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         for (int i = start; i < end; ++i)
         {
             ref var found = ref Children->Found[i];
-            if (!Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
+            if (!found.IsAllowed && !Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
                 continue;
             task.GetChildren(batch, Shapes, found, out var children);
             AddChild(parent, found.Children, children, pair);
@@ -96,7 +116,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     // A child that is alone has nobody to agree with, and becomes a patch as soon as it is tested. But a triangle has neighbours.
     void ExpandAlone(ExpandingTask task, in PairBatch batch, in ParentPair pair, in FoundChild found)
     {
-        if (!Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
+        if (!found.IsAllowed && !Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
         {
             CompleteWithoutChildren(pair);
             return;

@@ -34,6 +34,12 @@ struct FoundChild(int parent, ChildIds children)
     public ChildIds Children = children;
     /// <summary>Whether one is inside of the other's solid, and is to meet the way out in place of a triangle.</summary>
     public bool LeadsOut;
+    /// <summary>Whether the triangle of the two is touched beyond a neighbour only, if at all.</summary>
+    public bool IsOfNeighbour;
+    /// <summary>Whether they touch for sure; said of one of those of a parent that has children of neighbours.</summary>
+    public bool Touches;
+    /// <summary>Whether it is known that they are to be tested.</summary>
+    public bool IsAllowed;
 }
 
 /// <summary>The convex shapes of two children, and where they are. A shape without children is its own.</summary>

@@ -32,6 +32,9 @@ public interface ICollisionCallbacks
     /// <param name="manifold">Contacts of the pair.</param>
     void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>;
 
+    /// <summary>Whether contacts of children may be changed, or are looked at. Where not, those of triangles that only neighbours have are not found.</summary>
+    internal static virtual bool ChangesChildren => true;
+
     /// <summary>The children of some pairs come soon: what is remembered of them may be loaded.</summary>
     internal static virtual void PrefetchChildren<TCallbacks>(ref TCallbacks callbacks, ReadOnlySpan<int> pairIds)
         where TCallbacks : struct, ICollisionCallbacks

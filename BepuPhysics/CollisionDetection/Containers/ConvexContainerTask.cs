@@ -61,8 +61,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                     List(entry, shapes, ref list, ref listed, pool);
                 var outline = TContainer.TakesOutlines ? Outline(entry.A, ref boxes, i) : default;
                 entry.B.FindOverlaps(Read(ref boxes.Min, i), Read(ref boxes.Max, i), outline, shapes, list.Memory, ref children, pool);
-                for (int j = 0; j < children.Count; ++j)
-                    found.Add(new(start + i, Ids(entry.Pair, children[j])), pool);
+                Add(start + i, entry.Pair, children.AsSpan(), ref found, pool);
             }
         }
         if (list.Allocated)
@@ -110,7 +109,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 ref var pair = ref found.Allocate(pool);
                 pair.Parent = start + i;
                 pair.Children = Ids(entries[start + i].Pair, BitOperations.TrailingZeroCount(children));
-                pair.LeadsOut = false;
+                pair.LeadsOut = pair.IsOfNeighbour = pair.Touches = pair.IsAllowed = false;
             }
         }
         return true;
@@ -149,9 +148,24 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 found.Add(new(i, Ids(entries[i].Pair, waysOut[i])) { LeadsOut = true }, pool);
                 continue;
             }
-            for (var end = questions[asked++].End; next < end; ++next)
-                found.Add(new(i, Ids(entries[i].Pair, children[next])), pool);
+            var end = questions[asked++].End;
+            Add(i, entries[i].Pair, children.AsSpan()[next..end], ref found, pool);
+            next = end;
         }
+    }
+
+    static void Add(int parent, in ParentPair pair, Span<int> children, ref QuickList<FoundChild> found, BufferPool pool)
+    {
+        var first = found.Count;
+        var hasOfNeighbours = false;
+        foreach (int child in children)
+        {
+            var isOfNeighbour = child < 0;
+            hasOfNeighbours |= isOfNeighbour;
+            found.Add(new(parent, Ids(pair, isOfNeighbour ? ~child : child)) { IsOfNeighbour = isOfNeighbour }, pool);
+        }
+        if (hasOfNeighbours)
+            found[first].Touches = true;
     }
 
     static ShapeOutline Outline(TConvex convex, ref Boxes boxes, int lane)
