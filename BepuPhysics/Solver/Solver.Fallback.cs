@@ -125,16 +125,12 @@ public sealed unsafe partial class Solver
     // How much of a body's mass a constraint can make use of: as much as the mass that it moves together with the others'. The ground under a
     // table needs all of the table's, a cup on it no more than the cup's. With equal shares the ground would hold a table with 300 cups by a
     // three-hundredth of its mass, and the table would sink through it.
-    float Need(ref TypeBatch typeBatch, TypeProcessor processor, int constraint, int bodyIndex)
+    static float Need(float inverseMass, float sumOfInverseMasses)
     {
         // Keeps a part from being so light that its velocity means nothing.
         const float Least = 1e-3f;
-        ref var inertias = ref bodies.ActiveSet.LocalInertias;
-        float sum = 0;
-        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-            sum += inertias[processor.BodyReference(ref typeBatch, constraint, slot) & EncodedBody.IndexMask].InverseMass;
         // Bodies that cannot be moved, only turned, have no mass to compare.
-        return sum > 0 ? MathF.Max(Least, inertias[bodyIndex].InverseMass / sum) : 1;
+        return sumOfInverseMasses > 0 ? MathF.Max(Least, inverseMass / sumOfInverseMasses) : 1;
     }
 
     // Counts the parts of each body, or, with the next free place of each body's range, fills the ranges. In the order of the types' ids: that of
@@ -147,26 +143,48 @@ public sealed unsafe partial class Solver
             var i = batch.Find(typeId);
             if (i < 0)
                 continue;
-            var processor = Processor(typeId);
+            var bodyCount = Processor(typeId).BodiesPerConstraint;
+            var lanes = Vector<float>.Count;
+            var firstPart = split.StartOfTypeBatch[i];
             for (int constraint = 0; constraint < typeBatches[i].ConstraintCount; ++constraint)
             {
-                for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
-                {
-                    var reference = processor.BodyReference(ref typeBatches[i], constraint, slot);
-                    if ((reference & EncodedBody.KinematicFlag) != 0)
-                        continue;
-                    var (bundle, lane) = (constraint / Vector<float>.Count, constraint % Vector<float>.Count);
-                    var part = split.StartOfTypeBatch[i] + (bundle * processor.BodiesPerConstraint + slot) * Vector<float>.Count + lane;
-                    var body = reference & EncodedBody.IndexMask;
-                    if (next == null)
-                    {
-                        ++split.Counts[body];
-                        split.Shares[part] = Need(ref typeBatches[i], processor, constraint, body);
-                    }
-                    else
-                        split.PartsOfBody[next[body]++] = part;
-                }
+                // Parts lie as references do.
+                var first = constraint / lanes * bodyCount * lanes + constraint % lanes;
+                var references = typeBatches[i].BodyReferences.Memory + first;
+                if (next == null)
+                    CountParts(ref split, references, bodyCount, firstPart + first);
+                else
+                    FillParts(ref split, references, bodyCount, firstPart + first, next);
             }
+        }
+    }
+
+    void CountParts(ref FallbackParts split, int* references, int bodyCount, int firstPart)
+    {
+        ref var inertias = ref bodies.ActiveSet.LocalInertias;
+        var lanes = Vector<float>.Count;
+        float sum = 0;
+        for (int slot = 0; slot < bodyCount; ++slot)
+            sum += inertias[references[slot * lanes] & EncodedBody.IndexMask].InverseMass;
+        for (int slot = 0; slot < bodyCount; ++slot)
+        {
+            var reference = references[slot * lanes];
+            if ((reference & EncodedBody.KinematicFlag) != 0)
+                continue;
+            var body = reference & EncodedBody.IndexMask;
+            ++split.Counts[body];
+            split.Shares[firstPart + slot * lanes] = Need(inertias[body].InverseMass, sum);
+        }
+    }
+
+    static void FillParts(ref FallbackParts split, int* references, int bodyCount, int firstPart, int* next)
+    {
+        var lanes = Vector<float>.Count;
+        for (int slot = 0; slot < bodyCount; ++slot)
+        {
+            var reference = references[slot * lanes];
+            if ((reference & EncodedBody.KinematicFlag) == 0)
+                split.PartsOfBody[next[reference & EncodedBody.IndexMask]++] = firstPart + slot * lanes;
         }
     }
 }
