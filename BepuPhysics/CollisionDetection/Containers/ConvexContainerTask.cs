@@ -106,10 +106,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             for (var children = foundBy[i]; children != 0; children &= children - 1)
             {
                 // Field by field: what is made elsewhere first is copied as a whole.
-                ref var pair = ref found.Allocate(pool);
-                pair.Parent = start + i;
-                pair.Children = Ids(entries[start + i].Pair, BitOperations.TrailingZeroCount(children));
-                pair.LeadsOut = pair.IsOfNeighbour = pair.Touches = pair.IsAllowed = false;
+                found.Allocate(pool) = new(start + i, Ids(entries[start + i].Pair, BitOperations.TrailingZeroCount(children)));
             }
         }
         return true;

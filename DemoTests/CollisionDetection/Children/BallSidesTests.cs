@@ -1,12 +1,8 @@
-using System;
 using System.Collections.Generic;
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
-using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
@@ -15,24 +11,10 @@ namespace DemoTests.CollisionDetection.Children;
 /// A ball is not tested with triangles that it touches beyond a neighbour only. Its contacts are bit for bit those that it has when it is tested with all of
 /// them, which is so for whoever may change what they have found: on hills, on spikes, at corners of saddles, and where triangles are not to be touched.
 /// </summary>
-public sealed class BallSidesTests : IDisposable
+public sealed class BallSidesTests() : ShapesTest(61)
 {
     const int Side = 24;
     const int Refused = 5;
-
-    readonly BufferPool pool = new();
-    readonly Shapes shapes;
-    readonly CollisionTaskRegistry registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
-    readonly Random random = new(LevelSeeds.Of(61));
-
-    public BallSidesTests() => shapes = new Shapes(pool, 1);
-
-    public void Dispose()
-    {
-        shapes.Dispose();
-        pool.AssertEmpty();
-        pool.Clear();
-    }
 
     interface IChange
     {
@@ -54,6 +36,15 @@ public sealed class BallSidesTests : IDisposable
         public readonly List<(int Pair, Vector3 Normal, Vector3 Offset, float Depth, int Feature)> Contacts = [];
         public int TestedCount;
         public bool Refuses;
+
+        public void Add<TManifold>(int pair, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
+        {
+            for (int contact = 0; contact < manifold.Count; ++contact)
+            {
+                var (offset, depth) = (manifold.GetOffset(contact), manifold.GetDepth(contact));
+                Contacts.Add((pair, manifold.GetNormal(contact), offset, depth, manifold.GetFeatureId(contact)));
+            }
+        }
     }
 
     readonly struct Callbacks<TChange>(Log log) : ICollisionCallbacks where TChange : struct, IChange
@@ -66,13 +57,10 @@ public sealed class BallSidesTests : IDisposable
             return !log.Refuses || (childB + pairId) % Refused != 0;
         }
 
-        public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
+        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold> =>
+            log.Add(pairId, ref manifold);
 
-        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
-        {
-            for (int i = 0; i < manifold.Count; ++i)
-                log.Contacts.Add((pairId, manifold.GetNormal(i), manifold.GetOffset(i), manifold.GetDepth(i), manifold.GetFeatureId(i)));
-        }
+        public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
     }
 
     [Theory]

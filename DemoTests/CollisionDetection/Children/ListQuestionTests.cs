@@ -6,7 +6,6 @@ using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
-using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
@@ -15,7 +14,7 @@ namespace DemoTests.CollisionDetection.Children;
 /// Which triangles the children of a compound are tested with: those whose boxes meet the child's own, as they are in the frame of the mesh, and that it is
 /// neither beside nor in front of. Boxes of the tree that are turned into the frame of a compound are wider, and meet more.
 /// </summary>
-public sealed class ListQuestionTests : IDisposable
+public sealed class ListQuestionTests() : ShapesTest(43)
 {
     const float Margin = .01f;
     // What places are rounded by.
@@ -24,20 +23,10 @@ public sealed class ListQuestionTests : IDisposable
     static readonly Vector3[] Halves = [new(.9f, .05f, .06f), new(.05f, .8f, .04f), new(.3f, .3f, .3f)];
     static readonly Vector3[] Places = [new(1.5f, 0, 0), new(-1, .5f, .4f), new(0, -.4f, -1.2f)];
 
-    readonly BufferPool pool = new();
-    readonly Shapes shapes;
-    readonly CollisionTaskRegistry registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
-    readonly Random random = new(LevelSeeds.Of(43));
-
-    public ListQuestionTests() => shapes = new Shapes(pool, 1);
-
-    public void Dispose()
+    private protected override void RemoveShapes()
     {
         shapes[Compound.Id]!.RemoveAndDispose(0, pool);
         shapes[Mesh.Id]!.RemoveAndDispose(0, pool);
-        shapes.Dispose();
-        pool.AssertEmpty();
-        pool.Clear();
     }
 
     readonly struct Callbacks(HashSet<(int Child, int Triangle)> tested) : ICollisionCallbacks

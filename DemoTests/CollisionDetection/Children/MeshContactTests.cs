@@ -1,31 +1,20 @@
-using System;
 using System.Collections.Generic;
 using System.Numerics;
-using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
-using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
-using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
 
 /// <summary>Contacts with a mesh are those with each of its triangles alone, bit for bit, and none is missing.</summary>
-public sealed class MeshContactTests : IDisposable
+public sealed class MeshContactTests() : ShapesTest(41)
 {
     const float Margin = .2f;
     const int PairCount = 60;
 
-    readonly BufferPool pool = new();
-    readonly Shapes shapes;
-    readonly CollisionTaskRegistry registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
-    readonly Random random = new(LevelSeeds.Of(41));
-
-    public MeshContactTests() => shapes = new Shapes(pool, 1);
-
-    public void Dispose()
+    private protected override void RemoveShapes()
     {
         foreach (var typeId in new[] { Mesh.Id, ConvexHull.Id })
         {
@@ -35,9 +24,6 @@ public sealed class MeshContactTests : IDisposable
                     batch.RemoveAndDispose(i, pool);
             }
         }
-        shapes.Dispose();
-        pool.AssertEmpty();
-        pool.Clear();
     }
 
     sealed class Log

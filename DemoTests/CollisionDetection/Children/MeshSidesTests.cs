@@ -4,9 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
-using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.CollisionDetection.Children;
@@ -15,27 +13,13 @@ namespace DemoTests.CollisionDetection.Children;
 /// Which triangles of a mesh a convex shape is tested with: what it is beside or in front of by more than the margin is left out, all that touches it is
 /// there, whatever the mesh's scale, and whoever asks at the same time.
 /// </summary>
-public sealed class MeshSidesTests : IDisposable
+public sealed class MeshSidesTests() : ShapesTest(59)
 {
     const float Margin = .05f;
     // What places are rounded by.
     const double Slack = 2e-4;
 
     static readonly Vector3[] scales = [Vector3.One, new(1.5f, .8f, 1.2f), new(-1, 1, 1), new(1, -1, 1)];
-
-    readonly BufferPool pool = new();
-    readonly Shapes shapes;
-    readonly CollisionTaskRegistry registry = DefaultTypes.CreateDefaultCollisionTaskRegistry();
-    readonly Random random = new(LevelSeeds.Of(59));
-
-    public MeshSidesTests() => shapes = new Shapes(pool, 1);
-
-    public void Dispose()
-    {
-        shapes.Dispose();
-        pool.AssertEmpty();
-        pool.Clear();
-    }
 
     readonly struct Callbacks(HashSet<(int Pair, int Triangle)> tested, Dictionary<(int Pair, int Triangle), int> contacts) : ICollisionCallbacks
     {
