@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -55,6 +56,30 @@ sealed class LoadPathWorld : IDisposable
             Add(new Vector3(i * aside, 0.5f + i, 0), Vector3.One, 1);
     }
 
+    /// <summary>A wall of bricks of 1 by .5 by .5 m, each over the gap between two below, with halves at the ends of every other row.</summary>
+    public void AddWall(int rows, int bricks, Vector3 velocity = default)
+    {
+        for (int row = 0; row < rows; ++row)
+        {
+            var odd = row % 2;
+            for (int i = 0; i < bricks - odd; ++i)
+                Add(new Vector3(i + odd * 0.5f, 0.25f + row * 0.5f, 0), new Vector3(1, 0.5f, 0.5f), 1, velocity);
+            for (int end = 0; odd == 1 && end < 2; ++end)
+                Add(new Vector3(end * (bricks - 0.5f) - 0.25f, 0.25f + row * 0.5f, 0), new Vector3(0.5f), 0.5f, velocity);
+        }
+    }
+
+    /// <summary>Storeys of four posts of .2 by 1 by .2 m and a slab of 2 by .2 by 1 m and 5 kg.</summary>
+    public void AddPosts(int storeys, Vector3 velocity)
+    {
+        for (int storey = 0; storey < storeys; ++storey)
+        {
+            for (int post = 0; post < 4; ++post)
+                Add(new Vector3(post % 2 * 1.6f - 0.8f, 1.2f * storey + 0.5f, post / 2 * 0.8f - 0.4f), new Vector3(0.2f, 1, 0.2f), 1, velocity);
+            Add(new Vector3(0, 1.2f * storey + 1.1f, 0), new Vector3(2, 0.2f, 1), 5, velocity);
+        }
+    }
+
     public void Step() => Simulation.Timestep(Dt, dispatcher);
 
     public void Run(float seconds)
@@ -74,6 +99,9 @@ sealed class LoadPathWorld : IDisposable
             return most;
         }
     }
+
+    /// <summary>How much lower any body is than where it was put, m.</summary>
+    public double Lowered => boxes.Max(box => box.Start.Y - Simulation.Bodies[box.Body].Pose.Position.Y);
 
     public Vector3 Position(BodyHandle body) => Simulation.Bodies[body].Pose.Position;
 

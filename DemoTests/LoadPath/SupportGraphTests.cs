@@ -12,7 +12,7 @@ public class SupportGraphTests
     const int Ground = -1;
     const int Gap = 3;
 
-    readonly struct Heights(float[] heights, bool isBalanced = true) : IHeights, IFloors
+    readonly struct Heights(float[] heights, bool isBalanced = true, int fast = -1) : IHeights, IFloors
     {
         public float Of(int body) => heights[body];
 
@@ -20,16 +20,19 @@ public class SupportGraphTests
 
         public bool RestsOn(int body, int kinematic) => true;
 
-        public bool Sways(int body, int kinematic) => true;
+        public bool Sways(int body, int kinematic) => body != fast;
 
-        public bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load) => isBalanced && heights[support.Upper] < 0.5f;
+        public bool IsBalanced(in SupportLink support, int kinematic, ref StandingLoad load) => isBalanced && heights[support.Upper] < 0.5f;
+
+        public bool IsBalanced(ReadOnlySpan<SupportLink> supports, int kinematic, ref StandingLoad load, Span<StandingLoad> parts) =>
+            isBalanced && heights[supports[0].Upper] < 0.5f;
 
         public int CountConstraints(int body) => 2;
     }
 
     // Each support has three contacts unless said otherwise.
     static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
-        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null, bool[]? held = null, bool isBalanced = true)
+        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null, bool[]? held = null, bool isBalanced = true, int fast = -1)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
@@ -55,7 +58,7 @@ public class SupportGraphTests
         links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
         fixed (SupportLink* memory = found)
         {
-            var motions = new Heights(heights ?? new float[bodyCount], isBalanced);
+            var motions = new Heights(heights ?? new float[bodyCount], isBalanced, fast);
             graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, isSpoilt, motions, pool);
             var middle = graph.Nodes.Count / 2;
             graph.Fill(memory, middle, graph.Nodes.Count);
@@ -174,9 +177,62 @@ public class SupportGraphTests
     {
         AssertIslands("0 1 2", Build(3, [(0, Ground), (1, 0), (2, 1)], sways: [false, true, false]).Islands);
         Assert.Equal([0, 1, 2], Build(3, [(2, 1), (1, 0), (0, Ground)], sways: [false, false, true]).Islands.Single().Order());
-        // Two on one, and one on two.
-        AssertIslands("0", Build(3, [(0, Ground), (1, 0), (2, 0)], sways: [false, true, true]).Islands);
-        AssertIslands("0, 1", Build(3, [(0, Ground), (1, Ground), (2, 0), (2, 1)], sways: [false, false, true, true]).Islands);
+    }
+
+    /// <summary>Two on one, one on two, and what stands on that; from the ground upwards, whatever rests there already.</summary>
+    [Fact]
+    public void A_structure_sways_as_one()
+    {
+        AssertIslands("0 1 2", Build(3, [(0, Ground), (1, 0), (2, 0)], sways: [false, true, true]).Islands);
+        AssertIslands("0 1 2", Build(3, [(0, Ground), (1, Ground), (2, 0), (2, 1)], sways: [false, false, true, true]).Islands);
+        AssertIslands("0 3 2 1", Build(4, [(2, 0), (2, 3), (0, Ground), (3, Ground), (1, 2)], sways: [true, true, true, false, false]).Islands);
+        // What is not connected stays where it was.
+        AssertIslands("0, 1 2 3", Build(4, [(0, Ground), (1, Ground), (2, 1), (3, 1)], sways: [false, false, true, true]).Islands);
+    }
+
+    /// <summary>It does not where it is not balanced, where it stands on two floors, in a circle, or on who knows what.</summary>
+    [Fact]
+    public void What_may_fall_over_is_no_structure()
+    {
+        (int, int)[] supports = [(0, Ground), (1, Ground), (2, 0), (2, 1)];
+        bool[] sways = [true, true, true, true];
+        AssertIslands("0 1 2", Build(3, supports, sways: sways).Islands);
+        AssertIslands("", Build(3, supports, sways: sways, isBalanced: false).Islands);
+        // On edges it does, and may rock, where there are three contacts to a body: eight to three are too few, and eighteen to six are enough.
+        AssertIslands("", Build(3, supports, sways: sways, contacts: 2).Islands);
+        (int, int)[] more = [.. supports, (3, Ground), (4, 1), (4, 3), (5, 2), (5, 4)];
+        AssertIslands("0 1 3 2 4 5", Build(6, more, sways: [.. sways, .. sways, true], contacts: 2).Islands);
+        AssertIslands("", Build(3, [(0, Ground), (1, SupportLink.Floor(3)), (2, 0), (2, 1)], sways: sways).Islands);
+        AssertIslands("", Build(4, [(0, Ground), (1, 0), (1, 3), (2, 1), (3, 2)], sways: [true, true, true, true, true]).Islands);
+        // Nothing is known of what the last one stands on.
+        AssertIslands("", Build(4, [.. supports, (2, 3)], sways: [.. sways, true]).Islands);
+    }
+
+    /// <summary>What moves too fast is on top, and left out; but it carries nothing.</summary>
+    [Fact]
+    public void What_is_fast_is_on_top_of_a_structure()
+    {
+        (int, int)[] supports = [(0, Ground), (1, Ground), (2, 0), (2, 1)];
+        bool[] sways = [true, true, true, true];
+        AssertIslands("0 1 2", Build(4, [.. supports, (3, 2)], sways: [.. sways, true], fast: 3).Islands);
+        AssertIslands("", Build(3, supports, sways: sways, fast: 1).Islands);
+        AssertIslands("", Build(5, [(0, Ground), (1, 0), (2, 0), (3, 1), (3, 2), (4, 3)], sways: [true, true, true, true, true, true], fast: 1).Islands);
+    }
+
+    [Theory, InlineData(SupportGraph.MaximumStructure, 1), InlineData(SupportGraph.MaximumStructure + 1, 0)]
+    public void A_great_structure_does_not_sway(int bodyCount, int expected)
+    {
+        // A broad base, and pairs on it.
+        var supports = Enumerable.Range(1, bodyCount - 1).Select(body => (Upper: body, Lower: (body - 1) / 2)).Prepend((Upper: 0, Lower: Ground)).ToArray();
+        Assert.Equal(expected, Build(bodyCount, supports, sways: [.. Enumerable.Repeat(true, bodyCount)]).Islands.Length);
+    }
+
+    [Theory, InlineData(SupportGraph.MaximumSupports, 1), InlineData(SupportGraph.MaximumSupports + 1, 0)]
+    public void What_lies_on_too_many_is_no_structure(int supportCount, int expected)
+    {
+        var feet = Enumerable.Range(0, supportCount).ToArray();
+        var supports = feet.Select(foot => (foot, Ground)).Concat(feet.Select(foot => (supportCount, foot))).ToArray();
+        Assert.Equal(expected, Build(supportCount + 1, supports, sways: [.. Enumerable.Repeat(true, supports.Length)]).Islands.Length);
     }
 
     /// <summary>With faces that were not held it sways where all of it is balanced; else what is below them does, if what is on them does not rest.</summary>
@@ -190,11 +246,13 @@ public class SupportGraphTests
         AssertIslands("0", Build(3, supports, sways: [false, true, true], held: [true, false, true], isBalanced: false).Islands);
     }
 
-    [Theory, InlineData(128, 1), InlineData(129, 0)]
-    public void A_great_column_does_not_sway(int bodyCount, int expected)
+    /// <summary>What is too high for a column is a structure.</summary>
+    [Theory, InlineData(128), InlineData(129)]
+    public void A_great_column_sways_as_one(int bodyCount)
     {
         var supports = Enumerable.Range(0, bodyCount - 1).Select(body => (Upper: body + 1, Lower: body)).Prepend((Upper: 0, Lower: Ground)).ToArray();
-        Assert.Equal(expected, Build(bodyCount, supports, sways: [.. Enumerable.Repeat(true, bodyCount)]).Islands.Length);
+        var island = Assert.Single(Build(bodyCount, supports, sways: [.. Enumerable.Repeat(true, bodyCount)]).Islands);
+        Assert.Equal(Enumerable.Range(0, bodyCount), island);
     }
 
     // Three planks of which each lies on the next: the lowest is taken first, and what it lies on itself is left out.

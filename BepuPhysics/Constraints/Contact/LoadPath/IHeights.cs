@@ -1,3 +1,5 @@
+using System;
+
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>How high each body is, in any unit.</summary>
@@ -20,7 +22,10 @@ interface IFloors
     bool Sways(int body, int kinematic);
 
     /// <summary>Takes the upper body of a support into the load of a column, from the top down, and says whether it stays over the support.</summary>
-    bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load);
+    bool IsBalanced(in SupportLink support, int kinematic, ref StandingLoad load);
+
+    /// <summary>The same over all supports of a body; writes what each of them bears.</summary>
+    bool IsBalanced(ReadOnlySpan<SupportLink> supports, int kinematic, ref StandingLoad load, Span<StandingLoad> parts);
 
     /// <summary>Number of constraints of a body.</summary>
     int CountConstraints(int body);

@@ -27,12 +27,14 @@ struct LoadNode
     public bool NeedsWork;
     /// <summary>Whether it leans on others: its load goes down by no order.</summary>
     public bool Leans;
-    /// <summary>Of the first body of an island: whether any of the island leans.</summary>
+    /// <summary>Of the first body of an island: whether any of the island leans, or is of a structure that sways.</summary>
     public bool IsRelaxed;
     /// <summary>Of the first body of an island: whether each of its bodies has one support, so that it may be a column.</summary>
     public bool MayBeColumn;
     /// <summary>Whether it is of a column that sways.</summary>
     public bool IsOfColumn;
+    /// <summary>Whether it is of a structure that sways.</summary>
+    public bool IsOfStructure;
     /// <summary>What the transfer has changed of its momentum, N s.</summary>
     public Vector3 Linear;
     /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>

@@ -94,15 +94,34 @@ sealed unsafe partial class LoadPathStage
             return Exact.LengthSquared(velocity) < most * most * squared && (kinematic < 0 || Follows(kinematic, gain, squared));
         }
 
-        public bool IsBalanced(in SupportLink support, int kinematic, ref ColumnLoad load)
+        public bool IsBalanced(in SupportLink support, int kinematic, ref StandingLoad load)
         {
-            var body = support.Upper;
-            var mass = 1 / inertias[body].InverseMass;
+            Add(support.Upper, kinematic, ref load);
+            return load.IsOver([new LoadSupport(support)], motions[support.Upper].Pose.Position);
+        }
+
+        public bool IsBalanced(ReadOnlySpan<SupportLink> supports, int kinematic, ref StandingLoad load, Span<StandingLoad> parts)
+        {
+            var body = supports[0].Upper;
+            Add(body, kinematic, ref load);
+            Span<LoadSupport> read = stackalloc LoadSupport[SupportGraph.MaximumSupports];
+            read = read[..supports.Length];
+            float radius = 0;
+            for (int i = 0; i < supports.Length; ++i)
+            {
+                read[i] = new LoadSupport(supports[i]);
+                radius = MathHelper.Max(radius, supports[i].Radius);
+            }
+            var position = motions[body].Pose.Position;
+            return load.IsOver(read, position) && load.ShareOut(read, position, radius, parts);
+        }
+
+        void Add(int body, int kinematic, ref StandingLoad load)
+        {
             var velocity = before[body].Linear;
             if (kinematic >= 0)
                 velocity -= before[kinematic].Angular;
-            load.Add(mass, motions[body].Pose.Position, velocity, Gain(body) * (1 / dt));
-            return load.IsOver(new LoadSupport(support), motions[body].Pose.Position);
+            load.Add(1 / inertias[body].InverseMass, motions[body].Pose.Position, velocity, Gain(body) * (1 / dt));
         }
 
         public int CountConstraints(int body) => constraints[body].Count;

@@ -189,7 +189,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
-        if (graph.HasLeaning || graph.LongestColumn > 0)
+        if (graph.MayRelaxAny || graph.LongestColumn > 0)
             pool.TakeAtLeast(Math.Max(1, count), out patches);
         if (graph.LongestColumn > 0)
             pool.TakeAtLeast(blockCount * graph.LongestColumn, out columns);

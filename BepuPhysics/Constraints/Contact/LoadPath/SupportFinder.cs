@@ -180,7 +180,6 @@ readonly unsafe struct SupportFinder(
         carries = Vector.AndNot(carries, Vector.Equals(open, new Vector<int>((1 << count) - 1)));
         Spoil(Vector.AndNot(leans, carries), references, hasB);
         var whole = count < LeastContacts ? Vector<int>.Zero : flat & Vector.Equals(Vector.AndNot(open, near), Vector<int>.Zero);
-        carries = Vector.AndNot(carries, Vector.AndNot(sways, whole));
         radius = Vector.SquareRoot(radius);
         if (!hasB)
         {

@@ -48,7 +48,7 @@ unsafe partial struct SupportGraph
         foreach (var i in swaying.AsSpan())
         {
             var body = byUpper[i].Upper;
-            if (grounded[body] != 0 || !FindBottom(body, out var bottom))
+            if (grounded[body] != 0 || !byUpper[i].IsWhole || !FindBottom(body, out var bottom))
                 continue;
             if (IsColumn(found, bottom, motions, ref column))
                 AddColumn(column);
@@ -141,7 +141,7 @@ unsafe partial struct SupportGraph
     readonly bool IsBalanced<TMotions>(in QuickList<int> column, SupportLink* found, TMotions motions) where TMotions : struct, IFloors
     {
         var floor = SupportLink.Floor(byUpper[starts[column[0]]].Lower);
-        var load = default(ColumnLoad);
+        var load = default(StandingLoad);
         for (int i = column.Count - 1; i >= 0; --i)
         {
             if (!motions.IsBalanced(found[byUpper[starts[column[i]]].Found], floor, ref load))

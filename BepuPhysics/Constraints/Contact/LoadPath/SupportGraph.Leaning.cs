@@ -8,7 +8,7 @@ unsafe partial struct SupportGraph
 {
     // Of what is grounded: that it leans.
     const byte Leans = 2;
-    // Most bodies of an island that is relaxed. A round carries a load over a body, so what is larger does not come to rest in as many as there are.
+    // Most bodies of an island that leans. A round carries a load over a body, so what is larger does not come to rest in as many as there are.
     const int MaximumRelaxed = 64;
     // What is known of a body's island while such are looked for.
     const int Refused = -1, Accepted = -2, Seen = -3;
@@ -133,7 +133,7 @@ unsafe partial struct SupportGraph
         for (int i = 0; i < islandCount; ++i)
         {
             for (int node = Islands[i]; node < Islands[i + 1]; ++node)
-                Nodes[Islands[i]].IsRelaxed |= Nodes[node].Leans;
+                Nodes[Islands[i]].IsRelaxed |= Nodes[node].Leans || Nodes[node].IsOfStructure;
         }
     }
 

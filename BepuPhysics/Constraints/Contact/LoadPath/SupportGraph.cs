@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -66,8 +65,8 @@ unsafe partial struct SupportGraph
     internal QuickList<SupportLink> Links;
     /// <summary>Where the nodes of each island begin, and where those of the last one end.</summary>
     internal QuickList<int> Islands;
-    /// <summary>Whether any bodies lean on each other.</summary>
-    internal readonly bool HasLeaning => leaning.Count > 0;
+    /// <summary>Whether any bodies may lean on each other, or sway.</summary>
+    internal readonly bool MayRelaxAny => leaning.Count > 0 || swaying.Count > 0;
     /// <summary>Most bodies of an island that may be a column; zero if none may.</summary>
     internal int LongestColumn;
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
@@ -96,10 +95,14 @@ unsafe partial struct SupportGraph
         if (hasFloors)
             pool.TakeAtLeast(bodyCount, out floors);
         OrderUpwards(bodyCount, motions, pool);
+        if (swaying.Count > 0)
+        {
+            FindSwaying(found, bodyCount, motions, pool);
+            FindStructures(found, motions, pool);
+            waiting.Clear(0, bodyCount);
+        }
         if (leaning.Count > 0)
             FindLeaning(motions, pool);
-        if (swaying.Count > 0)
-            FindSwaying(found, bodyCount, motions, pool);
         MakeNodes(bodyCount, pool);
         builtOf = new QuickList<(int, int)>(pieces.Length, pool);
         foreach (var piece in pieces)
@@ -195,7 +198,7 @@ unsafe partial struct SupportGraph
             var lower = byUpper[i].Lower;
             if (byUpper[i].Leans)
                 leaning.Add(i, pool);
-            if (byUpper[i].IsWhole && (byUpper[i].Sways || byUpper[i].Moves))
+            else if (byUpper[i].Sways || (byUpper[i].IsWhole && byUpper[i].Moves))
                 swaying.Add(i, pool);
             if (lower < 0 || byUpper[i].Leans || byUpper[i].Sways)
                 continue;
@@ -252,7 +255,8 @@ unsafe partial struct SupportGraph
         pool.Take<HeightOfBody>(bodyCount, out var keys);
         for (int i = 0; i < bodyCount; ++i)
             keys[i] = new() { Height = heights.Of(i), Body = i };
-        new Span<HeightOfBody>(keys.Memory, bodyCount).Sort(default(LowestFirst));
+        var lowestFirst = default(LowestFirst);
+        QuickSort.Sort(new Span<HeightOfBody>(keys.Memory, bodyCount), ref lowestFirst);
         for (int i = 0; i < bodyCount; ++i)
             byHeight[i] = keys[i].Body;
         pool.Return(ref keys);
@@ -264,9 +268,9 @@ unsafe partial struct SupportGraph
         public int Body;
     }
 
-    struct LowestFirst : IComparer<HeightOfBody>
+    struct LowestFirst : IComparerRef<HeightOfBody>
     {
-        public readonly int Compare(HeightOfBody x, HeightOfBody y) => x.Height != y.Height ? x.Height.CompareTo(y.Height) : x.Body.CompareTo(y.Body);
+        public readonly int Compare(ref HeightOfBody a, ref HeightOfBody b) => a.Height != b.Height ? a.Height.CompareTo(b.Height) : a.Body.CompareTo(b.Body);
     }
 
     // What slides on all that it rests on moves.
@@ -300,7 +304,7 @@ unsafe partial struct SupportGraph
         for (int i = 0; i < starts[bodyCount]; ++i)
         {
             ref var support = ref byUpper[i];
-            if (!support.Leans && grounded[support.Upper] != OfColumn)
+            if (!support.Leans && grounded[support.Upper] < OfColumn)
                 support.Carries = Carries(support);
             if (!support.Carries)
                 continue;
@@ -349,11 +353,12 @@ unsafe partial struct SupportGraph
             {
                 Body = order[i],
                 Floor = hasFloors ? SupportLink.Floor(floors[order[i]]) : -1,
-                Leans = grounded[order[i]] >= Leans,
+                Leans = grounded[order[i]] is Leans or OfColumn,
+                IsOfStructure = grounded[order[i]] == OfStructure,
                 IsOfColumn = grounded[order[i]] == OfColumn,
             };
         }
-        if (leaning.Count > 0)
+        if (leaning.Count > 0 || swaying.Count > 0)
             FindRelaxed(islandCount);
         pool.Return(ref next);
         pool.Return(ref place);
@@ -385,6 +390,7 @@ unsafe partial struct SupportGraph
                 FirstSupport = node.FirstSupport,
                 SupportCount = node.SupportCount,
                 Leans = node.Leans,
+                IsOfStructure = node.IsOfStructure,
                 IsRelaxed = node.IsRelaxed,
                 IsOfColumn = node.IsOfColumn,
                 MayBeColumn = node.MayBeColumn,
