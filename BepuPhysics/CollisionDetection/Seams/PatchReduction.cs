@@ -72,7 +72,7 @@ static unsafe class PatchReduction
         }
         inLine &= secondExists;
         if (inLine != Vector<int>.Zero)
-            ChooseEnds(memory.Candidates.Span.Memory, greatest, frames.Size, inLine, farthest, ref deepest);
+            ChooseEnds(memory.Candidates.Span.Memory, greatest, frames.Size, inLine, farthest, ref deepest, ref sides);
         memory.Kept.Count = 0;
         memory.Kept.EnsureCapacity(PatchSet.Capacity * ConvexContactManifold.MaximumContactCount, pool);
         for (int i = 0; i < count; ++i)
@@ -227,13 +227,29 @@ static unsafe class PatchReduction
     }
 
     // Of contacts in a line the deepest need not be an end: what is carried by it and the far end alone tips over it, and is stopped by the end that was left
-    // out, which is the deepest then. An end that is nearly as deep takes its place; as a third one it would carry a part of what two do, and lift it.
+    // out, which is the deepest then. So an end that touches, or is nearly as deep, takes its place. As a third one the deepest would carry a part of what two
+    // do, and lift it; only where it stands out of the line from end to end, over an edge of a mesh, does it bear what they do not.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    static void ChooseEnds(FaceCandidate* candidates, int count, Vector<float> size, Vector<int> inLine, in ContactChoice farthest, ref ContactChoice deepest)
+    static void ChooseEnds(FaceCandidate* candidates, int count, Vector<float> size, Vector<int> inLine, in ContactChoice farthest,
+        ref ContactChoice deepest, ref ContactSides sides)
     {
-        var level = deepest.Depth - size * new Vector<float>(Apart);
-        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, farthest, level, deepest, out var end);
+        var apart = size * new Vector<float>(Apart);
+        var limit = Wide.Min(deepest.Depth - apart, Vector<float>.Zero);
+        ContactReduction<FaceCandidate>.ChooseFarthest(candidates, count, farthest, limit, deepest, out var end);
+        var fromFar = Distance(farthest, deepest);
+        var length = Distance(farthest, end);
+        var line = farthest.Depth + (end.Depth - farthest.Depth) * (fromFar / length);
+        var standsOut = inLine & Vector.LessThan(fromFar, length) & Vector.GreaterThan(deepest.Depth, line + apart);
+        sides.Left.Replace(standsOut, deepest);
+        sides.LeftExists |= standsOut;
         deepest.Replace(inLine, end);
+    }
+
+    static Vector<float> Distance(in ContactChoice a, in ContactChoice b)
+    {
+        var x = a.X - b.X;
+        var y = a.Y - b.Y;
+        return Vector.SquareRoot(x * x + y * y);
     }
 
     static void AddIf(Vector<int> exists, ref SeamMemory memory, in ContactChoice choice, int lane, int room)
