@@ -41,6 +41,12 @@ public sealed unsafe partial class Solver
     /// <summary>Number of structures that are solved at once, equal ones that are solved side by side as one.</summary>
     internal int DirectIslandCount => directStage.IslandCount;
 
+    /// <summary>Whether factors stay that do not depend on who leans on what; else all are worked out anew, to the same bits, which tests compare.</summary>
+    internal bool KeepsDirectFactors
+    {
+        set => directStage.KeepsFactors = value;
+    }
+
     // Joints of the active set, or their bodies, are not where they were.
     void NoteJointChange(int typeId)
     {

@@ -74,6 +74,35 @@ public class SideBySideTests
         return bodies;
     }
 
+    // A body with three limbs of three parts each, whose limits are near.
+    static List<BodyHandle> AddThrown(TestWorld world, int seed)
+    {
+        var random = new Random(seed);
+        float Next(float most) => most * (2 * random.NextSingle() - 1);
+        var bodies = new List<BodyHandle>();
+        for (int i = 0; i < 10; ++i)
+        {
+            var parent = i < 4 ? 0 : i - 3;
+            var offset = i == 0 ? new Vector3(0, 0, 40 * seed) : new Vector3(0, i < 4 ? i - 2 : 0, i < 4 ? 0 : 1);
+            var place = i == 0 ? offset : world.Bodies[bodies[parent]].Pose.Position + offset;
+            BodyVelocity velocity = new(new(Next(5), Next(5), Next(5)), new(Next(9), Next(9), Next(9)));
+            bodies.Add(world.AddDynamic(new Box(.3f, .5f, .7f), MathF.Pow(10, Next(1)), new RigidPose(place), velocity));
+            if (i == 0)
+                continue;
+            world.Solver.Add(bodies[parent], bodies[i], new BallSocket { LocalOffsetA = offset / 2, LocalOffsetB = -offset / 2 });
+            var swing = new SwingLimit { AxisLocalA = Vector3.UnitZ, AxisLocalB = Vector3.UnitZ, MaximumSwingAngle = .2f };
+            world.Solver.Add(bodies[parent], bodies[i], swing);
+            world.Solver.Add(bodies[parent], bodies[i], new TwistLimit
+            {
+                LocalBasisA = Quaternion.Identity,
+                LocalBasisB = Quaternion.Identity,
+                MinimumAngle = -.1f,
+                MaximumAngle = .2f,
+            });
+        }
+        return bodies;
+    }
+
     static List<Vector3> Motion(TestWorld world, List<BodyHandle> bodies)
     {
         var numbers = new List<Vector3>();
@@ -86,9 +115,10 @@ public class SideBySideTests
         return numbers;
     }
 
-    static List<List<Vector3>> MotionOf(IEnumerable<int> seeds, bool always, int threads = 1)
+    static List<List<Vector3>> MotionOf(IEnumerable<int> seeds, bool always, int threads = 1, bool keepsFactors = true)
     {
         using var world = new TestWorld(Settings(always), threads);
+        world.Solver.KeepsDirectFactors = keepsFactors;
         var structures = seeds.Select(seed => Add(world, seed)).ToList();
         world.Step(90);
         return [.. structures.Select(bodies => Motion(world, bodies))];
@@ -123,6 +153,40 @@ public class SideBySideTests
         var reversed = MotionOf(Enumerable.Range(0, count).Reverse(), always: true);
         for (int seed = 0; seed < count; ++seed)
             AssertSameBits(inOrder[seed], reversed[count - 1 - seed]);
+    }
+
+    /// <summary>When limits and servos change sides only what depends on them is factored anew: the same as if all were.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Factors_that_stay_are_those_that_would_come(bool always)
+    {
+        for (int first = 0; first < 96; first += 2 * Count)
+        {
+            var together = Enumerable.Range(first, Count);
+            var (kept, anew) = (MotionOf(together, always), MotionOf(together, always, keepsFactors: false));
+            for (int i = 0; i < Count; ++i)
+                AssertSameBits(anew[i], kept[i]);
+            // In numbers of its own.
+            AssertSameBits(MotionOf([first], always, keepsFactors: false)[0], MotionOf([first], always)[0]);
+        }
+    }
+
+    /// <summary>A ragdoll for each seed, with its limits near, thrown.</summary>
+    [Fact]
+    public void Factors_of_ragdolls_that_stay_are_those_that_would_come()
+    {
+        List<Vector3> Thrown(bool keepsFactors)
+        {
+            using var world = new TestWorld(Settings(always: true));
+            world.Solver.KeepsDirectFactors = keepsFactors;
+            var bodies = new List<BodyHandle>();
+            for (int seed = 0; seed < 3 * Count; ++seed)
+                bodies.AddRange(AddThrown(world, seed));
+            world.Step(120);
+            return Motion(world, bodies);
+        }
+        AssertSameBits(Thrown(false), Thrown(true));
     }
 
     [Fact]

@@ -34,7 +34,7 @@ static class Correction
                 angular += joint.Target(row) * joint.Target(row);
         }
         var part = 1d;
-        if (IsSmall(joint, linear * dt * dt, angular * dt * dt, set.LocalInertias))
+        if (IsSmall(joint.BodyCount, ref joint.References, linear * dt * dt, angular * dt * dt, set.LocalInertias))
             return;
         // Those that have bounds go at the rate of the sweeps already.
         double way = double.PositiveInfinity, turn = double.PositiveInfinity;
@@ -65,15 +65,20 @@ static class Correction
         return (Math.Sqrt(way) * dt, Math.Sqrt(turn) * dt);
     }
 
-    // Whether errors with these squares are no more than joints are off by anyway, by the radii of gyration alone: what the reach is at least.
-    static bool IsSmall(in JointLane joint, double linear, double angular, Buffer<BodyInertia> inertias)
+    /// <summary>Whether errors are no more than joints are off by anyway, by the radii of gyration alone: what the reach is at least.</summary>
+    /// <param name="bodyCount">Number of the joint's bodies.</param>
+    /// <param name="references">Reference to the first of them in the type batch.</param>
+    /// <param name="linear">Square of the error along directions.</param>
+    /// <param name="angular">Square of that about axes.</param>
+    /// <param name="inertias">Of all bodies.</param>
+    internal static bool IsSmall(int bodyCount, ref int references, double linear, double angular, Buffer<BodyInertia> inertias)
     {
         const double squared = (double)JointNeed.Tolerance * JointNeed.Tolerance;
         if (angular > squared)
             return false;
-        for (int slot = 0; slot < joint.BodyCount && linear > 0; ++slot)
+        for (int slot = 0; slot < bodyCount && linear > 0; ++slot)
         {
-            ref var inertia = ref inertias[joint.Body(slot)];
+            ref var inertia = ref inertias[JointLane.Body(ref references, slot)];
             ref var inverse = ref inertia.InverseInertiaTensor;
             var trace = (double)inverse.XX + inverse.YY + inverse.ZZ;
             if (inertia.InverseMass > 0 && linear * trace > squared * 3 * inertia.InverseMass)

@@ -23,6 +23,8 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
     /// <summary>Solves for the impulses, and applies what changes of them.</summary>
     internal void Solve()
     {
+        // Not before all else has been swept over: what is worked out here is still at hand when it is asked for.
+        FactorAll();
         SolveOnce(TNumbers.All);
         if (!hasBounds)
             return;
@@ -34,7 +36,7 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
             if (!TNumbers.Any(open))
                 return;
             if (TNumbers.Any(whoIsHeld))
-                Factor();
+                FactorChanged();
             SolveOnce(open);
         }
         open = HoldWhatIsBeyond(open);
@@ -45,7 +47,7 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
             if (nodes[k].HasBounds)
                 holds[k].IsHeld |= open;
         }
-        Factor();
+        FactorChanged();
         SolveOnce(open);
     }
 

@@ -37,7 +37,10 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
             isSoft &= IsFree(joint);
         if (TNumbers.Any(isSoft))
         {
-            AskSoftly(node, softness, isSoft);
+            if (node.RowCount == 1 && !node.SeesLinear)
+                AskSoftlyOne(node, softness, isSoft);
+            else
+                AskSoftly(node, softness, isSoft);
             return;
         }
         var j = jacobians + node.Jacobian;
@@ -63,16 +66,39 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         {
             velocities[slot] = bodies[node.Bodies[slot]].Velocity;
             for (int row = 0; row < node.RowCount; ++row)
-                velocities[slot].Add(weighted[node.Jacobian + row * node.BodyCount + slot], softness * rows[node.FirstRow + row].Impulse, isSoft);
+            {
+                ref var w = ref weighted[node.Jacobian + row * node.BodyCount + slot];
+                var impulse = softness * rows[node.FirstRow + row].Impulse;
+                if (node.SeesLinear)
+                    velocities[slot].Add(w, impulse, isSoft);
+                else
+                    velocities[slot].Angular = TVectors.Choose(isSoft, velocities[slot].Angular + w.Angular * impulse, velocities[slot].Angular);
+            }
         }
         var j = jacobians + node.Jacobian;
         for (int row = 0; row < node.RowCount; ++row)
         {
             TVectors sum = default;
             for (int slot = 0; slot < node.BodyCount; ++slot, ++j)
-                sum += DirectPair<TVectors, TNumbers>.Multiply(*j, velocities[slot]);
+                sum += node.SeesLinear ? DirectPair<TVectors, TNumbers>.Multiply(*j, velocities[slot]) : j->Angular * velocities[slot].Angular;
             rows[node.FirstRow + row].X = rows[node.FirstRow + row].Target - TVectors.Sum(sum);
         }
+    }
+
+    // Of one row about an axis, as limits of angles have: the same to the last bit, with all in registers.
+    void AskSoftlyOne(in DirectNode node, TNumbers softness, TNumbers isSoft)
+    {
+        ref var row = ref rows[node.FirstRow];
+        var impulse = softness * row.Impulse;
+        var j = jacobians + node.Jacobian;
+        var w = weighted + node.Jacobian;
+        TVectors sum = default;
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            var velocity = bodies[node.Bodies[slot]].Velocity.Angular;
+            sum += j[slot].Angular * TVectors.Choose(isSoft, velocity + w[slot].Angular * impulse, velocity);
+        }
+        row.X = row.Target - TVectors.Sum(sum);
     }
 
     void SolveForward(in DirectNode node)
@@ -99,13 +125,13 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         ref var node = ref nodes[joint];
         var count = node.RowCount;
         var x = rows + node.FirstRow;
-        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        // What this does to a joint where that is held means nothing.
+        var mask = IsFree(joint);
+        var places = live + node.FirstBlock;
+        for (int a = 0; a < states[joint].LiveCount; ++a)
         {
-            var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Joint];
-            var mask = IsFree(joint) & IsFree(blocks[a].Joint);
-            if (!TNumbers.Any(mask))
-                continue;
+            ref var later = ref blocks[node.FirstBlock + places[a]];
+            var block = numbers + later.Place;
             if (count == Three)
             {
                 GoForwardThree(block, x, rows + later.FirstRow, later.RowCount, mask);
@@ -127,13 +153,12 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         ref var node = ref nodes[joint];
         var count = node.RowCount;
         var x = rows + node.FirstRow;
-        for (int a = node.FirstBlock; a < node.FirstBlock + node.BlockCount; ++a)
+        var places = live + node.FirstBlock;
+        for (int a = 0; a < states[joint].LiveCount; ++a)
         {
-            var block = numbers + blocks[a].Place;
-            ref var later = ref nodes[blocks[a].Joint];
-            var mask = IsFree(joint) & IsFree(blocks[a].Joint);
-            if (!TNumbers.Any(mask))
-                continue;
+            ref var later = ref blocks[node.FirstBlock + places[a]];
+            var block = numbers + later.Place;
+            var mask = IsFree(later.Joint);
             if (count == Three)
             {
                 GoBackThree(block, x, rows + later.FirstRow, later.RowCount, mask);
@@ -178,6 +203,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
     // A body's velocity stays in registers until all rows have changed it.
     void ApplyRows(in DirectNode node, DirectRow<TNumbers>* ofRows, bool changes, TNumbers mask)
     {
+        if (!node.SeesLinear)
+        {
+            ApplyAngularRows(node, ofRows, changes, mask);
+            return;
+        }
         for (int slot = 0; slot < node.BodyCount; ++slot)
         {
             ref var velocity = ref bodies[node.Bodies[slot]].Velocity;
@@ -190,6 +220,19 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
                 angular += w->Angular * impulse;
             }
             velocity.Linear = TVectors.Choose(mask, linear, velocity.Linear);
+            velocity.Angular = TVectors.Choose(mask, angular, velocity.Angular);
+        }
+    }
+
+    void ApplyAngularRows(in DirectNode node, DirectRow<TNumbers>* ofRows, bool changes, TNumbers mask)
+    {
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            ref var velocity = ref bodies[node.Bodies[slot]].Velocity;
+            var angular = velocity.Angular;
+            var w = weighted + node.Jacobian + slot;
+            for (int row = 0; row < node.RowCount; ++row, w += node.BodyCount)
+                angular += w->Angular * (changes ? ofRows[row].X : ofRows[row].Impulse);
             velocity.Angular = TVectors.Choose(mask, angular, velocity.Angular);
         }
     }

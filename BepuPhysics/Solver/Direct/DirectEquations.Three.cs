@@ -51,15 +51,16 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         default(TVectors) + DirectPair<TVectors, TNumbers>.Multiply(j[0], w[0]) + DirectPair<TVectors, TNumbers>.Multiply(j[1], w[1]);
 
     static void AddCouplingThree(
-        TNumbers* block, DirectPair<TVectors, TNumbers>* j, int stride, int rowCount, DirectPair<TVectors, TNumbers>* w, int strideOfW)
+        TNumbers* block, DirectPair<TVectors, TNumbers>* j, int stride, int rowCount, DirectPair<TVectors, TNumbers>* w, int strideOfW, bool isFirst)
     {
         for (; rowCount > 0; --rowCount, j += stride, block += Three)
         {
             var (first, second) = TVectors.Sums(
                 DirectPair<TVectors, TNumbers>.Multiply(*j, *w), DirectPair<TVectors, TNumbers>.Multiply(*j, w[strideOfW]));
-            block[0] += first;
-            block[1] += second;
-            block[2] += TVectors.Sum(DirectPair<TVectors, TNumbers>.Multiply(*j, w[2 * strideOfW]));
+            var third = TVectors.Sum(DirectPair<TVectors, TNumbers>.Multiply(*j, w[2 * strideOfW]));
+            block[0] = (isFirst ? default : block[0]) + first;
+            block[1] = (isFirst ? default : block[1]) + second;
+            block[2] = (isFirst ? default : block[2]) + third;
         }
     }
 
@@ -74,28 +75,91 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
         }
     }
 
-    static void SubtractThree(
-        DirectRow<TNumbers>* pivots, TNumbers* left, int rowCount, TNumbers* blockOfB, int columns, bool isDiagonal, TNumbers* target, TNumbers mask)
+    void EliminateThree(int joint)
     {
+        ref var node = ref nodes[joint];
+        ref var state = ref states[joint];
+        var ofBlocks = blocks + node.FirstBlock;
+        var places = live + node.FirstBlock;
+        var pivots = rows + node.FirstRow;
         var (x, y, z) = (pivots[0].InversePivot, pivots[1].InversePivot, pivots[2].InversePivot);
-        for (int row = 0; row < rowCount; ++row, left += Three, target += columns)
+        var isFree = IsFree(joint);
+        var scaled = stackalloc TNumbers[DirectPlan.MostRows * Three];
+        for (int i = 0; i < state.LiveCount; ++i)
         {
-            var (first, second, third) = (left[0] * x, left[1] * y, left[2] * z);
-            var right = blockOfB;
-            var end = isDiagonal ? row + 1 : columns;
-            for (int column = 0; column < end; ++column, right += Three)
-                Write(ref target[column], target[column] - (first * right[0] + second * right[1] + third * right[2]), mask);
+            ref var a = ref ofBlocks[places[i]];
+            ref var ofA = ref states[a.Joint];
+            var left = numbers + a.Place;
+            for (int row = 0; row < a.RowCount * Three; row += Three)
+                (scaled[row], scaled[row + 1], scaled[row + 2]) = (left[row] * x, left[row + 1] * y, left[row + 2] * z);
+            var target = targets + node.FirstTarget + places[i] * (places[i] + 1) / 2;
+            for (int l = 0; l < i; ++l)
+            {
+                ref var b = ref ofBlocks[places[l]];
+                if (!Changes(state, ofA, states[b.Joint]))
+                    continue;
+                var place = numbers + target[places[l]];
+                for (int row = 0; row < a.RowCount * Three; row += Three)
+                    SubtractThree(scaled + row, numbers + b.Place, ref place, b.RowCount, isFree);
+            }
+            if (!ofA.IsColumn)
+                continue;
+            var diagonal = numbers + target[places[i]];
+            var mask = isFree & OwnBlock(a.Joint);
+            // What is above the diagonal of the matrix nobody reads.
+            for (int row = 0; row < a.RowCount; ++row, diagonal += a.RowCount - row)
+                SubtractThree(scaled + row * Three, left, ref diagonal, row + 1, mask);
         }
     }
 
-    static void SubtractOne(TNumbers inversePivot, TNumbers* left, int rowCount, TNumbers* right, int columns, TNumbers* target, TNumbers mask)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SubtractThree(TNumbers* scaled, TNumbers* right, ref TNumbers* target, int columns, TNumbers mask)
     {
-        for (int row = 0; row < rowCount; ++row, target += columns)
+        var (first, second, third) = (scaled[0], scaled[1], scaled[2]);
+        for (; columns > 0; --columns, right += Three, ++target)
+            *target = TNumbers.Choose(mask, *target - (first * right[0] + second * right[1] + third * right[2]), *target);
+    }
+
+    void EliminateOne(int joint)
+    {
+        ref var node = ref nodes[joint];
+        ref var state = ref states[joint];
+        var ofBlocks = blocks + node.FirstBlock;
+        var places = live + node.FirstBlock;
+        var inversePivot = rows[node.FirstRow].InversePivot;
+        var isFree = IsFree(joint);
+        var scaled = stackalloc TNumbers[DirectPlan.MostRows];
+        for (int i = 0; i < state.LiveCount; ++i)
         {
-            var scaled = left[row] * inversePivot;
-            for (int column = 0; column < columns; ++column)
-                Write(ref target[column], target[column] - scaled * right[column], mask);
+            ref var a = ref ofBlocks[places[i]];
+            ref var ofA = ref states[a.Joint];
+            var left = numbers + a.Place;
+            for (int row = 0; row < a.RowCount; ++row)
+                scaled[row] = left[row] * inversePivot;
+            var target = targets + node.FirstTarget + places[i] * (places[i] + 1) / 2;
+            for (int l = 0; l < i; ++l)
+            {
+                ref var b = ref ofBlocks[places[l]];
+                if (!Changes(state, ofA, states[b.Joint]))
+                    continue;
+                var place = numbers + target[places[l]];
+                for (int row = 0; row < a.RowCount; ++row)
+                    SubtractOne(scaled[row], numbers + b.Place, ref place, b.RowCount, isFree);
+            }
+            if (!ofA.IsColumn)
+                continue;
+            var diagonal = numbers + target[places[i]];
+            var mask = isFree & OwnBlock(a.Joint);
+            for (int row = 0; row < a.RowCount; ++row, diagonal += a.RowCount - row)
+                SubtractOne(scaled[row], left, ref diagonal, row + 1, mask);
         }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void SubtractOne(TNumbers scaled, TNumbers* right, ref TNumbers* target, int columns, TNumbers mask)
+    {
+        for (; columns > 0; --columns, ++right, ++target)
+            *target = TNumbers.Choose(mask, *target - scaled * *right, *target);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
@@ -17,6 +18,10 @@ readonly unsafe struct DirectMemory<TVectors, TNumbers>
     internal readonly DirectRow<TNumbers>* Rows;
     /// <summary>Who is held.</summary>
     internal readonly DirectHold<TNumbers>* Holds;
+    /// <summary>What is known of each joint while all is factored.</summary>
+    internal readonly DirectState* States;
+    /// <summary>For each joint, which of the blocks below it any structure has.</summary>
+    internal readonly int* Live;
     /// <summary>The joints that are not held in all structures, after their number.</summary>
     internal readonly int* Free;
     /// <summary>Blocks.</summary>
@@ -36,6 +41,8 @@ readonly unsafe struct DirectMemory<TVectors, TNumbers>
         Rows = Place<DirectRow<TNumbers>>(ref start, island.FirstRow, island.EndRow);
         Holds = Place<DirectHold<TNumbers>>(ref start, island.FirstNode, island.EndNode);
         Numbers = Place<TNumbers>(ref start, island.FirstNumber, island.EndNumber);
+        States = Place<DirectState>(ref start, island.FirstNode, island.EndNode);
+        Live = Place<int>(ref start, island.FirstBlock, island.EndBlock);
         Free = (int*)start;
     }
 
@@ -55,7 +62,9 @@ readonly unsafe struct DirectMemory<TVectors, TNumbers>
             (island.EndRow - island.FirstRow) * (long)sizeof(DirectRow<TNumbers>) +
             (island.EndNode - island.FirstNode) * (long)sizeof(DirectHold<TNumbers>) +
             (island.EndNumber - island.FirstNumber) * (long)sizeof(TNumbers) +
-            (island.EndNode - island.FirstNode + 1L) * sizeof(int);
-        return (int)((bytes + sizeof(Vector256<double>) - 1) / sizeof(Vector256<double>));
+            (island.EndNode - island.FirstNode) * (long)sizeof(DirectState) +
+            (island.EndBlock - island.FirstBlock + island.EndNode - island.FirstNode + 1L) * sizeof(int);
+        // Whole cache lines, and the widest vectors: what lies across two of them takes twice as long.
+        return (int)((bytes + BufferPool.Alignment - 1) / BufferPool.Alignment * (BufferPool.Alignment / sizeof(Vector256<double>)));
     }
 }

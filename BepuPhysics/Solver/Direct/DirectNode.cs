@@ -23,8 +23,6 @@ struct DirectNode
     public int Diagonal;
     /// <summary>First of the blocks below it, those of the joints that are left when it is eliminated, and their number.</summary>
     public int FirstBlock, BlockCount;
-    /// <summary>What couples it to joints that are eliminated later.</summary>
-    public int FirstCoupling, EndCoupling;
     /// <summary>First of the places that its elimination changes.</summary>
     public int FirstTarget;
     /// <summary>What bounds its impulse.</summary>
@@ -78,6 +76,8 @@ struct DirectIsland
     public int FirstNumber, EndNumber;
     /// <summary>Its rows.</summary>
     public int FirstRow, EndRow;
+    /// <summary>Its blocks below the diagonal.</summary>
+    public int FirstBlock, EndBlock;
     /// <summary>Pairs of its Jacobians.</summary>
     public int FirstPair, EndPair;
     /// <summary>Where in memory its equations are.</summary>
@@ -99,17 +99,30 @@ struct DirectBlock
     public int Joint;
     /// <summary>Place of its numbers, row by row of the later joint.</summary>
     public int Place;
+    /// <summary>Number of the later joint's rows, and place of the first of them.</summary>
+    public int RowCount, FirstRow;
+    /// <summary>What it is made of; nothing where only an elimination makes it.</summary>
+    public int FirstCoupling, EndCoupling;
 }
 
 /// <summary>A body that two joints have in common: what makes their block.</summary>
 struct DirectCoupling
 {
-    /// <summary>Place of the block's numbers.</summary>
-    public int Place;
-    /// <summary>The joint that is eliminated later.</summary>
-    public int Later;
     /// <summary>Which of their bodies it is.</summary>
     public int LaterSlot, EarlierSlot;
+}
+
+/// <summary>What is known of a joint while its structure is factored.</summary>
+struct DirectState
+{
+    /// <summary>A bit for each structure in which it is not held.</summary>
+    public int Free;
+    /// <summary>Whether its pivots, and all blocks below them, are worked out.</summary>
+    public bool IsColumn;
+    /// <summary>Whether its blocks in the columns of joints before it are.</summary>
+    public bool IsRow;
+    /// <summary>Number of the blocks below it that any structure has.</summary>
+    public int LiveCount;
 }
 
 /// <summary>Whether a joint is left out of the equations, with the impulse that it has.</summary>

@@ -128,6 +128,8 @@ unsafe partial struct DirectPlan
             EndNumber = NumberCount,
             FirstRow = before.RowCount,
             EndRow = RowCount,
+            FirstBlock = before.Blocks.Count,
+            EndBlock = Blocks.Count,
             FirstPair = before.JacobianCount,
             EndPair = JacobianCount,
             HasLoops = hasLoops,
@@ -275,8 +277,10 @@ unsafe partial struct DirectPlan
             ref var node = ref Nodes[k];
             for (int i = node.FirstBlock; i < node.FirstBlock + node.BlockCount; ++i)
             {
+                ref var later = ref Nodes[Blocks[i].Joint];
                 Blocks[i].Place = NumberCount;
-                NumberCount += node.RowCount * Nodes[Blocks[i].Joint].RowCount;
+                (Blocks[i].RowCount, Blocks[i].FirstRow) = (later.RowCount, later.FirstRow);
+                NumberCount += node.RowCount * later.RowCount;
             }
         }
     }
@@ -318,27 +322,21 @@ unsafe partial struct DirectPlan
         for (int k = first; k < Nodes.Count; ++k)
         {
             ref var earlier = ref Nodes[k];
-            earlier.FirstCoupling = Couplings.Count;
             for (int i = earlier.FirstBlock; i < earlier.FirstBlock + earlier.BlockCount; ++i)
             {
                 ref var later = ref Nodes[Blocks[i].Joint];
+                Blocks[i].FirstCoupling = Couplings.Count;
                 for (int slot = 0; slot < earlier.BodyCount; ++slot)
                 {
                     for (int laterSlot = 0; laterSlot < later.BodyCount; ++laterSlot)
                     {
                         if (earlier.Bodies[slot] != later.Bodies[laterSlot] || earlier.Bodies[slot] >= dynamicCount)
                             continue;
-                        Couplings.Add(new()
-                        {
-                            Place = Blocks[i].Place,
-                            Later = Blocks[i].Joint,
-                            LaterSlot = laterSlot,
-                            EarlierSlot = slot,
-                        }, pool);
+                        Couplings.Add(new() { LaterSlot = laterSlot, EarlierSlot = slot }, pool);
                     }
                 }
+                Blocks[i].EndCoupling = Couplings.Count;
             }
-            earlier.EndCoupling = Couplings.Count;
         }
         for (int k = first; k < Nodes.Count; ++k)
         {

@@ -59,11 +59,24 @@ sealed unsafe partial class DirectStage
         return greatest;
     }
 
+    // Whether any row has an impulse against its error. Most have none while an error goes.
+    static bool BearsAny(in JointLane joint)
+    {
+        for (int row = 0; row < joint.RowCount; ++row)
+        {
+            if (-(double)joint.Impulse(row) * joint.PositionError(row) > 0)
+                return true;
+        }
+        return false;
+    }
+
     // What the sweeps would let a joint open to under the load that it bears now, as a part of what it came with, along what it is off by: the greater of that
     // of directions and that of axes.
     static double OpenedByLoad(in JointLane joint, Buffer<BodyInertia> inertias, in Substep substep, double linear, double angular)
     {
         double alongLinear = 0, alongAngular = 0;
+        if (!BearsAny(joint))
+            return 0;
         for (int row = 0; row < joint.RowCount; ++row)
         {
             // An impulse against the error is what holds a load.

@@ -48,14 +48,18 @@ sealed unsafe partial class DirectStage
         Span<double> targets = stackalloc double[DirectPlan.MostRows * DirectPlan.MostLanes];
         var members = memberOfLane.Memory + first;
         var isWhole = count == DirectPlan.Lanes && AreOfOneIsland(members);
-        var mayLessen = MayLessen(kind, rows[0], firstLane, count);
+        var lessened = LanesToLessen(kind, rows, ref references, members, firstLane, count, substep);
+        var mayLessen = lessened != 0;
         for (int row = 0; row < rows.Length && (mayLessen || !isWhole); ++row)
         {
             for (int lane = 0; lane < count; ++lane)
                 targets[row * DirectPlan.MostLanes + lane] = JointLane.LaneOf(rows[row].TargetVelocity, firstLane + lane);
         }
-        for (int lane = 0; lane < count && mayLessen; ++lane)
+        for (var left = lessened; left != 0; left &= left - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(left);
             Lessen(new(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]), members[lane], substep);
+        }
         if (isWhole)
         {
             if (DirectPlan.Lanes == DirectPlan.FourLanes)
@@ -88,17 +92,39 @@ sealed unsafe partial class DirectStage
         return members[0] % DirectPlan.Lanes == 0;
     }
 
-    // Nothing is corrected of limits that are not reached, which most are.
-    bool MayLessen(in JointKind kind, in ConstraintRowWide row, int firstLane, int count)
+    // A bit for each joint whose targets may be lessened. Most are not: nothing is corrected of limits that are not reached, nor lessened of what is off by
+    // little. Only those that are on their way from the sweeps are looked at in any case.
+    int LanesToLessen(
+        in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, ref int references, int* members, int firstLane, int count, in Substep substep)
     {
-        if (kind.Limit != RowLimit.Positive || solver.ChoosesDirectJoints)
-            return true;
+        if (kind.Limit == RowLimit.Length)
+            return (1 << count) - 1;
+        var inertias = bodies.Awake.LocalInertias;
+        var dt = substep.Dt;
+        var lanes = 0;
         for (int lane = 0; lane < count; ++lane)
         {
-            if (JointLane.LaneOf(row.PositionError, firstLane + lane) < 0)
-                return true;
+            bool isLessened;
+            if (solver.ChoosesDirectJoints && solver.NeedOf(plan.Members[members[lane]].Handle).Eases > 0)
+                isLessened = true;
+            else if (kind.Limit == RowLimit.Positive)
+                isLessened = JointLane.LaneOf(rows[0].PositionError, firstLane + lane) < 0;
+            else
+            {
+                double linear = 0, angular = 0;
+                for (int row = 0; row < rows.Length; ++row)
+                {
+                    double target = JointLane.LaneOf(rows[row].TargetVelocity, firstLane + lane);
+                    if ((kind.LinearRows >> row & 1) != 0)
+                        linear += target * target;
+                    else
+                        angular += target * target;
+                }
+                isLessened = !Correction.IsSmall(kind.BodyCount, ref Unsafe.Add(ref references, lane), linear * dt * dt, angular * dt * dt, inertias);
+            }
+            lanes |= (isLessened ? 1 : 0) << lane;
         }
-        return false;
+        return lanes;
     }
 
     // Lessens what a joint is after.

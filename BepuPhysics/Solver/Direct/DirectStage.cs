@@ -71,6 +71,9 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     /// <summary>Number of structures, equal ones that are solved side by side as one.</summary>
     internal int IslandCount => plan.Islands.Count;
 
+    /// <summary>Whether factors stay that do not depend on who is held, when that changes.</summary>
+    internal bool KeepsFactors { get; set; } = true;
+
     /// <summary>Whether there is any joint to solve.</summary>
     internal bool HasJoints => !plan.IsEmpty;
 
@@ -146,7 +149,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     {
         var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
         ReadVelocities(island, equations);
-        new DirectEquations<TVectors, TNumbers>(plan, island, equations).Solve();
+        new DirectEquations<TVectors, TNumbers>(plan, island, equations, KeepsFactors).Solve();
         var sound = SoundLanes(island, equations);
         WriteVelocities(island, equations, sound);
         WriteImpulses(island, equations, sound);

@@ -52,7 +52,9 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
     internal readonly JointKind Kind = kind;
 
     readonly int lane = lane;
-    readonly ref int references = ref references;
+    /// <summary>Reference to its first body in the type batch.</summary>
+    internal readonly ref int References = ref references;
+
     readonly ref double targets = ref targets;
 
     /// <summary>Number of rows.</summary>
@@ -68,7 +70,10 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
     internal bool IsLinear(int row) => (Kind.LinearRows >> row & 1) != 0;
 
     /// <summary>Index of one of its bodies in the active set.</summary>
-    internal int Body(int slot) => Unsafe.Add(ref references, slot * Vector<float>.Count) & EncodedBody.IndexMask;
+    internal int Body(int slot) => Body(ref References, slot);
+
+    /// <summary>Index in the active set of one of the bodies of a joint.</summary>
+    internal static int Body(ref int references, int slot) => Unsafe.Add(ref references, slot * Vector<float>.Count) & EncodedBody.IndexMask;
 
     /// <summary>What a row is after: J v, m/s or rad/s. May be lessened.</summary>
     internal ref double Target(int row) => ref Unsafe.Add(ref targets, row * DirectPlan.MostLanes);
