@@ -25,6 +25,8 @@ public sealed partial class Simulation
         {
             Profiler.Clear();
             Timestepper.Timestep(this, dt, threadDispatcher);
+            // Nobody works, so the workers' pools may be anybody's.
+            TrimPools(null);
             return;
         }
         using (Profiler.Time(this))
@@ -32,7 +34,7 @@ public sealed partial class Simulation
         TrimPools(threadDispatcher);
     }
 
-    // Tables that grow leave their old memory behind, and the first step of a scene needs many times what others do.
+    // Tables that grow leave their old memory behind, and the first step of a scene needs many times what others do. What all sleep in needs none of it.
     void TrimPools(IThreadDispatcher? threadDispatcher)
     {
         if (--stepsUntilTrim > 0)

@@ -32,6 +32,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             order.DisposeIfTaken(Pool);
             ReleaseWorkers();
         }
+        // Notes of a first step, of which the solver needs nothing, but as much for itself.
+        Pool.EmptyIfGrown();
+        dispatcher?.WorkerPools.EmptyIfGrown();
     }
 
     void ApplyChanges(IThreadDispatcher? dispatcher)

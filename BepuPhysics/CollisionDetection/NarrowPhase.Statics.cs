@@ -54,6 +54,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var work = new SeamWork { NarrowPhase = this, BlockCount = workerCount };
         StagedWork.Run(ref work, dispatcher);
         RememberAgreed();
+        // In the first step of a world these are all pairs with statics, and the flush needs as much for their constraints.
+        for (int i = 0; i < workerCount; ++i)
+            workers[i].Statics.ReleasePairs(workers[i].Pool);
     }
 
     // Pairs of bodies for which all is as it was, in the order in which they are remembered; then the others, in the order of pairs.

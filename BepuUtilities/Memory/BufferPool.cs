@@ -34,6 +34,8 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     readonly PowerPool[] pools = new PowerPool[MaximumPower - MinimumPower + 1];
     readonly List<IBufferPoolUser> users = [];
+    uint trimCount;
+    bool hasGrown;
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
     /// <param name="minimumBlockAllocationSize">Least number of bytes to ask the system for at a time, rounded up to a power of two; in [1, 2^30].</param>
@@ -45,7 +47,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
         ArgumentOutOfRangeException.ThrowIfNegative(expectedPooledResourceCount);
         var blockPower = GetPower((ulong)minimumBlockAllocationSize);
         for (int i = 0; i < pools.Length; ++i)
-            pools[i] = new PowerPool(i + MinimumPower, Math.Max(i + MinimumPower, blockPower), expectedPooledResourceCount);
+            pools[i] = new PowerPool(this, i + MinimumPower, Math.Max(i + MinimumPower, blockPower), expectedPooledResourceCount);
     }
 
     /// <summary>Length in elements of the buffer that <see cref="TakeAtLeast{T}"/> yields for a least length.</summary>
@@ -219,6 +221,31 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     {
         foreach (var pool in pools)
             pool.Trim();
+        // What is borrowed again and again need not be written to as far as it once was. What is costs fresh pages, so ever more seldom.
+        if (BitOperations.IsPow2(++trimCount))
+            Empty(SystemMemory.LeastEmptiedSize);
+    }
+
+    /// <summary>Gives pages of large blocks that are not lent back to the system if it was asked for such since the last call, but keeps the blocks.</summary>
+    /// <remarks>
+    /// What a world that grows needs in one stage of a step lies idle in the next one, which needs as much of other sizes. A world that stays as it is asks
+    /// for nothing, so nothing is done.
+    /// </remarks>
+    public void EmptyIfGrown()
+    {
+        // In large pages, which are soon fresh again where they are needed after all.
+        if (hasGrown)
+            Empty(SystemMemory.LeastBlockSize);
+        hasGrown = false;
+    }
+
+    /// <summary>Takes down that the system was asked for a large block.</summary>
+    internal void NoteGrowth() => hasGrown = true;
+
+    void Empty(int leastSize)
+    {
+        for (int i = BitOperations.Log2((uint)leastSize) - MinimumPower; i < pools.Length; ++i)
+            pools[i].Empty();
     }
 
     internal void CheckNotBusy()

@@ -16,6 +16,7 @@ namespace BepuUtilities.Memory;
 /// </remarks>
 sealed unsafe class PowerPool
 {
+    readonly BufferPool owner;
     readonly int allocationPower;
     readonly int slotShift;
     readonly int expectedSlotCount;
@@ -41,11 +42,13 @@ sealed unsafe class PowerPool
     ulong reservedByteCount;
 
     /// <summary>Creates a pool that holds no memory yet.</summary>
+    /// <param name="owner">The pool that it is a part of.</param>
     /// <param name="power">Exponent of the size of a slot in bytes.</param>
     /// <param name="allocationPower">Exponent of the number of bytes to ask the system for at a time; not less than the slot's.</param>
     /// <param name="expectedSlotCount">Number of slots for which bookkeeping is made with the first memory.</param>
-    public PowerPool(int power, int allocationPower, int expectedSlotCount)
+    public PowerPool(BufferPool owner, int power, int allocationPower, int expectedSlotCount)
     {
+        this.owner = owner;
         Power = power;
         this.allocationPower = allocationPower;
         slotShift = allocationPower - power;
@@ -114,6 +117,7 @@ sealed unsafe class PowerPool
             for (int i = 0; i < goneCount; ++i)
             {
                 ref var allocation = ref allocations[freeSlots[i]];
+                SystemMemory.Empty((byte*)allocation, (nuint)1 << allocationPower);
                 SystemMemory.Return((byte*)allocation);
                 allocation = 0;
             }
@@ -122,6 +126,18 @@ sealed unsafe class PowerPool
             new ReadOnlySpan<int>(freeSlots + goneCount, freeSlotCount).CopyTo(new Span<int>(freeSlots, freeSlotCount));
         }
         idleSlotCount = freeSlotCount;
+    }
+
+    /// <summary>Gives the pages of slots that are not lent back to the system, but keeps the slots. Not of those that share an allocation.</summary>
+    public void Empty()
+    {
+        if (slotShift != 0)
+            return;
+        for (int i = 0; i < freeSlotCount; ++i)
+        {
+            SystemMemory.Empty(GetBlock(freeSlots[i]), (nuint)1 << Power);
+            Poison(GetBlock(freeSlots[i]), (nuint)1 << Power);
+        }
     }
 
     /// <summary>Writes how many slots are lent, and the first ids.</summary>
@@ -239,6 +255,8 @@ sealed unsafe class PowerPool
     {
         var byteCount = (nuint)1 << allocationPower;
         var memory = SystemMemory.Take(byteCount);
+        if (byteCount >= SystemMemory.LeastBlockSize)
+            owner.NoteGrowth();
         Poison(memory, byteCount);
         return (nint)memory;
     }

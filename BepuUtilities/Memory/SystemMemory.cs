@@ -7,6 +7,10 @@ namespace BepuUtilities.Memory;
 /// <remarks>
 /// Fresh memory costs a fault a page when it is first written to, and the first step of a big world writes to tens of thousands of pages of 4 KB. Linux
 /// lends pages of 2 MB to whoever asks for them. To ask is advice: where it is not taken, or there is nobody to give it to, all is as without.
+/// <para>
+/// What is given back to the C library stays resident where it lies between other blocks, and so do the pages of a block that is kept for later. Linux
+/// takes the pages of a part of memory back and lends fresh ones at the next write.
+/// </para>
 /// </remarks>
 static unsafe class SystemMemory
 {
@@ -16,8 +20,11 @@ static unsafe class SystemMemory
     /// <summary>From which size on a block lies in large pages: of each up to one at its end is more than is in use.</summary>
     internal const int LeastBlockSize = 4 * LargePageSize;
 
-    // MADV_HUGEPAGE of Linux.
-    const int AdviceLargePages = 14;
+    /// <summary>From which size on the pages of a block that is kept go back to the system while it is not in use.</summary>
+    internal const int LeastEmptiedSize = 1 << 20;
+
+    // MADV_DONTNEED and MADV_HUGEPAGE of Linux.
+    const int AdviceNotNeeded = 4, AdviceLargePages = 14;
 
     // int madvise(void* address, size_t length, int advice) of the C library, or null.
     static readonly delegate* unmanaged<void*, nuint, int, int> advise = FindAdvise();
@@ -36,8 +43,24 @@ static unsafe class SystemMemory
         return memory;
     }
 
-    /// <summary>Gives a block back to the system.</summary>
+    /// <summary>Gives a block back to the system, by way of the C library, which may keep it for who asks next.</summary>
     public static void Return(byte* memory) => NativeMemory.AlignedFree(memory);
+
+    /// <summary>Gives the pages of a block back to the system, but not the block: its contents are undefined, and the next write takes fresh pages.</summary>
+    /// <param name="memory">The block.</param>
+    /// <param name="byteCount">Its size.</param>
+    public static void Empty(byte* memory, nuint byteCount)
+    {
+        if (advise == null)
+            return;
+        // Pages at the ends may be shared with what is not the block's.
+        var pageMask = (nuint)Environment.SystemPageSize - 1;
+        var first = ((nuint)memory + pageMask) & ~pageMask;
+        var end = ((nuint)memory + byteCount) & ~pageMask;
+        // Refused where the memory is locked; it stays as it is then.
+        if (first < end)
+            _ = advise((void*)first, end - first, AdviceNotNeeded);
+    }
 
     // The process has the C library loaded already. Other than a search for it by name this takes no time, no garbage, and fails without an exception.
     static delegate* unmanaged<void*, nuint, int, int> FindAdvise() =>

@@ -56,6 +56,13 @@ public sealed class WorkerBufferPools : IDisposable
             pool.Trim();
     }
 
+    /// <summary>For each pool: <see cref="BufferPool.EmptyIfGrown"/>. Not while workers run.</summary>
+    public void EmptyIfGrown()
+    {
+        foreach (var pool in pools)
+            pool.EmptyIfGrown();
+    }
+
     /// <summary>Requires that all that was lent by any of the pools has been given back.</summary>
     /// <exception cref="InvalidOperationException">Something is still lent.</exception>
     public void AssertEmpty()

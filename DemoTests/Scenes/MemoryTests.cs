@@ -74,4 +74,26 @@ public class MemoryTests
         Assert.InRange(world.PoolBytes, 1ul, most * 2 / 3);
         world.Simulation.Validate();
     }
+
+    /// <summary>A world in which all sleep needs nothing of what its steps took, and its steps, which do nothing else, give it back.</summary>
+    [Theory]
+    [InlineData(1), InlineData(2)]
+    public void What_steps_needed_goes_back_when_all_sleep(int threads)
+    {
+        const int width = 100;
+        var scene = new SceneDescription { Name = "sleepers", Sleep = true };
+        int ground = scene.AddBox(400, 1, 400), box = scene.AddBox(0.5f, 0.5f, 0.5f);
+        scene.AddStatic(ground, new Vector3(0, -1, 0));
+        for (int i = 0; i < width * width; ++i)
+            scene.AddDynamic(box, 1, new Vector3(i % width - width / 2, 0.25f, i / width - width / 2) * 2);
+        using var world = new SceneWorld(scene, threads);
+        for (int i = 0; i < 100; ++i)
+            world.Step();
+        Assert.Equal(0, world.Simulation.Bodies.ActiveSet.Count);
+        var most = world.PoolBytes;
+        for (int i = 0; i < 520; ++i)
+            world.Step();
+        Assert.InRange(world.PoolBytes, 1ul, most * 9 / 10);
+        world.Simulation.Validate();
+    }
 }

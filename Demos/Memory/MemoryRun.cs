@@ -19,29 +19,33 @@ namespace Demos.Memory;
 /// <param name="Lent">What of it is lent; null where the engine does not tell.</param>
 readonly record struct MemoryFigures(double Resident, double Peak, double Held, double? Lent);
 
-/// <summary>A world of separate boxes that lie on a ground, awake, and the memory that it takes.</summary>
+/// <summary>A world of separate boxes that lie on a ground, and the memory that it takes.</summary>
 static class MemoryRun
 {
     const int SmallWorld = 64;
 
     /// <summary>Makes the world, steps it and measures.</summary>
-    public static MemoryFigures Measure(int bodies, int steps, int threads)
+    /// <param name="bodies">Number of boxes.</param>
+    /// <param name="steps">Number of steps before memory is looked at.</param>
+    /// <param name="threads">Threads that step.</param>
+    /// <param name="sleepThreshold">Speed below which the boxes may fall asleep, m/s; negative where they stay awake.</param>
+    public static MemoryFigures Measure(int bodies, int steps, int threads, float sleepThreshold)
     {
         using var dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         // What is compiled, and what the runtime needs, is there before.
-        Measure(SmallWorld, steps, dispatcher, 0, 0);
+        Measure(SmallWorld, steps, dispatcher, sleepThreshold, 0, 0);
         GC.Collect();
-        return Measure(bodies, steps, dispatcher, Environment.WorkingSet, dispatcher?.WorkerPools.GetTotalAllocatedByteCount() ?? 0);
+        return Measure(bodies, steps, dispatcher, sleepThreshold, Environment.WorkingSet, dispatcher?.WorkerPools.GetTotalAllocatedByteCount() ?? 0);
     }
 
-    static MemoryFigures Measure(int bodies, int steps, ThreadDispatcher? dispatcher, long residentBefore, ulong heldBefore)
+    static MemoryFigures Measure(int bodies, int steps, ThreadDispatcher? dispatcher, float sleepThreshold, long residentBefore, ulong heldBefore)
     {
         using var pool = new BufferPool();
         var material = new PairMaterialProperties(1, EngineDefaults.MaximumRecoveryVelocity, EngineDefaults.ContactSpring);
         var simulation = Simulation.Create(
             pool, new SceneNarrowPhaseCallbacks(new ContactRecorder(dispatcher?.ThreadCount ?? 1), material),
             new ScenePoseIntegratorCallbacks(SceneDescription.Gravity, 0), EngineDefaults.Solve(new RunSettings()));
-        AddBoxes(simulation, bodies);
+        AddBoxes(simulation, bodies, sleepThreshold);
         for (int i = 0; i < steps; ++i)
             simulation.Timestep(1 / 60f, dispatcher);
         GC.Collect();
@@ -54,7 +58,7 @@ static class MemoryRun
         return figures;
     }
 
-    static void AddBoxes(Simulation simulation, int count)
+    static void AddBoxes(Simulation simulation, int count, float sleepThreshold)
     {
         const float spacing = 2.5f;
         int width = (int)Math.Ceiling(Math.Sqrt(count));
@@ -66,7 +70,7 @@ static class MemoryRun
         for (int i = 0; i < count; ++i)
         {
             var place = new Vector3(i % width - (width - 1) * 0.5f, 0, i / width - (width - 1) * 0.5f) * spacing + new Vector3(0, 0.5f, 0);
-            simulation.Bodies.Add(BodyDescription.CreateDynamic(new RigidPose(place), inertia, collidable, new BodyActivityDescription(-1)));
+            simulation.Bodies.Add(BodyDescription.CreateDynamic(new RigidPose(place), inertia, collidable, new BodyActivityDescription(sleepThreshold)));
         }
     }
 }

@@ -178,15 +178,10 @@ struct AgreedPairs
         var total = pairs.Count;
         pairs.Count = count;
         // In its first step each pair waits; of what lies on one ground, no later one.
-        if (pairs.Span.Length <= Math.Max(LeastRoom, MostRoom * total))
-            return;
-        if (count > 0)
+        if (count == 0)
+            pairs.DisposeIfTaken(pool);
+        else if (pairs.Span.Length > Math.Max(LeastRoom, MostRoom * total))
             pairs.Resize(count, pool);
-        else
-        {
-            pairs.Dispose(pool);
-            pairs = default;
-        }
     }
 
     /// <summary>Forgets everything.</summary>

@@ -286,13 +286,18 @@ struct StaticPairs
             Transfer.Dispose(pool);
             Agreement.Dispose(pool);
         }
-        if (Pairs.Span.Allocated)
-        {
-            Pairs.Dispose(pool);
-            Results.Dispose(pool);
-            Children.Dispose(pool);
-        }
+        ReleasePairs(pool);
         this = default;
+    }
+
+    /// <summary>Gives the pairs and their results back, which have been handed on. What new contacts take over stays.</summary>
+    public void ReleasePairs(BufferPool pool)
+    {
+        if (!Pairs.Span.Allocated)
+            return;
+        Pairs.Dispose(pool);
+        Results.Dispose(pool);
+        Children.Dispose(pool);
     }
 }
 

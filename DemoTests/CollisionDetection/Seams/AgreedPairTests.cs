@@ -233,6 +233,28 @@ public class AgreedPairTests
         }
     }
 
+    /// <summary>In its first step each pair of a static waits for the others of its body. There are none: nothing of it is kept, asleep or awake.</summary>
+    [Theory, InlineData(false), InlineData(true)]
+    public void On_one_ground_no_memory_is_kept(bool sleeps)
+    {
+        Assert.Equal(LentBytes(joins: false), LentBytes(joins: true));
+
+        ulong LentBytes(bool joins)
+        {
+            var scene = new SceneDescription { Name = "plain", Sleep = sleeps };
+            int ground = scene.AddBox(100, 1, 100), box = scene.AddBox(.2f, .2f, .2f);
+            scene.AddStatic(ground, new Vector3(0, -1, 0));
+            for (int i = 0; i < 900; ++i)
+                scene.AddDynamic(box, 1, new Vector3(i % 30, .2f, i / 30));
+            using var world = new SceneWorld(scene, 1);
+            world.Simulation.NarrowPhase.JoinsStatics = joins;
+            for (int i = 0; i < 60; ++i)
+                world.Step();
+            Assert.Equal(sleeps, world.Simulation.Bodies.ActiveSet.Count == 0);
+            return world.Simulation.BufferPool.GetTotalTakenByteCount();
+        }
+    }
+
     static int CountRemembered(ClusterWorld world)
     {
         var count = 0;

@@ -288,18 +288,19 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         for (int block = 0; hasBegun && block < blockCount; ++block)
             LetGo(block);
         hasBegun = false;
-        if (before.Allocated)
-            pool.Return(ref before);
-        if (found.Allocated)
-            pool.Return(ref found);
-        if (spoilt.Allocated)
-            pool.Return(ref spoilt);
-        if (supports.Allocated)
-            pool.Return(ref supports);
-        if (patches.Allocated)
-            pool.Return(ref patches);
+        // Last taken, first returned: in the next step each gets the block that it had, and touches no other.
         if (columns.Allocated)
             pool.Return(ref columns);
+        if (patches.Allocated)
+            pool.Return(ref patches);
+        if (supports.Allocated)
+            pool.Return(ref supports);
+        if (spoilt.Allocated)
+            pool.Return(ref spoilt);
+        if (found.Allocated)
+            pool.Return(ref found);
+        if (before.Allocated)
+            pool.Return(ref before);
     }
 
     // The sign of the zero tells the next step that they were held.
