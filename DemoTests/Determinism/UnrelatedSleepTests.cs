@@ -2,6 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
+using BepuPhysics.Collidables;
+using Demos.Accuracy;
+using DemoTests.Scenes;
 using DemoTests.Sleeping;
 using Xunit;
 
@@ -80,6 +83,67 @@ public class UnrelatedSleepTests
                 if (!body.Awake && asleep.Add(i))
                     fellAsleep.Add((step, i));
             }
+        }
+        return states;
+    }
+
+    /// <summary>
+    /// A kinematic body that is left with sleepers only, as who held it has gone, sleeps in the next step in which anybody is looked for. That is the one thing
+    /// which others decide, so nothing may follow from it: neither for what rests on it, nor for what lands on it, be it asleep or awake by then.
+    /// </summary>
+    [Theory, InlineData(false), InlineData(true)]
+    public void When_a_kinematic_body_that_holds_sleepers_falls_asleep_changes_no_bit_of_others(bool isFirst)
+    {
+        var alone = RunPlatform(null, out var sleptAlone);
+        var beside = RunPlatform(isFirst, out var sleptBeside);
+        Assert.Equal(alone, beside);
+        // In the step in which it is landed on it is awake in one world, and asleep in the other.
+        Assert.InRange(sleptBeside, Gone + 1, Landed - 1);
+        Assert.InRange(sleptAlone, Landed, int.MaxValue);
+    }
+
+    const int Gone = 66, Landed = 85;
+
+    static List<(int, RigidPose, BodyVelocity, bool)> RunPlatform(bool? othersAreFirst, out int asleepFrom)
+    {
+        using var world = new SleepWorld();
+        var others = othersAreFirst == true ? Add(world, Neighbour.Restless) : [];
+        var height = new Vector3(0, 20, -40);
+        var platform = world.Bodies.Add(BodyDescription.CreateKinematic(
+            height, world.Simulation.Shapes.Add(new Box(12, 1, 12)), SleepWorld.Activity));
+        var onTop = height + new Vector3(0, 1, 0);
+        var holder = world.AddCube(onTop);
+        world.Bodies[holder].Activity.SleepThreshold = -1;
+        var time = (Landed + 1) * TestWorld.Dt;
+        var fall = -new AccuracySettings().Gravity.Y * time * time / 2;
+        List<BodyHandle> bodies =
+        [
+            holder,
+            world.AddCube(onTop + new Vector3(-4, 0, 0)), world.AddCube(onTop + new Vector3(-4, 1, 0)),
+            world.AddCube(onTop + new Vector3(4, fall, 0)),
+            // These have nothing to do with it, and come to rest when it falls asleep or is woken.
+            .. world.AddStack(0, 2, .05f), .. world.AddStack(4, 3, .1f),
+        ];
+        world.Bodies[bodies[^1]].Velocity.Linear.X = .3f;
+        if (othersAreFirst == false)
+            others = Add(world, Neighbour.Restless);
+        var states = new List<(int, RigidPose, BodyVelocity, bool)>();
+        asleepFrom = int.MaxValue;
+        for (int step = 0; step < 2 * Landed; ++step)
+        {
+            // Pushed one after the other, they have rested for long enough one after the other.
+            if (step % 3 == 0 && step / 3 < others.Count)
+                world.Bodies[others[step / 3]].ApplyLinearImpulse(new Vector3(.3f, 0, 0));
+            if (step == Gone)
+                world.Bodies[holder].Velocity.Linear = new Vector3(0, 30, 40);
+            world.World.Step();
+            for (int i = 0; i < bodies.Count; ++i)
+            {
+                var body = world.Bodies[bodies[i]];
+                states.Add((i, body.Pose, body.Velocity, body.Awake));
+            }
+            if (!world.IsAwake(platform))
+                asleepFrom = Math.Min(asleepFrom, step);
         }
         return states;
     }
