@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints.Contact;
@@ -55,8 +56,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ref var pair = ref Waiting(i);
             for (int j = pair.Start; j < pair.End; ++j)
             {
-                if (CornerHits.Holds(ResultOf(i, j).Manifold, hit))
-                    return true;
+                ref var floor = ref ResultOf(i, j).Manifold;
+                if (CornerHits.Holds(floor, hit))
+                    return !HasHigherWall(body, hit, floor.Normal, floor.Contact0.Offset);
             }
         }
         foreach (ref var old in statics.OldOf(body))
@@ -65,7 +67,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 continue;
             var rows = new ContactRows(Simulation.Solver, Simulation.Bodies, old.Constraint, old.ContactCount);
             if (CornerHits.IsCorner(hit, rows.Normal, rows.Arm(0)))
-                return true;
+                return !HasHigherWall(body, hit, rows.Normal, rows.Arm(0));
+        }
+        return false;
+    }
+
+    // Whether the wall at whose foot an edge is hit goes on in another thing: a face that is hit by all of its corners is not held by some of them.
+    bool HasHigherWall(in AgreeingBody body, in ConvexContactManifold hit, in Vector3 normal, in Vector3 place)
+    {
+        var velocity = VelocityOf(Waiting(body.First).Tested.Pair.A);
+        for (int i = body.First; i < body.End; ++i)
+        {
+            ref var pair = ref Waiting(i);
+            var velocityB = VelocityOf(pair.Tested.Pair.B);
+            for (int j = pair.Start; j < pair.End; ++j)
+            {
+                ref var part = ref ResultOf(i, j).Manifold;
+                if (part.Count > 0 && CornerHits.IsHigher(part, hit, normal, place, velocity, velocityB, workers[0].Batcher.Dt))
+                    return true;
+            }
         }
         return false;
     }

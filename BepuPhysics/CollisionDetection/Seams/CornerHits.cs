@@ -29,11 +29,12 @@ static class CornerHits
     /// <param name="a">Velocity of the body.</param>
     /// <param name="b">Velocity of what it touches.</param>
     /// <param name="dt">Length of the step, s.</param>
-    public static float WayOf(in ConvexContactManifold manifold, in BodyVelocity a, in BodyVelocity b, float dt)
+    public static float WayOf(in ConvexContactManifold manifold, in BodyVelocity a, in BodyVelocity b, float dt) =>
+        manifold.Count < LeastEdgeCount ? 0 : WayOfAny(manifold, a, b, dt);
+
+    static float WayOfAny(in ConvexContactManifold manifold, in BodyVelocity a, in BodyVelocity b, float dt)
     {
         var greatest = 0f;
-        if (manifold.Count < LeastEdgeCount)
-            return greatest;
         // Of the body as what it touches sees it, at its centre.
         var linear = a.Linear - b.Linear + Exact.Cross(b.Angular, manifold.OffsetB);
         var angular = a.Angular - b.Angular;
@@ -65,6 +66,20 @@ static class CornerHits
         }
         return true;
     }
+
+    /// <summary>
+    /// Whether contacts are those of the same wall as others that are hit, and are hit too, but above its foot: of a wall that is made of several things.
+    /// </summary>
+    /// <param name="part">The contacts.</param>
+    /// <param name="wall">The others.</param>
+    /// <param name="normal">Unit normal of the floor.</param>
+    /// <param name="place">A place on the floor, relative to the body.</param>
+    /// <param name="a">Velocity of the body.</param>
+    /// <param name="b">Velocity of what the contacts are with.</param>
+    /// <param name="dt">Length of the step, s.</param>
+    public static bool IsHigher(in ConvexContactManifold part, in ConvexContactManifold wall, in Vector3 normal, in Vector3 place,
+        in BodyVelocity a, in BodyVelocity b, float dt) =>
+        Exact.Dot(part.Normal, wall.Normal) > Across && WayOfAny(part, a, b, dt) > 0 && !IsCorner(part, normal, place);
 
     /// <summary>Whether contacts of a floor hold the body of an edge that is hit at a wall.</summary>
     public static bool Holds(in ConvexContactManifold floor, in ConvexContactManifold wall) =>

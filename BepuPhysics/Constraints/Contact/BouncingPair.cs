@@ -61,4 +61,9 @@ struct BouncingPair
     /// impact is not where it would have been turned to, and others may push it on.
     /// </summary>
     internal readonly float Reach(float speed, float dt) => (speed + Stopped) * dt;
+
+    /// <summary>
+    /// The gap of a contact that meets with others within the substep, m: what meets as it ends would, by rounding, be hit at some of its corners and turned.
+    /// </summary>
+    internal readonly float ReachOfAlike(float speed, float dt) => Reach(speed, dt) * (1 + Restitution.AlikeShare);
 }

@@ -15,7 +15,7 @@ sealed unsafe partial class Restitution
     // Pairs of one impact.
     const int MaximumPairs = 256;
     // Part of the substep, and of the speed, within which impacts are alike.
-    const float AlikeShare = 1e-3f;
+    internal const float AlikeShare = 1e-3f;
     // Cosine of the angle between the normals of one floor.
     const float SameDirection = 0.9999f;
 
@@ -153,8 +153,10 @@ sealed unsafe partial class Restitution
             for (int i = owner.groups.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = Pairs[i].NextOf(body))
             {
                 ref var pair = ref Pairs[i];
-                if (!pair.Joins && pair.Time < BouncingPair.Never && pair.Coefficient > 0 && Pairs[index].Coefficient > 0 &&
-                    (IsAlike(pair, Pairs[index], time, dt) || IsOneFloor(pair, Pairs[index])))
+                if (pair.Joins || !(pair.Coefficient > 0) || !(Pairs[index].Coefficient > 0))
+                    continue;
+                var meets = pair.Time < BouncingPair.Never;
+                if ((meets && IsAlike(pair, Pairs[index], time, dt)) || (IsOneFloor(pair, Pairs[index]) && (meets || MeetsBarelyLater(pair, dt))))
                     Join(i);
             }
         }
@@ -166,6 +168,19 @@ sealed unsafe partial class Restitution
 
         bool IsOneFloor(in BouncingPair a, in BouncingPair b) =>
             a.A == b.A && a.B == b.B && Exact.Dot(owner.Contacts(a).Normal, owner.Contacts(b).Normal) > SameDirection;
+
+        // Whether a pair that has not met at the end of the substep does so before the next has gone on by what is alike.
+        bool MeetsBarelyLater(in BouncingPair pair, float dt)
+        {
+            var contacts = owner.Contacts(pair);
+            for (int i = 0; i < pair.ContactCount; ++i)
+            {
+                var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
+                if (speed > owner.RestingSpeed(pair, contacts, pair.Gained[i], dt) && contacts.Gap(i, pair.Rows[i]) <= pair.ReachOfAlike(speed, dt))
+                    return true;
+            }
+            return false;
+        }
 
         readonly void Shift(in ContactRows contacts, int body, Vector3 way)
         {

@@ -140,7 +140,7 @@ unsafe struct SharedImpact(BufferPool pool)
         {
             var row = pair.Rows[i];
             var velocity = row.Along(contacts.VelocityA, contacts.VelocityB);
-            if (!(contacts.Gap(i, row) - pair.Reach(MathHelper.Max(-velocity, 0), dt) <= 0))
+            if (!(contacts.Gap(i, row) - pair.ReachOfAlike(MathHelper.Max(-velocity, 0), dt) <= 0))
                 continue;
             velocity -= row.Along(pair.GainA, pair.GainB) * notYet;
             speed = MathHelper.Max(speed, -velocity);

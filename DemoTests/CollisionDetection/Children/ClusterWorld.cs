@@ -15,6 +15,8 @@ namespace DemoTests.CollisionDetection.Children;
 sealed class ClusterBehaviour
 {
     public float Restitution;
+    /// <summary>Whether impacts are made at the time at which surfaces meet.</summary>
+    public bool HasExactImpacts;
     public float Friction = .5f;
     /// <summary>Whether a child, or the static in its place, is let through to its test.</summary>
     public Func<int, bool> Allows = _ => true;
@@ -49,7 +51,8 @@ readonly struct ClusterCallbacks(ClusterBehaviour behaviour, bool isCluster) : I
     }
 
     public SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
-        where TManifold : unmanaged, IContactManifold<TManifold> => new() { Restitution = behaviour.Restitution };
+        where TManifold : unmanaged, IContactManifold<TManifold> =>
+        new() { Restitution = behaviour.Restitution, ExactImpacts = behaviour.HasExactImpacts };
 }
 
 /// <summary>A simulation whose shapes may be clusters; all pools must be empty at its end.</summary>

@@ -169,39 +169,6 @@ public class LevelTests
         Assert.InRange(body.Pose.Position.Y, .049f, .0501f);
     }
 
-    /// <summary>What slides over a floor against a wall that stands on it, or beside it, stops there: it does not climb, nor pass.</summary>
-    [Theory]
-    [InlineData(LevelGround.Mesh, 2), InlineData(LevelGround.Field, 2), InlineData(LevelGround.Boxes, 2), InlineData(LevelGround.Compound, 2)]
-    [InlineData(LevelGround.Mesh, 8), InlineData(LevelGround.Field, 8), InlineData(LevelGround.Boxes, 8), InlineData(LevelGround.Compound, 8)]
-    public void A_wall_beside_a_floor_stops_what_slides(LevelGround wall, float speed)
-    {
-        var (expectedHighest, expectedFarthest) = SlideToWall(LevelGround.One, LevelGround.One, speed);
-        foreach (var floor in Enum.GetValues<LevelGround>())
-        {
-            var (highest, farthest) = SlideToWall(floor, wall, speed);
-            Assert.InRange(farthest, expectedFarthest - 1e-3f, expectedFarthest + 1e-3f);
-            // It is thrown up by what it was in the wall, a little more or less.
-            Assert.InRange(highest, .2499f, expectedHighest + 2e-3f);
-        }
-    }
-
-    static (float Highest, float Farthest) SlideToWall(LevelGround floor, LevelGround wall, float speed)
-    {
-        using var world = new ClusterWorld(isCluster: true);
-        world.Behaviour.Friction = 0;
-        AddPlane(world, floor, Quaternion.Identity, new(-4, 0, 0), 2006);
-        AddPlane(world, wall, Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 2), new(2, 0, 0), 2007);
-        var box = world.AddBody(new Box(.5f, .5f, .5f), new RigidPose(new Vector3(-1, .2499f, 0)), new BodyVelocity(new Vector3(speed, 0, 0)));
-        var (highest, farthest) = (0f, 0f);
-        for (int i = 0; i < 120; ++i)
-        {
-            world.Step(validate: false);
-            var position = world.Simulation.Bodies[box].Pose.Position;
-            (highest, farthest) = (Math.Max(highest, position.Y), Math.Max(farthest, position.X));
-        }
-        return (highest, farthest);
-    }
-
     /// <summary>A plate with two sides is not passed, from either side, at any of these speeds, and what has come to it stays on its side.</summary>
     [Theory, InlineData(1), InlineData(-1)]
     public void What_comes_to_a_plate_of_two_sides_stays_on_its_side(int side)
