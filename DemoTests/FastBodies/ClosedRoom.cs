@@ -39,6 +39,10 @@ sealed class ClosedRoom : IDisposable
     Mesh? mesh;
 
     public ClosedRoom(Flyer flyer, RoomWalls walls, int count, float size, float speed, int seed, int threads = 1)
+        : this(walls, size, threads) => Fill(flyer, count, speed, new Random(seed));
+
+    /// <summary>A room with nothing in it.</summary>
+    public ClosedRoom(RoomWalls walls, float size, int threads = 1)
     {
         world = new(new AccuracySettings { Gravity = default }, threads);
         half = size / 2;
@@ -56,8 +60,10 @@ sealed class ClosedRoom : IDisposable
                     AddBox(outwards, walls == RoomWalls.KinematicBoxes);
                 break;
         }
-        Fill(flyer, count, speed, new Random(seed));
     }
+
+    /// <summary>Adds a body that may not leave.</summary>
+    public void Add(in BodyDescription description) => flyers.Add(world.Bodies.Add(description));
 
     /// <summary>Bodies whose centre was outside of the room after any step so far.</summary>
     public int OutsideCount { get; private set; }

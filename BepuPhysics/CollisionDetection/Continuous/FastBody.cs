@@ -38,6 +38,10 @@ struct FastBody
     public bool HasLooked;
     /// <summary>Whether an impact has changed its way.</summary>
     public bool HasChanged;
+    /// <summary>
+    /// Whether what does not give way holds it for the rest of the substep, as impacts with that did not end: it goes with that, whatever else pushes it.
+    /// </summary>
+    public bool IsHeld;
     /// <summary>Where it has looked around last.</summary>
     public BoundingBox Searched;
     /// <summary>Where the body was at the end of the last substep, of which it is known that nothing was passed: from there it is swept.</summary>
@@ -63,7 +67,7 @@ struct FastBody
         Velocity = end.Velocity;
         Linear = (new DoubleVector3(end.Pose.Position) - Position) * (1 / dt);
         Angular = IsBall ? default : WholeTurn(dt);
-        HasChanged = false;
+        HasChanged = IsHeld = false;
         (CheckedPosition, CheckedOrientation) = (end.Pose.Position, end.Pose.Orientation);
     }
 
@@ -95,12 +99,15 @@ struct FastBody
         EndOrientation = Orientation;
     }
 
-    /// <summary>Inverse inertia in world axes at the time to which the body was brought.</summary>
-    public readonly BodyInertia WorldInertia => new()
+    /// <summary>Inverse inertia in world axes at the time to which the body was brought; none while it is held.</summary>
+    public readonly BodyInertia WorldInertia => IsHeld ? default : new()
     {
         InverseInertiaTensor = Symmetric3x3.RotateInverseInertia(Inertia.InverseInertiaTensor, Orientation),
         InverseMass = Inertia.InverseMass,
     };
+
+    /// <summary>Inverse mass; zero while it is held.</summary>
+    public readonly float InverseMass => IsHeld ? 0 : Inertia.InverseMass;
 
     /// <summary>What is left of a spin where a body can turn only about a direction: the angular momentum about it stays as it is.</summary>
     public readonly Vector3 SpinAbout(in Vector3 direction, in Vector3 spin)

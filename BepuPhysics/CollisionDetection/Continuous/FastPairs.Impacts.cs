@@ -46,6 +46,8 @@ sealed unsafe partial class FastPairs
             Stop(pair, ref a, ref b);
         else
             Bounce(ref pair, ref a, ref b);
+        if (pair.ImpactCount == MaximumCount)
+            Hold(pair, ref a, ref b);
         var (bodyA, bodyB) = (pair.A, pair.B);
         GoOn(bodyA, dt);
         GoOn(bodyB, dt);
@@ -100,7 +102,7 @@ sealed unsafe partial class FastPairs
     static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b)
     {
         Vector3 normal = pair.Normal.ToSingle(), armA = pair.ArmA.ToSingle(), armB = pair.ArmB.ToSingle();
-        var (inertiaA, inertiaB) = (a.Inertia.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);
+        var (inertiaA, inertiaB) = (a.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);
         var row = new ContactRow(normal, Exact.Cross(armA, normal), Exact.Cross(normal, armB));
         // What comes back at once comes from an edge that does not leave: it is stopped there.
         var restitution = pair.ImpactCount == 1 ? pair.Restitution : 0;
@@ -137,8 +139,11 @@ sealed unsafe partial class FastPairs
     void Stop(in FastPair pair, ref FastBody a, ref FastBody b)
     {
         var normal = pair.Normal.ToSingle();
-        var inverseMass = a.Inertia.InverseMass + b.Inertia.InverseMass;
-        var aIsLighter = a.Inertia.InverseMass > b.Inertia.InverseMass;
+        var inverseMass = a.InverseMass + b.InverseMass;
+        // Who is held is met by what does not give way either.
+        if (!(inverseMass > 0) && (a.IsHeld || b.IsHeld))
+            return;
+        var aIsLighter = a.InverseMass > b.InverseMass;
         ref var lighter = ref aIsLighter ? ref a : ref b;
         ref var heavier = ref aIsLighter ? ref b : ref a;
         var isLast = pair.ImpactCount >= StoppingCount;
@@ -152,7 +157,21 @@ sealed unsafe partial class FastPairs
             relative = normal * (aIsLighter ? MathHelper.Min(0, Exact.Dot(relative, normal)) : MathHelper.Max(0, Exact.Dot(relative, normal)));
         if (!(inverseMass > 0))
             return;
-        lighter.Velocity.Linear -= relative * (lighter.Inertia.InverseMass / inverseMass);
-        heavier.Velocity.Linear += relative * (heavier.Inertia.InverseMass / inverseMass);
+        lighter.Velocity.Linear -= relative * (lighter.InverseMass / inverseMass);
+        heavier.Velocity.Linear += relative * (heavier.InverseMass / inverseMass);
+    }
+
+    // A pair of so many impacts is left alone. With a wall, against which others push it, it would be pushed through that: a mesh is one wall to all sides,
+    // and all of its impacts are those of one pair. So it stays where it is, for the rest of the substep, and the others meet a wall.
+    static void Hold(in FastPair pair, ref FastBody a, ref FastBody b)
+    {
+        if (a.InverseMass > 0 == b.InverseMass > 0)
+            return;
+        var aIsHeld = a.InverseMass > 0;
+        ref var held = ref aIsHeld ? ref a : ref b;
+        ref var holder = ref aIsHeld ? ref b : ref a;
+        var arm = (aIsHeld ? pair.ArmB - pair.ArmA : pair.ArmA - pair.ArmB).ToSingle();
+        held.Velocity = new(holder.Velocity.Linear + Exact.Cross(holder.Velocity.Angular, arm), holder.Velocity.Angular);
+        held.IsHeld = true;
     }
 }
