@@ -105,19 +105,22 @@ static unsafe class PatchReduction
             limits[lane] = float.MinValue;
             if ((reduces & 1 << lane) == 0 || patches[lane].ContactCount <= patches[lane].Share)
                 continue;
-            var (deepest, touching) = (float.MinValue, 0);
+            var (deepest, approach, touching) = (float.MinValue, 0f, 0);
             foreach (ref var child in ranked)
             {
                 ref var manifold = ref results[child.Slot].Manifold;
                 for (int i = 0; child.Patch == lane && i < manifold.Count; ++i)
                 {
                     deepest = MathHelper.Max(deepest, manifold.GetDepth(i));
+                    approach = MathHelper.Max(approach, Approach(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal));
                     touching += manifold.GetDepth(i) >= -Apart * sizes[lane] ? 1 : 0;
                 }
             }
             if (touching == patches[lane].ContactCount)
                 continue;
             limits[lane] = MathHelper.Min(0, deepest) - Apart * sizes[lane];
+            // What is thin is hit exactly, and turned within the step: another of its corners comes down by up to twice the way, and may be through.
+            limits[lane] -= MathHelper.Max(0, approach - ThinImpacts.ThinWay * sizes[lane]);
             touching = 0;
             foreach (ref var child in ranked)
             {
@@ -135,9 +138,12 @@ static unsafe class PatchReduction
         ref readonly var contact = ref result.Manifold.Read(index);
         if (contact.Depth >= limit)
             return true;
-        var way = motion.Way + Exact.Cross(motion.Turn, contact.Offset - result.OffsetA);
-        return contact.Depth - Exact.Dot(way, normal) >= limit;
+        return contact.Depth + Approach(result, index, motion, normal) >= limit;
     }
+
+    // By how much a contact comes nearer within the step, m.
+    static float Approach(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal) =>
+        -Exact.Dot(motion.Way + Exact.Cross(motion.Turn, result.Manifold.Read(index).Offset - result.OffsetA), normal);
 
     // Contacts that do not touch are candidates only of the patches of a mask. Returns a bit for each patch some of whose contacts were left out.
     static int Fill(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,

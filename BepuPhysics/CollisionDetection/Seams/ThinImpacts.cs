@@ -12,6 +12,9 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 static class ThinImpacts
 {
+    /// <summary>Way within a step, as a part of the inner radius, by which what is hit is thin: that of its thickness.</summary>
+    public const float ThinWay = 2;
+
     // Part of its distance from the centre of its body that a contact moves at least: nothing is as thin as that.
     const float LeastWay = 1e-3f;
 
@@ -43,7 +46,7 @@ static class ThinImpacts
         foreach (ref readonly var child in ranked)
         {
             ref readonly var pair = ref placed[child.Slot];
-            if ((pair.TypeA == Triangle.Id) != (pair.TypeB == Triangle.Id) && greatest > 2 * pair.InnerRadius())
+            if ((pair.TypeA == Triangle.Id) != (pair.TypeB == Triangle.Id) && greatest > ThinWay * pair.InnerRadius())
                 return true;
         }
         return false;

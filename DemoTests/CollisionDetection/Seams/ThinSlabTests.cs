@@ -111,7 +111,9 @@ public class ThinSlabTests
     }
 
     /// <summary>Flat, tilted and on edge, all of them at once; the faster ones touch at any time within a step.</summary>
+    // In the last two something fell through while a corner that an impact brings down within the step had no contact.
     [Theory, MemberData(nameof(Cases))]
+    [InlineData(SlabGround.Waves, 177800, 0), InlineData(SlabGround.Field, 177800, 0)]
     public void Thin_things_do_not_fall_through(SlabGround ground, int seed, int relaxations)
     {
         using var world = new ClusterWorld(isCluster: true);
