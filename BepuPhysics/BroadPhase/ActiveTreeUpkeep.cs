@@ -20,12 +20,13 @@ struct ActiveTreeUpkeep
     int additions;
     float costWhenBuilt;
     bool isBuildDue;
+    bool isTidy;
 
     /// <summary>Notes that a leaf came.</summary>
     public void NoteAddition() => ++additions;
 
-    /// <summary>Fits the tree to its leaves, and tidies it.</summary>
-    public void Update(ref Tree tree, BufferPool pool, IThreadDispatcher? dispatcher)
+    /// <summary>Fits the tree to its leaves, or builds it anew.</summary>
+    public void Fit(ref Tree tree, BufferPool pool, IThreadDispatcher? dispatcher)
     {
         // A tree that has just grown by a good part is cheaper to build than to mend: the start of a game, a level that was loaded.
         var hasGrown = StaticTreeUpkeep.IsGoodPart(additions, tree.LeafCount);
@@ -35,9 +36,26 @@ struct ActiveTreeUpkeep
             tree.BinnedBuild(pool, dispatcher);
             costWhenBuilt = tree.MeasureRelativeCost();
             isBuildDue = false;
+            isTidy = true;
             return;
         }
         tree.Refit(pool, dispatcher);
-        isBuildDue = tree.Refine(pool, dispatcher) >= LargeGain && tree.MeasureRelativeCost() > TolerableCost * costWhenBuilt;
+        isTidy = false;
+    }
+
+    /// <summary>Whether <see cref="Tidy"/> needs no more of a pool than it gives back.</summary>
+    public readonly bool TidiesInPlace(in Tree tree) => !isTidy && tree.IsDepthFirst;
+
+    /// <summary>Refines a slice of the tree, once after each time that it was fitted.</summary>
+    /// <param name="tree">The tree.</param>
+    /// <param name="pool">That of the tree's memory; any where the tree is tidied in place.</param>
+    public void Tidy(ref Tree tree, BufferPool pool)
+    {
+        if (isTidy)
+            return;
+        isTidy = true;
+        if (!tree.IsDepthFirst)
+            tree.Refit(pool);
+        isBuildDue = tree.RefineUnsorted(pool) >= LargeGain && tree.MeasureRelativeCost() > TolerableCost * costWhenBuilt;
     }
 }

@@ -183,6 +183,7 @@ public sealed unsafe partial class BroadPhase : IDisposable
     {
         using var change = world.Change("BroadPhase.Update");
         UpdateTrees(threadDispatcher);
+        TidyActiveTree(Pool);
     }
 
     /// <summary>Whether something is left to do where no body is awake.</summary>
@@ -190,9 +191,15 @@ public sealed unsafe partial class BroadPhase : IDisposable
 
     internal void UpdateTrees(IThreadDispatcher? dispatcher = null)
     {
-        activeUpkeep.Update(ref ActiveTree, Pool, dispatcher);
+        activeUpkeep.Fit(ref ActiveTree, Pool, dispatcher);
         upkeep.Update(ref StaticTree, Pool, dispatcher);
     }
+
+    /// <summary>Whether another thread may tidy the active tree with memory of its own, while nobody looks at it.</summary>
+    internal bool MayTidyAside => activeUpkeep.TidiesInPlace(ActiveTree);
+
+    /// <summary>Mends a part of the active tree for the steps to come, once after each update. It still fits.</summary>
+    internal void TidyActiveTree(BufferPool pool) => activeUpkeep.Tidy(ref ActiveTree, pool);
 
     /// <summary>Finds all pairs of leaves with overlapping bounds that have an active leaf, on all workers of the dispatcher.</summary>
     /// <param name="handler">Receives the pairs; copied in and copied back, one copy shared by all workers.</param>

@@ -78,7 +78,7 @@ static unsafe class OverlapFinder
             StaticTree = staticTree,
             Runs = runs,
             Pool = pool,
-            PieceCount = PiecesPerWorker * dispatcher.ThreadCount,
+            WorkerCount = dispatcher.ThreadCount,
         };
         try
         {
@@ -98,13 +98,12 @@ static unsafe class OverlapFinder
         public Tree ActiveTree, StaticTree;
         public LeafRuns Runs;
         public BufferPool Pool;
-        public int PieceCount;
+        public int WorkerCount;
         public OverlapPieces Pieces;
 
         public readonly int StageCount => 2;
 
-        // Pairs first: they are the larger pieces.
-        public readonly int GetBlockCount(int stage) => stage == 0 ? 1 + Runs.PartCount : Pieces.Pairs.Count + Pieces.RangeCount;
+        public readonly int GetBlockCount(int stage) => stage == 0 ? 1 + Runs.PartCount : Pieces.Order.Count;
 
         public void Execute(int stage, int block, int workerIndex)
         {
@@ -119,21 +118,22 @@ static unsafe class OverlapFinder
         void Prepare(int block)
         {
             if (block == 0)
-                Pieces = new OverlapPieces(ActiveTree, StaticTree, PieceCount, Pool);
+                Pieces = new OverlapPieces(ActiveTree, StaticTree, PiecesPerWorker * WorkerCount, WorkerCount, Pool);
             else
                 Runs.FillPart(ActiveTree, block - 1);
         }
 
         void Find(int block, int workerIndex)
         {
-            if (block >= Pieces.Pairs.Count)
+            var piece = Pieces.Order[block];
+            if (piece < 0)
             {
-                Pieces.GetRange(block - Pieces.Pairs.Count, out var firstNode, out var endNode);
+                Pieces.GetRange(~piece, out var firstNode, out var endNode);
                 RunTraversal<THandler, ActiveConsumer<THandler>>.FindSelfPairs(
                     ActiveTree, Runs, firstNode, endNode, Pieces.LeafLimit, ref Handler, workerIndex);
                 return;
             }
-            var pair = Pieces.Pairs[block];
+            var pair = Pieces.Pairs[piece];
             if (pair.IsStatic)
                 RunTraversal<THandler, StaticConsumer<THandler>>.FindPairsBelow(
                     ActiveTree, Runs, StaticTree, pair.Children, ref Handler, workerIndex);

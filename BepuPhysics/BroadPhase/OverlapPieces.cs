@@ -17,31 +17,84 @@ unsafe struct OverlapPieces
     /// <summary>Pairs that are pieces of their own.</summary>
     public QuickList<Pair> Pairs;
 
+    /// <summary>
+    /// All pieces as they are to be handed out, a pair by its index, a range by the complement of its own. Of each part of the tree first come the pairs, which
+    /// are larger, and then the ranges.
+    /// </summary>
+    // A worker that begins with the same part in each step finds its bodies, their pairs and their constraints in its own cache; those of one body lie side by
+    // side, and would be taken from one processor to the other where the pairs with the ground were one worker's and those among bodies another's.
+    public QuickList<int> Order;
+
     /// <summary>Nodes of the active tree with more leaves than this are not part of any range: their pairs are in the list.</summary>
     public int LeafLimit { get; }
 
     /// <summary>Number of ranges that the nodes of the active tree are divided into.</summary>
     public int RangeCount { get; }
 
+    // Ranges come last, and there is nothing to be cut for them: short ones let all workers end at the same time.
+    const int RangesPerPiece = 4;
+
     readonly int nodeCount;
 
     /// <summary>Cuts the work into at least about a number of pieces.</summary>
-    public OverlapPieces(in Tree activeTree, in Tree staticTree, int targetCount, BufferPool pool)
+    /// <param name="activeTree">Tree whose leaves are in each pair.</param>
+    /// <param name="staticTree">Tree of what does not move.</param>
+    /// <param name="targetCount">Least number of pieces.</param>
+    /// <param name="workerCount">Number of parts of the active tree, one after the other, of which each worker has one.</param>
+    /// <param name="pool">Memory of the pieces.</param>
+    public OverlapPieces(in Tree activeTree, in Tree staticTree, int targetCount, int workerCount, BufferPool pool)
     {
         nodeCount = activeTree.NodeCount;
-        RangeCount = targetCount < nodeCount ? targetCount : nodeCount;
+        RangeCount = RangesPerPiece * targetCount < nodeCount ? RangesPerPiece * targetCount : nodeCount;
         LeafLimit = activeTree.LeafCount / targetCount;
         if (LeafLimit < 32)
             LeafLimit = 32;
         Pairs = new QuickList<Pair>(4 * targetCount, pool);
         AddLargeNodes(activeTree, pool);
         AddRoots(activeTree, staticTree, pool);
+        Arrange(activeTree, workerCount, pool);
     }
 
     public void Dispose(BufferPool pool)
     {
         if (Pairs.Span.Allocated)
             Pairs.Dispose(pool);
+        if (Order.Span.Allocated)
+            Order.Dispose(pool);
+    }
+
+    void Arrange(in Tree tree, int partCount, BufferPool pool)
+    {
+        var places = stackalloc int[partCount];
+        for (var part = 0; part < partCount; ++part)
+            places[part] = FirstRange(part + 1, partCount) - FirstRange(part, partCount);
+        for (var i = 0; i < Pairs.Count; ++i)
+            ++places[PartOf(Pairs[i], tree, partCount)];
+        var sum = 0;
+        for (var part = 0; part < partCount; ++part)
+        {
+            sum += places[part];
+            places[part] = sum - places[part];
+        }
+        Order = new QuickList<int>(sum, pool) { Count = sum };
+        for (var i = 0; i < Pairs.Count; ++i)
+            Order[places[PartOf(Pairs[i], tree, partCount)]++] = i;
+        for (var part = 0; part < partCount; ++part)
+        {
+            for (var range = FirstRange(part, partCount); range < FirstRange(part + 1, partCount); ++range)
+                Order[places[part]++] = ~range;
+        }
+    }
+
+    readonly int FirstRange(int part, int partCount) => (int)((long)RangeCount * part / partCount);
+
+    readonly int PartOf(in Pair pair, in Tree tree, int partCount) => (int)((long)PlaceOf(pair, tree) * partCount / nodeCount);
+
+    // The node of the larger side, or the one that a lone leaf hangs on.
+    static int PlaceOf(in Pair pair, in Tree tree)
+    {
+        var child = pair.IsStatic || pair.Children.A->LeafCount >= pair.Children.B->LeafCount ? pair.Children.A : pair.Children.B;
+        return child->Index >= 0 ? child->Index : (int)(child - tree.Children) / 2;
     }
 
     /// <summary>Nodes of a range.</summary>

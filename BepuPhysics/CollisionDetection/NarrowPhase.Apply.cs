@@ -118,6 +118,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public Buffer<NoteTarget> Targets;
         /// <summary>Why not all notes were applied. What was, is done to the end.</summary>
         public ExceptionDispatchInfo? Failure;
+        /// <summary>Whether the tree is tidied beside the notes, which are one after another.</summary>
+        public bool Tidies;
+        /// <summary>None without other workers.</summary>
+        public WorkerBufferPools? WorkerPools;
         int appliedCount;
 
         public readonly int StageCount => 4;
@@ -125,7 +129,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public readonly int GetBlockCount(int stage) => stage switch
         {
             LocateStage => BlocksOf(Targets.Allocated ? NarrowPhase.order.Count : 0),
-            ApplyStage => 1,
+            ApplyStage => Tidies ? 2 : 1,
             ChangeStage => NarrowPhase.Simulation.Solver.DeferredBlockCount,
             _ => NarrowPhase.Simulation.Solver.LastBlockCount + BlocksOf(appliedCount),
         };
@@ -140,8 +144,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 case LocateStage:
                     Locate(block);
                     break;
-                case ApplyStage:
+                case ApplyStage when block == 0:
                     Apply();
+                    break;
+                case ApplyStage:
+                    NarrowPhase.Simulation.BroadPhase.TidyActiveTree(WorkerPools?[workerIndex] ?? NarrowPhase.Pool);
                     break;
                 case ChangeStage:
                     NarrowPhase.Simulation.Solver.DoDeferred(block);

@@ -25,6 +25,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         try
         {
             ApplyChanges(dispatcher);
+            // Where there was nothing to be done beside it.
+            Simulation.BroadPhase.TidyActiveTree(Pool);
         }
         finally
         {
@@ -104,7 +106,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         if (!leavesColumns)
             return;
-        var work = new ChangeWork { NarrowPhase = this, ThreadCount = dispatcher?.ThreadCount ?? 1 };
+        var work = new ChangeWork
+        {
+            NarrowPhase = this,
+            ThreadCount = dispatcher?.ThreadCount ?? 1,
+            // Who wakes has been added to it before the last notes.
+            Tidies = appliesNotes && Simulation.BroadPhase.MayTidyAside,
+            WorkerPools = dispatcher?.WorkerPools,
+        };
         try
         {
             if (appliesNotes && order.Count > 0)

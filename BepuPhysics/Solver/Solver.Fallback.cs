@@ -11,6 +11,11 @@ namespace BepuPhysics;
 // The fallback batch: which bodies are split, into how many parts, and where the parts are.
 public sealed unsafe partial class Solver
 {
+    /// <summary>Split bodies per block.</summary>
+    const int SplitBodiesPerBlock = 64;
+    /// <summary>Parts beyond which a split body is a block of its own.</summary>
+    const int HeavyPartCount = 2 * SplitBodiesPerBlock;
+
     // Parts of all split bodies, built anew each step in which there is a fallback batch; costs nothing where there is none.
     struct FallbackParts
     {
@@ -24,7 +29,9 @@ public sealed unsafe partial class Solver
         public Buffer<BodyVelocity> Parts;
         // Where the parts of each type batch begin.
         public QuickList<int> StartOfTypeBatch;
-        // Index in the active set of each split body.
+        // Bodies with very many parts: each is a block of its own, and these come first, so that nobody begins with one when all others have ended.
+        public int HeavyCount;
+        // Index in the active set of each split body, those with very many parts first.
         public QuickList<int> SplitBodies;
         // Parts of split body i are PartsOfBody[StartOfBody[i]] up to StartOfBody[i + 1], in the order of the constraints.
         public QuickList<int> StartOfBody;
@@ -33,9 +40,17 @@ public sealed unsafe partial class Solver
         public readonly SplitBodies For(
             int typeBatch) => new(Shares.Memory + StartOfTypeBatch[typeBatch], Parts.Memory + StartOfTypeBatch[typeBatch]);
 
+        public readonly int JoinBlockCount => HeavyCount + BlockCount(BodyCount - HeavyCount, SplitBodiesPerBlock);
+
+        public readonly void Join(ref BodySet set, int block)
+        {
+            var first = block < HeavyCount ? block : HeavyCount + (block - HeavyCount) * SplitBodiesPerBlock;
+            Join(ref set, first, block < HeavyCount ? first + 1 : Math.Min(first + SplitBodiesPerBlock, BodyCount));
+        }
+
         // The velocity of a body is the mean of its parts by mass, summed in the order of the constraints. What changed is summed, since the
         // parts started from that velocity: so a body that nothing pushes keeps every bit of it.
-        public readonly void Join(ref BodySet set, int start, int end)
+        readonly void Join(ref BodySet set, int start, int end)
         {
             for (int i = start; i < end; ++i)
             {
@@ -64,6 +79,18 @@ public sealed unsafe partial class Solver
             SplitBodies.Dispose(pool);
             StartOfBody.Dispose(pool);
         }
+    }
+
+    // Who is split, and how, has nothing to do with the motion of bodies, nor with what rests on what: another worker finds out beside the latter, which
+    // is the longer part, if it is asked for, else beside the first integration.
+    void AddSplitting(ref SolveWork work)
+    {
+        if (!HasFallback)
+            return;
+        var stage = work.Stages.Count - 1;
+        while (work.Stages[stage].Kind != StageKind.Integrate && work.Stages[stage].Point != SolverPoint.BeforeFirstWarmStart)
+            --stage;
+        work.Stages[stage].Splits = true;
     }
 
     // Whether any constraint is swept over on split bodies.
@@ -97,12 +124,14 @@ public sealed unsafe partial class Solver
         int start = 0;
         for (int i = 0; i < bodies.ActiveSet.Count; ++i)
         {
-            if (split.Counts[i] == 0)
-                continue;
-            next[i] = start;
-            split.SplitBodies.Add(i, pool);
-            split.StartOfBody.Add(start, pool);
-            start += split.Counts[i];
+            if (split.Counts[i] > HeavyPartCount)
+                AddSplitBody(ref split, i, next, ref start);
+        }
+        split.HeavyCount = split.SplitBodies.Count;
+        for (int i = 0; i < bodies.ActiveSet.Count; ++i)
+        {
+            if (split.Counts[i] is > 0 and <= HeavyPartCount)
+                AddSplitBody(ref split, i, next, ref start);
         }
         split.StartOfBody.Add(start, pool);
         split.BodyCount = split.SplitBodies.Count;
@@ -110,6 +139,14 @@ public sealed unsafe partial class Solver
         pool.Return(ref next);
         for (int i = 0; i < split.BodyCount; ++i)
             Normalize(ref split, split.StartOfBody[i], split.StartOfBody[i + 1]);
+    }
+
+    void AddSplitBody(ref FallbackParts split, int body, Buffer<int> next, ref int start)
+    {
+        next[body] = start;
+        split.SplitBodies.Add(body, pool);
+        split.StartOfBody.Add(start, pool);
+        start += split.Counts[body];
     }
 
     // Shares of a body add up to one.

@@ -33,8 +33,6 @@ public sealed unsafe partial class Solver
     const int BodyBundlesPerBlock = 32;
     /// <summary>What the number of blocks of a stage is a multiple of.</summary>
     const int EvenParts = 4;
-    /// <summary>Split bodies per block.</summary>
-    const int SplitBodiesPerBlock = 64;
 
     /// <summary>Stages that run between the others where a scene asks for them, in this order.</summary>
     internal List<ISolverStage> OptionalStages { get; } = [];
@@ -68,6 +66,8 @@ public sealed unsafe partial class Solver
         public int BlockCount;
         // Blocks that are done one after the other, as one: those of small batches in a row. 0 where each is for itself.
         public int BlocksInRow;
+        // Whether the first block finds out who is split.
+        public bool Splits;
         public SolverPoint Point;
         public int Optional;
         // Index in the list of substeps: to copy one for each stage would take longer than to list the stage.
@@ -199,6 +199,7 @@ public sealed unsafe partial class Solver
             if (substep == 0)
             {
                 AddOptional(ref work, optional, SolverPoint.BeforeFirstWarmStart);
+                AddSplitting(ref work);
                 AddOptional(ref work, optional, SolverPoint.AmidBeforeFirstWarmStart);
                 AddOptional(ref work, optional, SolverPoint.LastBeforeFirstWarmStart);
             }
@@ -252,9 +253,6 @@ public sealed unsafe partial class Solver
     void AddIntegration(ref SolveWork work, IntegrationStage stage)
     {
         var blocks = EvenBlockCount(BundleIndexing.GetBundleCount(bodies.Awake.Count), BodyBundlesPerBlock);
-        // Who is split, and how, has nothing to do with the motion of bodies: another worker finds out meanwhile.
-        if (stage == IntegrationStage.First && HasFallback)
-            ++blocks;
         work.Stages.Add(new() { Kind = StageKind.Integrate, Integration = stage, BlockCount = blocks }, pool);
     }
 
@@ -334,9 +332,9 @@ public sealed unsafe partial class Solver
         public readonly int GetBlockCount(int stageIndex)
         {
             ref var stage = ref Stages[stageIndex];
-            return stage.Kind switch
+            return (stage.Splits ? 1 : 0) + stage.Kind switch
             {
-                StageKind.JoinParts => BlockCount(Split.BodyCount, SplitBodiesPerBlock),
+                StageKind.JoinParts => Split.JoinBlockCount,
                 StageKind.Optional => Solver.OptionalStages[stage.Optional].CountBlocks(stage.Point, stage.BlockCount),
                 _ => stage.BlockCount,
             };
@@ -345,14 +343,14 @@ public sealed unsafe partial class Solver
         public void Execute(int stageIndex, int blockIndex, int workerIndex)
         {
             ref var stage = ref Stages[stageIndex];
+            if (stage.Splits && blockIndex-- == 0)
+            {
+                Solver.BuildSplitBodies(ref Split);
+                return;
+            }
             switch (stage.Kind)
             {
                 case StageKind.Integrate:
-                    if (stage.Integration == IntegrationStage.First && Solver.HasFallback && blockIndex-- == 0)
-                    {
-                        Solver.BuildSplitBodies(ref Split);
-                        break;
-                    }
                     var above = stackalloc byte[StackLine.Length];
                     var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(byte))];
                     *line = 0;
@@ -370,8 +368,7 @@ public sealed unsafe partial class Solver
                         RunConstraints(stage, Blocks[i]);
                     break;
                 case StageKind.JoinParts:
-                    var first = blockIndex * SplitBodiesPerBlock;
-                    Split.Join(ref Solver.bodies.Awake, first, Math.Min(first + SplitBodiesPerBlock, Split.BodyCount));
+                    Split.Join(ref Solver.bodies.Awake, blockIndex);
                     break;
                 case StageKind.Optional:
                     Solver.OptionalStages[stage.Optional].Execute(stage.Point, Substeps[stage.Substep], blockIndex, WorkerPools?[workerIndex] ?? Solver.pool);

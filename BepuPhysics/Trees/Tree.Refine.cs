@@ -1,5 +1,6 @@
 using System;
 using BepuUtilities;
+using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Trees;
@@ -38,7 +39,24 @@ public unsafe partial struct Tree
             return 0;
         if (!IsDepthFirst)
             Refit(pool, dispatcher);
+        var gain = RefineSlice(pool, dispatcher);
+        if (!isDepthFirst)
+            SortNodes(pool, dispatcher);
+        return gain;
+    }
 
+    /// <summary>
+    /// As <see cref="Refine(BufferPool)"/>, of a tree in depth-first order, which may end in another one: the next refit brings it back. What it takes of
+    /// the pool it gives back.
+    /// </summary>
+    internal float RefineUnsorted(BufferPool pool)
+    {
+        Check.That(IsDepthFirst);
+        return LeafCount <= 2 || --callsToSkip >= 0 ? 0 : RefineSlice(pool, null);
+    }
+
+    float RefineSlice(BufferPool pool, IThreadDispatcher? dispatcher)
+    {
         // An eighth of a small tree, at most some hundred leaves; more only where the top of a huge tree asks for larger items.
         var topItemLimit = Clamp(LeafCount / 512, 8, MaximumLeafCount);
         var subtreeLimit = Clamp(LeafCount / 8, 32, 512);
@@ -135,8 +153,6 @@ public unsafe partial struct Tree
         var after = MeasureCost(scratch.NodeIndices, itemCount - 1);
         // The subtrees stayed where they were, and are in another order if there was anything to gain.
         isDepthFirst = AreInOrder(scratch.NodeIndices, itemCount - 1);
-        if (!isDepthFirst)
-            SortNodes(pool, dispatcher);
         return RelativeGain(before, after);
     }
 

@@ -16,7 +16,7 @@ public sealed unsafe class ThreadDispatcher : IThreadDispatcher, IDisposable
 {
     readonly Thread[] threads;
     readonly WakeSignal[] starts;
-    readonly WakeSignal completion = new();
+    readonly WakeSignal completion;
     readonly Exception?[] failures;
 
     delegate*<int, IThreadDispatcher, void> functionBody;
@@ -35,10 +35,12 @@ public sealed unsafe class ThreadDispatcher : IThreadDispatcher, IDisposable
         ThreadCount = threadCount;
         WorkerPools = new WorkerBufferPools(threadCount, threadPoolBlockAllocationSize);
         failures = new Exception?[threadCount];
+        var sharesProcessors = threadCount > Environment.ProcessorCount;
+        completion = new WakeSignal(sharesProcessors);
         threads = new Thread[threadCount - 1];
         starts = new WakeSignal[threadCount - 1];
         for (int i = 0; i < threads.Length; ++i)
-            starts[i] = new WakeSignal();
+            starts[i] = new WakeSignal(sharesProcessors);
         for (int i = 0; i < threads.Length; ++i)
         {
             var workerIndex = i + 1;

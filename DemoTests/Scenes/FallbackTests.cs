@@ -6,6 +6,7 @@ using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using Demos.Accuracy;
 using Demos.References;
+using Demos.Stages;
 using Xunit;
 
 namespace DemoTests.Scenes;
@@ -71,6 +72,22 @@ public class FallbackTests
     [InlineData(2)]
     public void Threads_do_not_change_the_hub(int relaxations) =>
         AssertSameForThreads(world => AddHub(world, speed: 1), weightless with { RelaxationCount = relaxations }, 60);
+
+    /// <summary>A body with very many parts is a block of its own, the first one: whoever began with it last would keep all others waiting.</summary>
+    [Fact]
+    public void The_parts_of_a_hub_are_summed_beside_those_of_its_arms()
+    {
+        using var world = new TestWorld(weightless, fallbackBatchThreshold: 4);
+        AddHub(world, speed: 1);
+        var counts = new List<int>();
+        using var dispatcher = new ObservingDispatcher(2, (blocks, _, _) => counts.Add(blocks));
+        world.Simulation.Timestep(1 / 60f, dispatcher);
+        ref var batches = ref world.Solver.ActiveSet.Batches;
+        var parts = batches[Solver.FindBatch(world.Solver.ActiveSet, BatchKind.Fallback)].CountConstraints();
+        Assert.True(parts > 3 * 64, $"{parts} parts");
+        // Of the arms 64 are a block. No other stage has so many.
+        Assert.Equal(2 * world.Solver.SubstepCount, counts.FindAll(blocks => blocks == 1 + (parts + 63) / 64).Count);
+    }
 
     /// <summary>The order in which the batches of a hub are solved is random: each time in the same way.</summary>
     [Fact]
