@@ -2,7 +2,6 @@ using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities;
-using BepuUtilities.Diagnostics;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
@@ -61,20 +60,13 @@ public sealed partial class Simulation
                     simulation.NarrowPhase.Compile(shapeTypes);
                     break;
                 case Integrator:
-                    CompileIntegrator(simulation.PoseIntegrator.GetType());
+                    Solver.CompileFreeFlight();
+                    simulation.PoseIntegrator.Compile();
                     break;
                 default:
                     simulation.Solver.WarmUp(block - FirstConstraintType);
                     break;
             }
-        }
-
-        static void CompileIntegrator(Type integrator)
-        {
-            Solver.CompileFreeFlight();
-            Precompilation.CompileAll(integrator);
-            foreach (var callbacks in integrator.GetGenericArguments())
-                Precompilation.Compile(callbacks);
         }
     }
 }

@@ -22,6 +22,9 @@ public interface IPoseIntegrator
 {
     internal void Initialize(Simulation simulation);
 
+    /// <summary>Compiles what is compiled for the callbacks, without calling them.</summary>
+    internal void Compile();
+
     /// <summary>Saves or restores what the integrator keeps from step to step beside the bodies.</summary>
     internal void CopyState(StateCopy copy);
 

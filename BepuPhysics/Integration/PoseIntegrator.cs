@@ -1,9 +1,9 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using BepuPhysics.Constraints;
 using BepuUtilities;
-using BepuUtilities.Memory;
+using BepuUtilities.Diagnostics;
+using static BepuPhysics.BodyRows;
 
 namespace BepuPhysics;
 
@@ -20,8 +20,6 @@ namespace BepuPhysics;
 // sign for many substeps on end. What is lost is kept and added back, unless the velocity was written since the step that lost it.
 public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TCallbacks : struct, IPoseIntegratorCallbacks
 {
-    const int FloatsPerRow = 8;
-    const int FloatsPerMotion = 16;
     // Velocity over change of velocity from which on rounding takes up to 6e-5 of the change.
     const float FastRatio = 1024;
     // Half of the distance from one float to the next is the most that rounding takes, 2^-24 of the sum; the sum may be half of what is compared.
@@ -43,6 +41,19 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         Callbacks.Initialize(simulation);
     }
 
+    void IPoseIntegrator.Compile()
+    {
+        var type = typeof(PoseIntegrator<TCallbacks>);
+        Precompilation.CompileAll(type);
+        Precompilation.Compile(typeof(TCallbacks));
+        foreach (var rows in new[] { typeof(RowRun), typeof(RowOffsets) })
+        {
+            Precompilation.Compile(type, nameof(IntegrateBundle), rows);
+            Precompilation.Compile(type, nameof(KeepLostVelocity), rows);
+            Precompilation.Compile(type, nameof(WriteMovedInertia), rows);
+        }
+    }
+
     void IPoseIntegrator.CopyState(StateCopy copy) => copy.Value(ref keepsLostVelocity);
 
     void IPoseIntegrator.Prepare(float dt)
@@ -62,13 +73,22 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         IntegrationStage stage, float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex)
     {
         ref var set = ref bodies.Awake;
-        var motions = (float*)set.MotionStates.Memory;
-        var localInertias = (float*)set.LocalInertias.Memory;
-        var worldInertias = (float*)set.WorldInertias.Memory;
-        var displacements = (float*)set.Displacements.Memory;
-        var origins = (float*)set.Origins.Memory;
-        var stiffness = set.Stiffness;
-        var wideDt = new Vector<float>(dt);
+        Pass pass = new()
+        {
+            Motions = (float*)set.MotionStates.Memory,
+            LocalInertias = (float*)set.LocalInertias.Memory,
+            WorldInertias = (float*)set.WorldInertias.Memory,
+            Displacements = (float*)set.Displacements.Memory,
+            Origins = (float*)set.Origins.Memory,
+            Stiffness = (float*)set.Stiffness.Memory,
+            Dt = dt,
+            WorkerIndex = workerIndex,
+            Stage = stage,
+        };
+        // Frames of what is called for each bundle begin with a line.
+        var above = stackalloc byte[StackLine.Length];
+        var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(byte))];
+        *line = 0;
         for (int bundle = startBundle; bundle < endBundle; ++bundle)
         {
             var indices = Indices(bundle, set.Count, out var exists);
@@ -79,45 +99,66 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 if (!freeBodies.TryRemove(bundle, ref indices, ref exists))
                     continue;
             }
-            var rows = new RowOffsets(indices);
-            ReadBodies(motions, localInertias, rows, out var pose, out var velocity, out var localInertia);
-            if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
-                StopAndRead(unsound, indices, ref pose, ref velocity);
-            if (stage == IntegrationStage.First)
-                AddLinkInertia(Begin(origins, displacements, rows, pose.Position, velocity.Linear), ref localInertia.InverseInertiaTensor);
-            else if (stage != IntegrationStage.Velocities)
-                MovePoses(motions, origins, displacements, indices, rows, wideDt, velocity.Linear, ref localInertia, ref pose, ref velocity);
-            else if (stiffness.Allocated)
-                AddLinkInertia(ReadSecondNeighbour(displacements, rows), ref localInertia.InverseInertiaTensor);
-            if (stage is IntegrationStage.Last or IntegrationStage.Poses)
-            {
-                // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
-                if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
-                    StopAndRead(unsound, indices, ref pose, ref velocity);
-                WriteVelocity(motions, rows, velocity);
-                if (keepsLostVelocity)
-                    RememberVelocity(origins, rows, velocity.Linear);
-                if (stage == IntegrationStage.Poses)
-                    WriteMovedInertia(rows, pose.Orientation, velocity.Angular, wideDt, localInertia);
-                continue;
-            }
-            var before = velocity.Linear;
-            IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, wideDt, ref velocity);
-            var fast = IsFast(before, velocity.Linear);
-            if (Vector.EqualsAny(fast, new Vector<int>(-1)))
-                KeepLostVelocity(origins, rows, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
-            var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
-            // The warm start that follows the first pass gathers the stiffness of this step.
-            if (stiffness.Allocated)
-                Stiffen(stiffness, rows, wideDt, stage == IntegrationStage.First, ref worldInertia, ref velocity.Angular);
-            if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
-            {
-                StopAndRead(unsound, indices, ref pose, ref velocity);
-                worldInertia = Symmetric3x3Wide.Select(unsound, default, worldInertia);
-            }
-            WriteVelocity(motions, rows, velocity);
-            WriteWorldInertia(worldInertias, rows, worldInertia, localInertia.InverseMass);
+            if (Vector.EqualsAll(exists, Vector<int>.AllBitsSet))
+                IntegrateBundle(pass, new RowRun(bundle * Vector<int>.Count), Vector<int>.AllBitsSet);
+            else
+                IntegrateBundle(pass, new RowOffsets(indices), exists);
         }
+    }
+
+    // What all bundles of a pass have in common.
+    struct Pass
+    {
+        public float* Motions, LocalInertias, WorldInertias, Displacements, Origins, Stiffness;
+        public float Dt;
+        public int WorkerIndex;
+        public IntegrationStage Stage;
+    }
+
+    // Bodies of nearly all bundles lie in order, all of them: compiled for these, no row has to be looked for.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void IntegrateBundle<TRows>(in Pass pass, in TRows rows, Vector<int> exists) where TRows : unmanaged, IRowPlaces<TRows>
+    {
+        var stage = pass.Stage;
+        var dt = new Vector<float>(pass.Dt);
+        var indices = TRows.Indices(rows);
+        ReadBodies(pass.Motions, pass.LocalInertias, rows, out var pose, out var velocity, out var localInertia);
+        if (Soundness.IsNot(Soundness.OfBodies(pose, velocity), exists, out var unsound))
+            StopAndRead(unsound, indices, ref pose, ref velocity);
+        if (stage == IntegrationStage.First)
+            AddLinkInertia(Begin(pass.Origins, pass.Displacements, rows, pose.Position, velocity.Linear), ref localInertia.InverseInertiaTensor);
+        else if (stage != IntegrationStage.Velocities)
+            MovePoses(pass.Motions, pass.Origins, pass.Displacements, indices, rows, dt, velocity.Linear, ref localInertia, ref pose, ref velocity);
+        else if (pass.Stiffness != null)
+            AddLinkInertia(ReadSecondNeighbour(pass.Displacements, rows), ref localInertia.InverseInertiaTensor);
+        if (stage is IntegrationStage.Last or IntegrationStage.Poses)
+        {
+            // The gyroscopic motion changed the angular velocity along with the orientation; of great ones nothing may be left.
+            if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+                StopAndRead(unsound, indices, ref pose, ref velocity);
+            WriteVelocity(pass.Motions, rows, velocity);
+            if (keepsLostVelocity)
+                RememberVelocity(pass.Origins, rows, velocity.Linear);
+            if (stage == IntegrationStage.Poses)
+                WriteMovedInertia(rows, pose.Orientation, velocity.Angular, dt, localInertia);
+            return;
+        }
+        var before = velocity.Linear;
+        IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, pass.WorkerIndex, dt, ref velocity);
+        var fast = IsFast(before, velocity.Linear);
+        if (Vector.EqualsAny(fast, new Vector<int>(-1)))
+            KeepLostVelocity(pass.Origins, rows, indices, fast, pose, localInertia, pass.WorkerIndex, dt, before, ref velocity.Linear);
+        var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
+        // The warm start that follows the first pass gathers the stiffness of this step.
+        if (pass.Stiffness != null)
+            Stiffen(pass.Stiffness, rows, dt, stage == IntegrationStage.First, ref worldInertia, ref velocity.Angular);
+        if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
+        {
+            StopAndRead(unsound, indices, ref pose, ref velocity);
+            worldInertia = Symmetric3x3Wide.Select(unsound, default, worldInertia);
+        }
+        WriteVelocity(pass.Motions, rows, velocity);
+        WriteWorldInertia(pass.WorldInertias, rows, worldInertia, localInertia.InverseMass);
     }
 
     // The mean of the velocities at both ends is that of the whole time where the acceleration is the same all along: a parabola, whatever dt is.
@@ -167,7 +208,16 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         ref var set = ref bodies.Awake;
         var indices = Indices(bundle, set.Count, out var exists);
-        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out pose, out velocity, out var localInertia);
+        BodyInertiaWide localInertia;
+        if (Vector.EqualsAll(exists, Vector<int>.AllBitsSet))
+        {
+            RowRun run = new(bundle * Vector<int>.Count);
+            ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, run, out pose, out velocity, out localInertia);
+        }
+        else
+        {
+            ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new RowOffsets(indices), out pose, out velocity, out localInertia);
+        }
         var sound = Soundness.OfBodies(pose, velocity, UnitTolerance.Combined) & Soundness.OfInertias(localInertia);
         if (Soundness.IsNot(sound, exists, out var unsound))
             StraightenOrStop(unsound, indices, localInertia, ref pose, ref velocity);
@@ -191,7 +241,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         quarantine.Straighten(lanes, indices);
         ref var set = ref bodies.Awake;
-        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out pose, out velocity, out _);
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new RowOffsets(indices), out pose, out velocity, out _);
         if (Soundness.IsNot(Soundness.OfBodies(pose, velocity) & Soundness.OfInertias(localInertia), lanes, out var unsound))
             StopAndRead(unsound, indices, ref pose, ref velocity);
     }
@@ -202,7 +252,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     {
         quarantine.Stop(lanes, indices);
         ref var set = ref bodies.Awake;
-        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new(indices), out var stoppedPose, out _, out _);
+        ReadBodies((float*)set.MotionStates.Memory, (float*)set.LocalInertias.Memory, new RowOffsets(indices), out var stoppedPose, out _, out _);
         pose.Position = Vector3Wide.Select(lanes, stoppedPose.Position, pose.Position);
         pose.Orientation = QuaternionWide.Select(lanes, stoppedPose.Orientation, pose.Orientation);
         velocity.Linear = Vector3Wide.Mask(~lanes, velocity.Linear);
@@ -217,46 +267,17 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         return Vector.ConditionalSelect(exists, indices, new Vector<int>(-1));
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ReadBodies(
-        float* motions, float* localInertias, in RowOffsets rows, out RigidPoseWide pose, out BodyVelocityWide velocity,
-        out BodyInertiaWide localInertia)
-    {
-        var row = Transpose.Gather(motions, FloatsPerMotion, rows);
-        pose.Orientation = new(row.R0, row.R1, row.R2, row.R3);
-        pose.Position = new(row.R4, row.R5, row.R6);
-        row = Transpose.Gather(motions + FloatsPerRow, FloatsPerMotion, rows);
-        velocity.Linear = new(row.R0, row.R1, row.R2);
-        velocity.Angular = new(row.R4, row.R5, row.R6);
-        row = Transpose.Gather(localInertias, FloatsPerRow, rows);
-        localInertia.InverseInertiaTensor = new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5);
-        localInertia.InverseMass = row.R6;
-    }
-
     // A relaxation with inertias from before the turn would give energy to bodies that spin. Of no concern to other stages, and out of their way.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void WriteMovedInertia(in RowOffsets rows, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
+    void WriteMovedInertia<TRows>(in TRows rows, in QuaternionWide orientation, Vector3Wide angular, Vector<float> dt, in BodyInertiaWide localInertia)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         ref var set = ref bodies.Awake;
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         // The momentum stays as the solve has left it.
         if (set.Stiffness.Allocated)
-            Stiffen(set.Stiffness, rows, dt, false, ref worldInertia, ref angular);
+            Stiffen((float*)set.Stiffness.Memory, rows, dt, false, ref worldInertia, ref angular);
         WriteWorldInertia((float*)set.WorldInertias.Memory, rows, worldInertia, localInertia.InverseMass);
-    }
-
-    // Most bodies hang in nothing, or bear little: then there is nothing to transpose, and nothing to clear.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void Stiffen(
-        in Buffer<BodyInertia> stiffness, in RowOffsets rows, Vector<float> dt, bool clears, ref Symmetric3x3Wide worldInertia, ref Vector3Wide angular)
-    {
-        var memory = (float*)stiffness.Memory;
-        if (Transpose.AreZero(memory, rows))
-            return;
-        var row = Transpose.Gather(memory, FloatsPerRow, rows);
-        GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), dt, ref worldInertia, ref angular);
-        if (clears)
-            Transpose.Scatter(default, memory, FloatsPerRow, rows);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -268,55 +289,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
             Vector.Equals(i.ZX, zero) & Vector.Equals(i.ZY, zero) & Vector.Equals(i.ZZ, zero);
     }
 
-    // A position that is not what the last step made of its origin and displacement was written since: nothing is left over from then. So it is
-    // with a velocity that is not the one that the last step ended with. What is returned of the last step is what a second neighbour is worth.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static Vector<float> Begin(float* origins, float* displacements, in RowOffsets rows, in Vector3Wide position, in Vector3Wide velocity)
-    {
-        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
-        var row = Transpose.Gather(displacements, FloatsPerRow, rows);
-        var kept = Vector.Equals(origin.R0 + row.R0, position.X) & Vector.Equals(origin.R1 + row.R1, position.Y) &
-            Vector.Equals(origin.R2 + row.R2, position.Z);
-        var keptVelocity = kept & Vector.Equals(origin.R3, velocity.X) & Vector.Equals(origin.R7, velocity.Y) & Vector.Equals(row.R3, velocity.Z);
-        Rows8 start = default;
-        start.R0 = Wide.Mask(kept, LeftOver(origin.R0, row.R0, position.X));
-        start.R1 = Wide.Mask(kept, LeftOver(origin.R1, row.R1, position.Y));
-        start.R2 = Wide.Mask(kept, LeftOver(origin.R2, row.R2, position.Z));
-        Transpose.Scatter(start, displacements, FloatsPerRow, rows);
-        origin.R0 = position.X;
-        origin.R1 = position.Y;
-        origin.R2 = position.Z;
-        origin.R4 = Wide.Mask(keptVelocity, origin.R4);
-        origin.R5 = Wide.Mask(keptVelocity, origin.R5);
-        origin.R6 = Wide.Mask(keptVelocity, origin.R6);
-        Transpose.Scatter(origin, origins, FloatsPerRow, rows);
-        return row.R7;
-    }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static Vector<float> ReadSecondNeighbour(float* displacements, in RowOffsets rows) =>
-        Transpose.GatherHalf(displacements + Transpose.FloatsPerHalf, FloatsPerRow, rows).W;
-
-    // The inertia that a body has in all of the step but for its bounds.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void AddLinkInertia(Vector<float> second, ref Symmetric3x3Wide inverseInertia)
-    {
-        if (!Vector.EqualsAll(second, Vector<float>.Zero))
-            LinkInertia.Apply(second, ref inverseInertia);
-    }
-
-    // Exact by Dekker's two-sum, whichever of the two is larger: what a + b lost by rounding to sum.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> LeftOver(Vector<float> a, Vector<float> b, Vector<float> sum)
-    {
-        var second = sum - a;
-        return (a - (sum - second)) + (b - second);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void MovePoses(
-        float* motions, float* origins, float* displacements, Vector<int> indices, in RowOffsets rows, Vector<float> dt,
+    void MovePoses<TRows>(
+        float* motions, float* origins, float* displacements, Vector<int> indices, in TRows rows, Vector<float> dt,
         in Vector3Wide meanLinear, ref BodyInertiaWide localInertia, ref RigidPoseWide pose, ref BodyVelocityWide velocity)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var row = Transpose.Gather(displacements, FloatsPerRow, rows);
         var translation = new Vector3Wide(row.R0, row.R1, row.R2) + meanLinear * dt;
@@ -387,9 +364,10 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     //
     // Runs where some lane is fast, and must not show it to the others: their rows stay as they are.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void KeepLostVelocity(
-        float* origins, in RowOffsets rows, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
+    void KeepLostVelocity<TRows>(
+        float* origins, in TRows rows, Vector<int> indices, Vector<int> fast, in RigidPoseWide pose, in BodyInertiaWide localInertia, int workerIndex,
         Vector<float> dt, in Vector3Wide before, ref Vector3Wide after)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         keepsLostVelocity = true;
         BodyVelocityWide added = default;
@@ -411,45 +389,4 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
     static Vector<float> Plausible(Vector<float> lost, Vector<float> velocity) => Wide.Mask(
         Vector.LessThanOrEqual(Vector.Abs(lost), Vector.Abs(velocity) * new Vector<float>(GreatestLoss)), lost);
 
-    // By this velocity the next step sees whether it was written in between. Its third component went along with the displacement.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void RememberVelocity(float* origins, in RowOffsets rows, in Vector3Wide velocity)
-    {
-        var origin = Transpose.Gather(origins, FloatsPerRow, rows);
-        var zero = Vector<float>.Zero;
-        var lostNothing = Vector.Equals(origin.R4, zero) & Vector.Equals(origin.R5, zero) & Vector.Equals(origin.R6, zero);
-        origin.R3 = Vector.ConditionalSelect(lostNothing, origin.R3, velocity.X);
-        origin.R7 = Vector.ConditionalSelect(lostNothing, origin.R7, velocity.Y);
-        Transpose.Scatter(origin, origins, FloatsPerRow, rows);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteVelocity(float* motions, in RowOffsets rows, in BodyVelocityWide velocity)
-    {
-        Rows8 row;
-        row.R0 = velocity.Linear.X;
-        row.R1 = velocity.Linear.Y;
-        row.R2 = velocity.Linear.Z;
-        row.R3 = Vector<float>.Zero;
-        row.R4 = velocity.Angular.X;
-        row.R5 = velocity.Angular.Y;
-        row.R6 = velocity.Angular.Z;
-        row.R7 = Vector<float>.Zero;
-        Transpose.Scatter(row, motions + FloatsPerRow, FloatsPerMotion, rows);
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void WriteWorldInertia(float* worldInertias, in RowOffsets rows, in Symmetric3x3Wide world, Vector<float> inverseMass)
-    {
-        Rows8 row;
-        row.R0 = world.XX;
-        row.R1 = world.YX;
-        row.R2 = world.YY;
-        row.R3 = world.ZX;
-        row.R4 = world.ZY;
-        row.R5 = world.ZZ;
-        row.R6 = inverseMass;
-        row.R7 = Vector<float>.Zero;
-        Transpose.Scatter(row, worldInertias, FloatsPerRow, rows);
-    }
 }

@@ -14,10 +14,11 @@ public static unsafe partial class Transpose
 
     /// <summary>
     /// Reads four floats per lane, at <c>rows + index * strideInFloats</c>: the first half of its row, or the second where the pointer is that much
-    /// further. The base must be aligned to 16 bytes; all else is as for <see cref="Gather(float*, int, in RowOffsets)"/>.
+    /// further. The base must be aligned to 16 bytes; all else is as for <see cref="Gather{TRows}(float*, int, in TRows)"/>.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Vector4Wide GatherHalf(float* rows, int strideInFloats, in RowOffsets offsets)
+    public static Vector4Wide GatherHalf<TRows>(float* rows, int strideInFloats, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Check.That(((nuint)rows & 15) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
@@ -26,14 +27,15 @@ public static unsafe partial class Transpose
             return GatherHalf4(rows, strideInFloats, offsets);
         if (Vector<float>.Count == 16 && Avx512F.IsSupported)
             return GatherHalf16(rows, strideInFloats, offsets);
-        return GatherHalfByLanes(rows, strideInFloats, offsets.Indices);
+        return GatherHalfByLanes(rows, strideInFloats, TRows.Indices(offsets));
     }
 
     /// <summary>
-    /// Writes four floats per lane; addresses as for <see cref="GatherHalf"/>, lanes as for <see cref="Scatter(in Rows8, float*, int, in RowOffsets)"/>.
+    /// Writes four floats per lane; addresses as for <see cref="GatherHalf"/>, lanes as for <see cref="Scatter{TRows}(in Rows8, float*, int, in TRows)"/>.
     /// </summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void ScatterHalf(in Vector4Wide values, float* rows, int strideInFloats, in RowOffsets offsets)
+    public static void ScatterHalf<TRows>(in Vector4Wide values, float* rows, int strideInFloats, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Check.That(((nuint)rows & 15) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
@@ -43,7 +45,7 @@ public static unsafe partial class Transpose
         else if (Vector<float>.Count == 16 && Avx512F.IsSupported)
             ScatterHalf16(values, rows, strideInFloats, offsets);
         else
-            ScatterHalfByLanes(values, rows, strideInFloats, offsets.Indices);
+            ScatterHalfByLanes(values, rows, strideInFloats, TRows.Indices(offsets));
     }
 
     /// <summary>The definition of gathers of halves, one float at a time.</summary>
@@ -75,8 +77,9 @@ public static unsafe partial class Transpose
 
     // The halves of two rows side by side. The second is read into its place: no shuffle puts them together.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector256<float> Pair(float* rows, int stride, in RowOffsets offsets, int low) => Vector256.Create(
-        Vector128.LoadAligned(offsets.Row(rows, stride, low)), Vector128.LoadAligned(offsets.Row(rows, stride, low + 4)));
+    static Vector256<float> Pair<TRows>(float* rows, int stride, in TRows offsets, int low)
+        where TRows : unmanaged, IRowPlaces<TRows> => Vector256.Create(
+        Vector128.LoadAligned(TRows.Row(offsets, rows, stride, low)), Vector128.LoadAligned(TRows.Row(offsets, rows, stride, low + 4)));
 
     // In each part of four lanes, four rows of four floats exchanged for four columns. Its own inverse.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -106,18 +109,20 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector4Wide GatherHalf4(float* rows, int stride, in RowOffsets offsets)
+    static Vector4Wide GatherHalf4<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
-        var r0 = Vector128.LoadAligned(offsets.Row(rows, stride, 0));
-        var r1 = Vector128.LoadAligned(offsets.Row(rows, stride, 1));
-        var r2 = Vector128.LoadAligned(offsets.Row(rows, stride, 2));
-        var r3 = Vector128.LoadAligned(offsets.Row(rows, stride, 3));
+        var r0 = Vector128.LoadAligned(TRows.Row(offsets, rows, stride, 0));
+        var r1 = Vector128.LoadAligned(TRows.Row(offsets, rows, stride, 1));
+        var r2 = Vector128.LoadAligned(TRows.Row(offsets, rows, stride, 2));
+        var r3 = Vector128.LoadAligned(TRows.Row(offsets, rows, stride, 3));
         Transpose4(ref r0, ref r1, ref r2, ref r3);
         return new(r0.AsVector(), r1.AsVector(), r2.AsVector(), r3.AsVector());
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector4Wide GatherHalf8(float* rows, int stride, in RowOffsets offsets)
+    static Vector4Wide GatherHalf8<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var r0 = Pair(rows, stride, offsets, 0);
         var r1 = Pair(rows, stride, offsets, 1);
@@ -128,7 +133,8 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector4Wide GatherHalf16(float* rows, int stride, in RowOffsets offsets)
+    static Vector4Wide GatherHalf16<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var r0 = Vector512.Create(Pair(rows, stride, offsets, 0), Pair(rows, stride, offsets, 8));
         var r1 = Vector512.Create(Pair(rows, stride, offsets, 1), Pair(rows, stride, offsets, 9));
@@ -139,38 +145,41 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ScatterHalf4(in Vector4Wide values, float* rows, int stride, in RowOffsets offsets)
+    static void ScatterHalf4<TRows>(in Vector4Wide values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var r0 = values.X.AsVector128();
         var r1 = values.Y.AsVector128();
         var r2 = values.Z.AsVector128();
         var r3 = values.W.AsVector128();
         Transpose4(ref r0, ref r1, ref r2, ref r3);
-        StoreFour(r0, r1, r2, r3, rows, stride, offsets, offsets.Unwritten, 0);
+        StoreFour(r0, r1, r2, r3, rows, stride, offsets, TRows.Unwritten(offsets), 0);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ScatterHalf8(in Vector4Wide values, float* rows, int stride, in RowOffsets offsets)
+    static void ScatterHalf8<TRows>(in Vector4Wide values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var r0 = values.X.AsVector256();
         var r1 = values.Y.AsVector256();
         var r2 = values.Z.AsVector256();
         var r3 = values.W.AsVector256();
         Transpose4(ref r0, ref r1, ref r2, ref r3);
-        var unwritten = offsets.Unwritten;
+        var unwritten = TRows.Unwritten(offsets);
         StoreFour(r0.GetLower(), r1.GetLower(), r2.GetLower(), r3.GetLower(), rows, stride, offsets, unwritten, 0);
         StoreFour(r0.GetUpper(), r1.GetUpper(), r2.GetUpper(), r3.GetUpper(), rows, stride, offsets, unwritten, 4);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ScatterHalf16(in Vector4Wide values, float* rows, int stride, in RowOffsets offsets)
+    static void ScatterHalf16<TRows>(in Vector4Wide values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         var r0 = values.X.AsVector512();
         var r1 = values.Y.AsVector512();
         var r2 = values.Z.AsVector512();
         var r3 = values.W.AsVector512();
         Transpose4(ref r0, ref r1, ref r2, ref r3);
-        var unwritten = offsets.Unwritten;
+        var unwritten = TRows.Unwritten(offsets);
         StoreFour(
             r0.GetLower().GetLower(), r1.GetLower().GetLower(), r2.GetLower().GetLower(), r3.GetLower().GetLower(), rows, stride, offsets, unwritten, 0);
         StoreFour(
@@ -183,21 +192,22 @@ public static unsafe partial class Transpose
 
     // Nearly all bundles write all lanes, and need no question for each.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void StoreFour(
-        Vector128<float> r0, Vector128<float> r1, Vector128<float> r2, Vector128<float> r3, float* rows, int stride, in RowOffsets offsets,
+    static void StoreFour<TRows>(
+        Vector128<float> r0, Vector128<float> r1, Vector128<float> r2, Vector128<float> r3, float* rows, int stride, in TRows offsets,
         uint unwritten, int first)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         if ((unwritten >> first & 15) == 0)
         {
-            r0.StoreAligned(offsets.Row(rows, stride, first));
-            r1.StoreAligned(offsets.Row(rows, stride, first + 1));
-            r2.StoreAligned(offsets.Row(rows, stride, first + 2));
-            r3.StoreAligned(offsets.Row(rows, stride, first + 3));
+            r0.StoreAligned(TRows.Row(offsets, rows, stride, first));
+            r1.StoreAligned(TRows.Row(offsets, rows, stride, first + 1));
+            r2.StoreAligned(TRows.Row(offsets, rows, stride, first + 2));
+            r3.StoreAligned(TRows.Row(offsets, rows, stride, first + 3));
             return;
         }
-        if ((unwritten & 1u << first) == 0) r0.StoreAligned(offsets.Row(rows, stride, first));
-        if ((unwritten & 2u << first) == 0) r1.StoreAligned(offsets.Row(rows, stride, first + 1));
-        if ((unwritten & 4u << first) == 0) r2.StoreAligned(offsets.Row(rows, stride, first + 2));
-        if ((unwritten & 8u << first) == 0) r3.StoreAligned(offsets.Row(rows, stride, first + 3));
+        if ((unwritten & 1u << first) == 0) r0.StoreAligned(TRows.Row(offsets, rows, stride, first));
+        if ((unwritten & 2u << first) == 0) r1.StoreAligned(TRows.Row(offsets, rows, stride, first + 1));
+        if ((unwritten & 4u << first) == 0) r2.StoreAligned(TRows.Row(offsets, rows, stride, first + 2));
+        if ((unwritten & 8u << first) == 0) r3.StoreAligned(TRows.Row(offsets, rows, stride, first + 3));
     }
 }

@@ -43,7 +43,8 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather8(float* rows, int stride, in RowOffsets offsets)
+    static Rows8 Gather8<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         GatherEight(rows, stride, offsets, 0, out var r0, out var r1, out var r2, out var r3, out var r4, out var r5, out var r6, out var r7);
         Rows8 result;
@@ -59,14 +60,16 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter8(in Rows8 values, float* rows, int stride, in RowOffsets offsets) => ScatterEight(
+    static void Scatter8<TRows>(in Rows8 values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows> => ScatterEight(
         values.R0.AsVector256(), values.R1.AsVector256(), values.R2.AsVector256(), values.R3.AsVector256(),
         values.R4.AsVector256(), values.R5.AsVector256(), values.R6.AsVector256(), values.R7.AsVector256(),
-        rows, stride, offsets, offsets.Unwritten, 0);
+        rows, stride, offsets, TRows.Unwritten(offsets), 0);
 
     // Sixteen lanes: the two halves are eight lanes each.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather16(float* rows, int stride, in RowOffsets offsets)
+    static Rows8 Gather16<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         GatherEight(rows, stride, offsets, 0,
             out var a0, out var a1, out var a2, out var a3, out var a4, out var a5, out var a6, out var a7);
@@ -86,26 +89,28 @@ public static unsafe partial class Transpose
 
     /// <summary>Eight lanes, or half of sixteen.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void GatherEight(
-        float* rows, int stride, in RowOffsets offsets, int first,
+    static void GatherEight<TRows>(
+        float* rows, int stride, in TRows offsets, int first,
         out Vector256<float> r0, out Vector256<float> r1, out Vector256<float> r2, out Vector256<float> r3,
         out Vector256<float> r4, out Vector256<float> r5, out Vector256<float> r6, out Vector256<float> r7)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
-        r0 = Vector256.LoadAligned(offsets.Row(rows, stride, first));
-        r1 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 1));
-        r2 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 2));
-        r3 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 3));
-        r4 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 4));
-        r5 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 5));
-        r6 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 6));
-        r7 = Vector256.LoadAligned(offsets.Row(rows, stride, first + 7));
+        r0 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first));
+        r1 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 1));
+        r2 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 2));
+        r3 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 3));
+        r4 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 4));
+        r5 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 5));
+        r6 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 6));
+        r7 = Vector256.LoadAligned(TRows.Row(offsets, rows, stride, first + 7));
         Transpose8(ref r0, ref r1, ref r2, ref r3, ref r4, ref r5, ref r6, ref r7);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter16(in Rows8 values, float* rows, int stride, in RowOffsets offsets)
+    static void Scatter16<TRows>(in Rows8 values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
-        var unwritten = offsets.Unwritten;
+        var unwritten = TRows.Unwritten(offsets);
         ScatterEight(
             values.R0.AsVector512().GetLower(), values.R1.AsVector512().GetLower(), values.R2.AsVector512().GetLower(), values.R3.AsVector512().GetLower(),
             values.R4.AsVector512().GetLower(), values.R5.AsVector512().GetLower(), values.R6.AsVector512().GetLower(), values.R7.AsVector512().GetLower(),
@@ -118,32 +123,33 @@ public static unsafe partial class Transpose
 
     /// <summary>Eight lanes, or half of sixteen. Nearly all bundles write all lanes, and need no question for each.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void ScatterEight(
+    static void ScatterEight<TRows>(
         Vector256<float> r0, Vector256<float> r1, Vector256<float> r2, Vector256<float> r3,
         Vector256<float> r4, Vector256<float> r5, Vector256<float> r6, Vector256<float> r7,
-        float* rows, int stride, in RowOffsets offsets, uint unwritten, int first)
+        float* rows, int stride, in TRows offsets, uint unwritten, int first)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Transpose8(ref r0, ref r1, ref r2, ref r3, ref r4, ref r5, ref r6, ref r7);
         if ((unwritten & 0xFF) == 0)
         {
-            r0.StoreAligned(offsets.Row(rows, stride, first));
-            r1.StoreAligned(offsets.Row(rows, stride, first + 1));
-            r2.StoreAligned(offsets.Row(rows, stride, first + 2));
-            r3.StoreAligned(offsets.Row(rows, stride, first + 3));
-            r4.StoreAligned(offsets.Row(rows, stride, first + 4));
-            r5.StoreAligned(offsets.Row(rows, stride, first + 5));
-            r6.StoreAligned(offsets.Row(rows, stride, first + 6));
-            r7.StoreAligned(offsets.Row(rows, stride, first + 7));
+            r0.StoreAligned(TRows.Row(offsets, rows, stride, first));
+            r1.StoreAligned(TRows.Row(offsets, rows, stride, first + 1));
+            r2.StoreAligned(TRows.Row(offsets, rows, stride, first + 2));
+            r3.StoreAligned(TRows.Row(offsets, rows, stride, first + 3));
+            r4.StoreAligned(TRows.Row(offsets, rows, stride, first + 4));
+            r5.StoreAligned(TRows.Row(offsets, rows, stride, first + 5));
+            r6.StoreAligned(TRows.Row(offsets, rows, stride, first + 6));
+            r7.StoreAligned(TRows.Row(offsets, rows, stride, first + 7));
             return;
         }
-        if ((unwritten & 1) == 0) r0.StoreAligned(offsets.Row(rows, stride, first));
-        if ((unwritten & 2) == 0) r1.StoreAligned(offsets.Row(rows, stride, first + 1));
-        if ((unwritten & 4) == 0) r2.StoreAligned(offsets.Row(rows, stride, first + 2));
-        if ((unwritten & 8) == 0) r3.StoreAligned(offsets.Row(rows, stride, first + 3));
-        if ((unwritten & 16) == 0) r4.StoreAligned(offsets.Row(rows, stride, first + 4));
-        if ((unwritten & 32) == 0) r5.StoreAligned(offsets.Row(rows, stride, first + 5));
-        if ((unwritten & 64) == 0) r6.StoreAligned(offsets.Row(rows, stride, first + 6));
-        if ((unwritten & 128) == 0) r7.StoreAligned(offsets.Row(rows, stride, first + 7));
+        if ((unwritten & 1) == 0) r0.StoreAligned(TRows.Row(offsets, rows, stride, first));
+        if ((unwritten & 2) == 0) r1.StoreAligned(TRows.Row(offsets, rows, stride, first + 1));
+        if ((unwritten & 4) == 0) r2.StoreAligned(TRows.Row(offsets, rows, stride, first + 2));
+        if ((unwritten & 8) == 0) r3.StoreAligned(TRows.Row(offsets, rows, stride, first + 3));
+        if ((unwritten & 16) == 0) r4.StoreAligned(TRows.Row(offsets, rows, stride, first + 4));
+        if ((unwritten & 32) == 0) r5.StoreAligned(TRows.Row(offsets, rows, stride, first + 5));
+        if ((unwritten & 64) == 0) r6.StoreAligned(TRows.Row(offsets, rows, stride, first + 6));
+        if ((unwritten & 128) == 0) r7.StoreAligned(TRows.Row(offsets, rows, stride, first + 7));
     }
 
     /// <summary>Four rows of four floats exchanged for four columns. Its own inverse.</summary>
@@ -202,12 +208,13 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Rows8 Gather4(float* rows, int stride, in RowOffsets offsets)
+    static Rows8 Gather4<TRows>(float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
-        var p0 = offsets.Row(rows, stride, 0);
-        var p1 = offsets.Row(rows, stride, 1);
-        var p2 = offsets.Row(rows, stride, 2);
-        var p3 = offsets.Row(rows, stride, 3);
+        var p0 = TRows.Row(offsets, rows, stride, 0);
+        var p1 = TRows.Row(offsets, rows, stride, 1);
+        var p2 = TRows.Row(offsets, rows, stride, 2);
+        var p3 = TRows.Row(offsets, rows, stride, 3);
         var r0 = Vector128.LoadAligned(p0);
         var r1 = Vector128.LoadAligned(p1);
         var r2 = Vector128.LoadAligned(p2);
@@ -231,9 +238,10 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Scatter4(in Rows8 values, float* rows, int stride, in RowOffsets offsets)
+    static void Scatter4<TRows>(in Rows8 values, float* rows, int stride, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
-        var unwritten = offsets.Unwritten;
+        var unwritten = TRows.Unwritten(offsets);
         var r0 = values.R0.AsVector128();
         var r1 = values.R1.AsVector128();
         var r2 = values.R2.AsVector128();
@@ -251,11 +259,12 @@ public static unsafe partial class Transpose
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Store(Vector128<float> low, Vector128<float> high, float* rows, int stride, in RowOffsets offsets, uint unwritten, int lane)
+    static void Store<TRows>(Vector128<float> low, Vector128<float> high, float* rows, int stride, in TRows offsets, uint unwritten, int lane)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         if ((unwritten & 1u << lane) != 0)
             return;
-        var row = offsets.Row(rows, stride, lane);
+        var row = TRows.Row(offsets, rows, stride, lane);
         low.StoreAligned(row);
         high.StoreAligned(row + 4);
     }

@@ -41,7 +41,8 @@ public static unsafe partial class Transpose
 
     /// <summary>As <see cref="Gather(float*, int, Vector{int})"/>, where several rows are read by the same indices.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Rows8 Gather(float* rows, int strideInFloats, in RowOffsets offsets)
+    public static Rows8 Gather<TRows>(float* rows, int strideInFloats, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Check.That(((nuint)rows & 31) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
@@ -50,7 +51,7 @@ public static unsafe partial class Transpose
             return Gather4(rows, strideInFloats, offsets);
         if (Vector<float>.Count == 16 && Avx.IsSupported)
             return Gather16(rows, strideInFloats, offsets);
-        return GatherByLanes(rows, strideInFloats, offsets.Indices);
+        return GatherByLanes(rows, strideInFloats, TRows.Indices(offsets));
     }
 
     /// <summary>
@@ -63,7 +64,8 @@ public static unsafe partial class Transpose
 
     /// <summary>As <see cref="Scatter(in Rows8, float*, int, Vector{int})"/>, where several rows are read or written by the same indices.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Scatter(in Rows8 values, float* rows, int strideInFloats, in RowOffsets offsets)
+    public static void Scatter<TRows>(in Rows8 values, float* rows, int strideInFloats, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Check.That(((nuint)rows & 31) == 0 && (strideInFloats & 7) == 0);
         if (Vector<float>.Count == 8 && Avx.IsSupported)
@@ -73,21 +75,22 @@ public static unsafe partial class Transpose
         else if (Vector<float>.Count == 16 && Avx.IsSupported)
             Scatter16(values, rows, strideInFloats, offsets);
         else
-            ScatterByLanes(values, rows, strideInFloats, offsets.Indices);
+            ScatterByLanes(values, rows, strideInFloats, TRows.Indices(offsets));
     }
 
-    /// <summary>Whether all bits of the rows of eight floats that <see cref="Gather(float*, int, in RowOffsets)"/> would read are zero.</summary>
+    /// <summary>Whether all bits of the rows of eight floats that <see cref="Gather{TRows}(float*, int, in TRows)"/> would read are zero.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static bool AreZero(float* rows, in RowOffsets offsets)
+    public static bool AreZero<TRows>(float* rows, in TRows offsets)
+        where TRows : unmanaged, IRowPlaces<TRows>
     {
         Check.That(((nuint)rows & 31) == 0);
         var bits = Vector256<int>.Zero;
         for (int lane = 0; lane < Vector<float>.Count; lane += 4)
         {
-            bits |= (Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane)) |
-                Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 1))) |
-                (Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 2)) |
-                Vector256.LoadAligned((int*)offsets.Row(rows, Rows8.Count, lane + 3)));
+            bits |= (Vector256.LoadAligned((int*)TRows.Row(offsets, rows, Rows8.Count, lane)) |
+                Vector256.LoadAligned((int*)TRows.Row(offsets, rows, Rows8.Count, lane + 1))) |
+                (Vector256.LoadAligned((int*)TRows.Row(offsets, rows, Rows8.Count, lane + 2)) |
+                Vector256.LoadAligned((int*)TRows.Row(offsets, rows, Rows8.Count, lane + 3)));
         }
         return bits == Vector256<int>.Zero;
     }

@@ -62,11 +62,11 @@ public sealed unsafe class TransposeTests : IDisposable
         {
             AsSpan(rows).Clear();
             var indices = Indices(samples, RowCount, withFlags: true);
-            Assert.True(Transpose.AreZero(rows, new(indices)));
+            Assert.True(Transpose.AreZero(rows, new RowOffsets(indices)));
             // One bit anywhere, the sign of a zero too.
             AsSpan(rows)[samples.Integer(RowCount * 8)] = BitConverter.Int32BitsToSingle(1 << samples.Integer(32));
             var gathered = Transpose.Gather(rows, 8, indices);
-            Assert.Equal(Bits(gathered).IndexOfAnyExcept((byte)0) < 0, Transpose.AreZero(rows, new(indices)));
+            Assert.Equal(Bits(gathered).IndexOfAnyExcept((byte)0) < 0, Transpose.AreZero(rows, new RowOffsets(indices)));
         }
     }
 
@@ -119,11 +119,38 @@ public sealed unsafe class TransposeTests : IDisposable
             var offsets = new RowOffsets(Indices(samples, RowCount / 2, withFlags: i % 2 == 0));
             var first = Transpose.Gather(rows + Rows8.Count, 16, offsets);
             var second = Transpose.Gather(rows + RowCount * 8, 8, offsets);
-            Assert.True(Bits(first).SequenceEqual(Bits(Transpose.GatherByLanes(rows + Rows8.Count, 16, offsets.Indices))));
-            Assert.True(Bits(second).SequenceEqual(Bits(Transpose.GatherByLanes(rows + RowCount * 8, 8, offsets.Indices))));
+            Assert.True(Bits(first).SequenceEqual(Bits(Transpose.GatherByLanes(rows + Rows8.Count, 16, RowOffsets.Indices(offsets)))));
+            Assert.True(Bits(second).SequenceEqual(Bits(Transpose.GatherByLanes(rows + RowCount * 8, 8, RowOffsets.Indices(offsets)))));
             Transpose.Scatter(second, rows + Rows8.Count, 16, offsets);
-            Transpose.ScatterByLanes(second, copy + Rows8.Count, 16, offsets.Indices);
+            Transpose.ScatterByLanes(second, copy + Rows8.Count, 16, RowOffsets.Indices(offsets));
             Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+        }
+    }
+
+    // Bodies in order: no lane is empty, and none is only read.
+    [Theory]
+    [InlineData(8), InlineData(16)]
+    public void RunsAreTheLaneLoop(int stride)
+    {
+        var samples = new WideSamples(10);
+        for (int i = 0; i < 1000; ++i)
+        {
+            Fill(samples);
+            var first = samples.Integer(RowCount * 16 / stride - Vector<float>.Count + 1);
+            var run = new RowRun(first);
+            var indices = new Vector<int>(first) + Vector<int>.Indices;
+            Assert.Equal(indices, RowRun.Indices(run));
+            Assert.Equal(0u, RowRun.Unwritten(run));
+            var gathered = Transpose.Gather(rows, stride, run);
+            Assert.True(Bits(gathered).SequenceEqual(Bits(Transpose.GatherByLanes(rows, stride, indices))));
+            var half = i % 2 * Transpose.FloatsPerHalf;
+            Assert.True(Bits(Transpose.GatherHalf(rows + half, stride, run)).SequenceEqual(Bits(Transpose.GatherHalfByLanes(rows + half, stride, indices))));
+            (gathered.R0, gathered.R5) = (gathered.R5, samples.Numbers());
+            Transpose.Scatter(gathered, rows, stride, run);
+            Transpose.ScatterByLanes(gathered, copy, stride, indices);
+            Assert.True(MemoryMarshal.AsBytes(AsSpan(rows)).SequenceEqual(MemoryMarshal.AsBytes(AsSpan(copy))));
+            if (stride == Rows8.Count)
+                Assert.Equal(Transpose.AreZero(rows, new RowOffsets(indices)), Transpose.AreZero(rows, run));
         }
     }
 
@@ -135,7 +162,7 @@ public sealed unsafe class TransposeTests : IDisposable
         {
             var offsets = new RowOffsets(new Vector<int>(index | 1 << 30));
             for (int lane = 0; lane < Vector<int>.Count; ++lane)
-                Assert.Equal((long)index * stride * sizeof(float), (byte*)offsets.Row(rows, stride, lane) - (byte*)rows);
+                Assert.Equal((long)index * stride * sizeof(float), (byte*)RowOffsets.Row(offsets, rows, stride, lane) - (byte*)rows);
         }
     }
 
