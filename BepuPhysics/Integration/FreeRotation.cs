@@ -14,7 +14,7 @@ namespace BepuPhysics;
 // once, is explicit, reversible, keeps |L|, keeps the energy without drift, and is exact for symmetric bodies, for which one of the
 // differences is zero. Splitting around another axis loses the balance between the two differences: a thin rod fails by a factor of 600.
 // (McLachlan, Explicit Lie-Poisson integration and the Euler equations, Physical Review Letters 71, 1993, for the splitting itself.)
-static class FreeRotation
+static partial class FreeRotation
 {
     /// <summary>Greatest angle, rad, by which an inner step turns L within the body, about; and the greatest number of inner steps.</summary>
     const float AnglePerInnerStep = 0.25f;
@@ -118,6 +118,11 @@ static class FreeRotation
     internal static unsafe void Tumble(in Symmetric3x3Wide inverseInertia, PrincipalFrame* frames, Vector<int> indices, Vector<float> dt,
         ref QuaternionWide orientation, ref Vector3Wide angular)
     {
+        if (AreAllAboutY(inverseInertia))
+        {
+            TumbleAboutY(inverseInertia, frames, indices, dt, ref orientation, ref angular);
+            return;
+        }
         Vector3Wide own = new(angular.X, angular.Y, angular.Z);
         own = WithoutDust(own, LeastSpeed);
         QuaternionWide frame = new(orientation.X, orientation.Y, orientation.Z, orientation.W);
