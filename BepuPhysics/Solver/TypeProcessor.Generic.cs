@@ -28,13 +28,21 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var above = stackalloc byte[StackLine.Length];
         var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(Slots))];
         var slots = (Slots*)line;
+        SlotRows* rows = &slots->Rows, next = &slots->NextRows;
+        if (startBundle < endBundle)
+            Locate(references, places, out *rows);
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.WarmStartAccess, substep, out slots->Rows, out slots->Bodies);
+            Gather(references, *rows, bodies, TConstraint.WarmStartAccess, substep, out slots->Bodies);
+            if (i + 1 < endBundle)
+                Locate(references + TBodies.Count, places, out *next);
             TConstraint.WarmStart(ref slots->Bodies, substep, ref prestep[i], ref impulses[i]);
-            Scatter(slots->Rows, bodies, TConstraint.WarmStartAccess, ref slots->Bodies);
+            Scatter(*rows, bodies, TConstraint.WarmStartAccess, ref slots->Bodies);
             if ((TConstraint.CarriesPointLoad || TConstraint.MayTurnFar) && substep.Index == 0)
                 LookAtLoad(references, bodies, substep, slots->Bodies, prestep[i], impulses[i]);
+            var spare = rows;
+            rows = next;
+            next = spare;
         }
     }
 
@@ -49,11 +57,19 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var above = stackalloc byte[StackLine.Length];
         var line = stackalloc byte[StackLine.BytesBelow(above, sizeof(Slots))];
         var slots = (Slots*)line;
+        SlotRows* rows = &slots->Rows, next = &slots->NextRows;
+        if (startBundle < endBundle)
+            Locate(references, places, out *rows);
         for (int i = startBundle; i < endBundle; ++i, references += TBodies.Count)
         {
-            Gather(references, places, bodies, TConstraint.SolveAccess, substep, out slots->Rows, out slots->Bodies);
+            Gather(references, *rows, bodies, TConstraint.SolveAccess, substep, out slots->Bodies);
+            if (i + 1 < endBundle)
+                Locate(references + TBodies.Count, places, out *next);
             TConstraint.Solve(ref slots->Bodies, substep, ref prestep[i], ref impulses[i]);
-            Scatter(slots->Rows, bodies, TConstraint.SolveAccess, ref slots->Bodies);
+            Scatter(*rows, bodies, TConstraint.SolveAccess, ref slots->Bodies);
+            var spare = rows;
+            rows = next;
+            next = spare;
         }
     }
 
@@ -66,7 +82,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.WarmStartAccess | SplitAccess, substep, out _, out var slots);
+            Locate(references + i * TBodies.Count, PlaceMask, out var rows);
+            Gather(references + i * TBodies.Count, rows, bodies, TConstraint.WarmStartAccess | SplitAccess, substep, out var slots);
             ScaleInverseMass(i, split, ref slots);
             TConstraint.WarmStart(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
@@ -82,7 +99,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         var impulses = (TImpulses*)batch.AccumulatedImpulses.Memory;
         for (int i = startBundle; i < endBundle; ++i)
         {
-            Gather(references + i * TBodies.Count, PlaceMask, bodies, TConstraint.SolveAccess | SplitAccess, substep, out _, out var slots);
+            Locate(references + i * TBodies.Count, PlaceMask, out var rows);
+            Gather(references + i * TBodies.Count, rows, bodies, TConstraint.SolveAccess | SplitAccess, substep, out var slots);
             ScaleInverseMass(i, split, ref slots);
             // Constraints of split bodies do not see each other's impulses until the parts are joined.
             BodySlots.At(ref slots, 0).HubMask = new(-1);
@@ -162,36 +180,43 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         public RowOffsets A, B, C, D;
     }
 
-    // What of a bundle's bodies is in memory.
+    // What of a bundle's bodies is in memory, and where the rows of the next bundle are: found out while this one is solved, since the first row that is
+    // read has to wait until that is in memory.
     struct Slots
     {
         public TBodies Bodies;
-        public SlotRows Rows;
+        public SlotRows Rows, NextRows;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void Gather(
         Vector<int>* references, Vector<int> places, in SolverBodies bodies, BodyAccess access, in Substep substep, out SlotRows rows, out TBodies slots)
     {
-        Unsafe.SkipInit(out slots);
+        Locate(references, places, out rows);
+        Gather(references, rows, bodies, access, substep, out slots);
+    }
+
+    // Those of all bodies before the first row is read: one that was written between the rows of two bodies took a seventh of a sweep
+    // (Docs/decisions/packed-body-rows.md).
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Locate(Vector<int>* references, Vector<int> places, out SlotRows rows)
+    {
         Unsafe.SkipInit(out rows);
         rows.A = new(references[0] & places);
+        if (TBodies.Count > 1) rows.B = new(references[1] & places);
+        if (TBodies.Count > 2) rows.C = new(references[2] & places);
+        if (TBodies.Count > 3) rows.D = new(references[3] & places);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void Gather(
+        Vector<int>* references, in SlotRows rows, in SolverBodies bodies, BodyAccess access, in Substep substep, out TBodies slots)
+    {
+        Unsafe.SkipInit(out slots);
         Gather(bodies, rows.A, access, substep, out BodySlots.At(ref slots, 0));
-        if (TBodies.Count > 1)
-        {
-            rows.B = new(references[1] & places);
-            Gather(bodies, rows.B, access, substep, out BodySlots.At(ref slots, 1));
-        }
-        if (TBodies.Count > 2)
-        {
-            rows.C = new(references[2] & places);
-            Gather(bodies, rows.C, access, substep, out BodySlots.At(ref slots, 2));
-        }
-        if (TBodies.Count > 3)
-        {
-            rows.D = new(references[3] & places);
-            Gather(bodies, rows.D, access, substep, out BodySlots.At(ref slots, 3));
-        }
+        if (TBodies.Count > 1) Gather(bodies, rows.B, access, substep, out BodySlots.At(ref slots, 1));
+        if (TBodies.Count > 2) Gather(bodies, rows.C, access, substep, out BodySlots.At(ref slots, 2));
+        if (TBodies.Count > 3) Gather(bodies, rows.D, access, substep, out BodySlots.At(ref slots, 3));
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
