@@ -169,21 +169,23 @@ unsafe readonly struct ContactConstraint
     // turned with its box would push a column to the side to which it leans, for as long as friction takes to notice.
     static Vector3 TurnedForce(Vector3 oldNormal, Vector3 normal, float load) => (oldNormal - normal) * load;
 
+    // Of surfaces that are apart the arms of either body end at its own; see ArmOf.
     void WriteGeometry(in ConvexContactManifold manifold, in Vector3 frictionCenter)
     {
         ref var contacts = ref Unsafe.AsRef(in manifold.Contact0);
         for (int i = 0; i < contactCount; ++i)
         {
             ref var contact = ref Unsafe.Add(ref contacts, i);
-            WriteArm(i, contact.Offset);
+            WriteArm(i, manifold.ArmOf(contact));
             WriteDepth(i, contact.Depth);
         }
         WriteOffsetB(manifold, frictionCenter);
         Write(ContactPrestepLayout.Normal(contactCount), manifold.Normal);
     }
 
-    void WriteOffsetB(in ConvexContactManifold manifold, in Vector3 frictionCenter) =>
-        Write(ContactPrestepLayout.OffsetB(contactCount), hasTwoBodies && frictionCenter == default ? manifold.OffsetB : frictionCenter);
+    void WriteOffsetB(in ConvexContactManifold manifold, in Vector3 frictionCenter) => Write(
+        ContactPrestepLayout.OffsetB(contactCount),
+        hasTwoBodies && frictionCenter == default ? manifold.OffsetB + manifold.Normal * manifold.Gap : frictionCenter);
 
     void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter, bool wasHeld)
     {

@@ -213,7 +213,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return Simulation.Bodies.SetOf(location).Collidables[location.Index].Continuity;
     }
 
-    // Contacts of the time of an impact, as far ahead as the surfaces approach until then.
+    // Contacts of the time of an impact, as far ahead as the surfaces approach until then. Along the normal B is as far away, aside it stays where it will be.
     void MoveBack<TManifold>(in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
         if (typeof(TManifold) == typeof(ConvexContactManifold))
@@ -229,15 +229,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void MoveBack(in TestedPair tested, ref ConvexContactManifold manifold)
     {
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
+        float all = 0;
         for (int i = 0; i < manifold.Count; ++i)
         {
-            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+            ref readonly var contact = ref manifold.Read(i);
             var velocity = velocityA.Linear - velocityB.Linear + Exact.Cross(velocityA.Angular, contact.Offset) -
                 Exact.Cross(velocityB.Angular, contact.Offset - manifold.OffsetB);
             // What parts at that time was farther away on its way, as far as a line tells, and is not to be pushed by what the line makes of it.
             var closing = MathHelper.Max(0, -Exact.Dot(velocity, manifold.Normal));
-            contact.Depth -= closing * tested.ImpactTime;
+            manifold.AddDepth(i, -closing * tested.ImpactTime, manifold.Normal);
+            all += closing * tested.ImpactTime;
         }
+        manifold.OffsetB -= manifold.Normal * (all / MathHelper.Max(1, manifold.Count));
     }
 
     void WatchFastPairs()

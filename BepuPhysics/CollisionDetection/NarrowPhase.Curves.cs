@@ -40,13 +40,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         var shift = (found.Normal - normal) * radius;
         var below = share * share * 0.5f * stepTime * rise;
         led = found;
+        led.Normal = normal;
         for (int i = 0; i < led.Count; ++i)
         {
-            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref led, i);
-            contact.Offset += shift;
-            contact.Depth -= below;
+            ConvexContactManifold.GetConvexContactReference(ref led, i).Offset += shift;
+            led.AddDepth(i, -below, normal);
         }
-        led.Normal = normal;
         return ref led;
     }
 

@@ -61,13 +61,14 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 for (int k = 0; k < manifold.Count; ++k)
                 {
                     var contact = ConvexContactManifold.GetConvexContactReference(ref manifold, k);
-                    all += contact.Offset;
-                    squares += Exact.LengthSquared(contact.Offset);
+                    var arm = manifold.ArmOf(contact);
+                    all += arm;
+                    squares += Exact.LengthSquared(arm);
                     ++count;
                     var band = wasHeld ? ContactMaterialWide.BandPerExtent * MathF.Abs(Exact.Dot(contact.Offset, normal)) : 0;
                     if (contact.Depth < -band)
                         continue;
-                    touching += contact.Offset;
+                    touching += arm;
                     ++touchCount;
                 }
                 statics.FrictionCenters.Add(new() { Pair = pair.Tested.Pair, Children = result.Children, Center = manifold.OffsetB }, pool);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -53,14 +54,16 @@ public class CompoundSimulationTests
             actual.Step();
             Assert.Equal(expected.State(), actual.State());
         }
-        foreach (var state in Heights(expected))
-            Assert.InRange(state, -.1f, 10);
+        // Nothing falls through; the floor has no walls before and behind.
+        var over = Positions(expected).Where(position => MathF.Abs(position.Z) < 4).ToList();
+        Assert.InRange(over.Count, 22, 25);
+        Assert.All(over, position => Assert.InRange(position.Y, -.1f, 10));
     }
 
-    static IEnumerable<float> Heights(CompoundWorld world)
+    static IEnumerable<Vector3> Positions(CompoundWorld world)
     {
         for (int i = 0; i < world.Simulation.Bodies.ActiveSet.Count; ++i)
-            yield return world.Simulation.Bodies.ActiveSet.MotionStates[i].Pose.Position.Y;
+            yield return world.Simulation.Bodies.ActiveSet.MotionStates[i].Pose.Position;
     }
 
     [Theory, InlineData(false), InlineData(true)]

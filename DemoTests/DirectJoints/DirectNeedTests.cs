@@ -119,13 +119,28 @@ public class DirectNeedTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Dolls that lie in a heap, with gaps, and may be solved at once from some moment on: few of those that rest are, and nothing is thrown.
+    /// Dolls that lie in a heap, with gaps, and may be solved at once from some moment on: few of those that rest are, and nothing is thrown. Of heaps that
+    /// differ by what each part was pushed with as it fell: one of them says little.
     /// </summary>
     [Fact]
     public void Ragdolls_at_rest_stay_there()
     {
+        var fastest = Enumerable.Range(1, 7).Select(RestOfDolls).Order().ToArray();
+        output.WriteLine(string.Join(", ", fastest));
+        // A gap of 9 mm goes at .86 of it over half a second, which is .15 m/s; parts between several gaps move by the sum.
+        Assert.InRange(fastest[3], 0, .4f);
+        Assert.InRange(fastest[^1], 0, 1.5f);
+    }
+
+    float RestOfDolls(int seed)
+    {
         using var world = new SceneWorld(SceneLibrary.Load("ragdolls", 1), threads: 1);
         var solver = world.Simulation.Solver;
+        ref var set = ref world.Simulation.Bodies.ActiveSet;
+        world.Step();
+        var random = new Random(seed);
+        for (int body = 0; body < set.Count; ++body)
+            set.MotionStates[body].Velocity.Linear += new Vector3(random.NextSingle() - .5f, 0, random.NextSingle() - .5f) * .5f;
         for (int i = 0; i < 400; ++i)
             world.Step();
         solver.DirectJoints = DirectJointsMode.WhereNeeded;
@@ -133,14 +148,13 @@ public class DirectNeedTests(ITestOutputHelper output)
         for (int i = 0; i < 150; ++i)
         {
             world.Step();
-            for (int body = 0; body < world.Simulation.Bodies.ActiveSet.Count; ++body)
-                fastest = MathF.Max(fastest, world.Simulation.Bodies.ActiveSet.MotionStates[body].Velocity.Linear.Length());
+            for (int body = 0; body < set.Count; ++body)
+                fastest = MathF.Max(fastest, set.MotionStates[body].Velocity.Linear.Length());
         }
         output.WriteLine($"{DirectCount(solver)} joints, at most {fastest} m/s");
         // Of 1,920.
-        Assert.InRange(DirectCount(solver), 1, 300);
-        // A gap of 9 mm goes at .86 of it over half a second; parts between several move by the sum.
-        Assert.InRange(fastest, 0, .25f);
+        Assert.InRange(DirectCount(solver), 1, 400);
+        return fastest;
     }
 
     /// <summary>By sweeps it loses a quarter of its speed in ten seconds, all at once 2 %.</summary>

@@ -16,6 +16,8 @@ static class AccuracySuite
         .. RollingCases.All,
         .. CylinderRollingCases.All,
         .. TroughCases.All,
+        .. LandingSpinCases.All,
+        .. TurntableCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,

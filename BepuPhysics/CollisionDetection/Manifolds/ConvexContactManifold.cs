@@ -27,6 +27,11 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     /// <summary>Contacts that fit.</summary>
     internal const int MaximumContactCount = 4;
 
+    // Greatest gap for which arms end at the surfaces, over the arm.
+    const float GreatestGap = 16;
+    // Part of its arm by which the contact of what is round is beside the centre.
+    const float RoundPart = 1e-2f;
+
     readonly int IContactManifold<ConvexContactManifold>.Count => Count;
 
     /// <inheritdoc/>
@@ -66,6 +71,57 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
                 depth = MathHelper.Max(depth, Read(i).Depth);
             return depth;
         }
+    }
+
+    /// <summary>Changes the depth of a contact whose place on one of the bodies is right: it stays halfway between the surfaces, if these are near.</summary>
+    /// <param name="index">Which contact.</param>
+    /// <param name="change">What is added to its depth, m.</param>
+    /// <param name="normal">The normal, towards that body.</param>
+    internal void AddDepth(int index, float change, in Vector3 normal)
+    {
+        ref var contact = ref GetConvexContactReference(ref this, index);
+        contact.Depth += change;
+        if (!IsFar(contact, GreatestGap))
+            contact.Offset += normal * (0.5f * change);
+    }
+
+    /// <summary>Gap between the surfaces, m: zero where any contact touches, the mean of all contacts where none does.</summary>
+    internal readonly float Gap
+    {
+        get
+        {
+            if (GreatestDepth >= 0)
+                return 0;
+            var gap = -Contact0.Depth;
+            for (int i = 1; i < Count; ++i)
+                gap -= Read(i).Depth;
+            return gap / Count;
+        }
+    }
+
+    /// <summary>Where a body is touched, relative to the centre of A: where the surfaces are apart, on that of A, elsewhere halfway between the two.</summary>
+    // What is apart touches later in the step, where its surface is then. Halfway to the other may be far from that of a body that is small and fast: its
+    // friction would turn it with a wrong arm, and whoever spins would come off the ground too slowly or too fast. Along the normal arms have no moment,
+    // so the normal rows do not see it. What goes so far in a step that it may turn many times before it is found again is no farther from its halfway
+    // contact than from the truth: with arms of its own it would gain energy. What is round has its surface there whichever way it has turned.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal readonly Vector3 ArmOf(in ConvexContact contact) => contact.Depth < 0 ? ArmApart(contact) : contact.Offset;
+
+    // Whether the gap is more than some number of arms.
+    static bool IsFar(in ConvexContact contact, float count) =>
+        contact.Depth < 0 && contact.Depth * contact.Depth > count * count * Exact.LengthSquared(contact.Offset);
+
+    readonly Vector3 ArmApart(in ConvexContact contact)
+    {
+        // Halfway is no less than about half of the gap away: what is nearer is at the surface (AddDepth).
+        if (IsFar(contact, GreatestGap / 2))
+            return contact.Offset;
+        var arm = contact.Offset - Normal * (0.5f * contact.Depth);
+        var squared = Exact.LengthSquared(arm);
+        if (contact.Depth * contact.Depth < GreatestGap * GreatestGap * squared)
+            return arm;
+        var along = Exact.Dot(arm, Normal);
+        return squared - along * along < RoundPart * RoundPart * squared ? arm : contact.Offset;
     }
 
     /// <inheritdoc/>

@@ -67,9 +67,15 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         var coefficient = Coefficient(ref patch);
         Vector3Wide.BuildOrthonormalBasis(n, out var x, out var y);
         WriteFriction(ref rows[FirstFriction], Vector3Wide.Dot(accumulated.Friction, x), coefficient, load);
-        WriteJacobian(ref rows[FirstFriction], x, center, patch.OffsetB);
+        Vector3Wide rubbedA = center, rubbedB = default;
+        if (TBodies.Count > 1)
+        {
+            rubbedB = center - patch.OffsetB;
+            GoAlong(bodies, substep, n, ref rubbedA, ref rubbedB);
+        }
+        WriteJacobian(ref rows[FirstFriction], x, rubbedA, rubbedA - rubbedB);
         WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);
-        WriteJacobian(ref rows[FirstFriction + 1], y, center, patch.OffsetB);
+        WriteJacobian(ref rows[FirstFriction + 1], y, rubbedA, rubbedA - rubbedB);
         ref var twist = ref rows[FirstFriction + 2];
         WriteFriction(ref twist, accumulated.Twist, coefficient, moment);
         if (TContacts.Count == 1)

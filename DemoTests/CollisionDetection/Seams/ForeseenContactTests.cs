@@ -209,6 +209,9 @@ public class ForeseenContactTests(ITestOutputHelper output)
                     if (height < 1 && mover != SeamMover.SmallSphere)
                         continue;
                     using var world = new ClusterWorld(isCluster: true);
+                    // With friction what rolls goes up a wall with 2/7 of its speed, and is above a low one within the step.
+                    if (height < 1)
+                        world.Behaviour.Friction = 0;
                     var (shapes, statics) = (world.Simulation.Shapes, world.Simulation.Statics);
                     statics.Add(new StaticDescription(new Vector3(0, -.5f, 0), shapes.Add(new Box(20, 1, 20))));
                     statics.Add(new StaticDescription(new Vector3(1.005f, height / 2, 0), shapes.Add(new Box(.01f, height, 10))));

@@ -151,7 +151,16 @@ public class LevelTests
             if (i > 120)
                 Assert.InRange(world.Simulation.Bodies[slab].Pose.Position.Y, .01f - 1e-3f, .01f + 1e-3f);
         }
-        Assert.InRange(world.Simulation.Bodies[slab].Velocity.Linear.Length(), 0, 2e-3f);
+        // Corners that are close to each other on two triangles open and close by a micrometre, so that one step of several has a few mm/s.
+        var fastest = 0f;
+        var height = world.Simulation.Bodies[slab].Pose.Position.Y;
+        for (int i = 0; i < 12; ++i)
+        {
+            world.Step(validate: false);
+            fastest = Math.Max(fastest, world.Simulation.Bodies[slab].Velocity.Linear.Length());
+        }
+        Assert.InRange(fastest, 0, 5e-3f);
+        Assert.InRange(world.Simulation.Bodies[slab].Pose.Position.Y, height - 2e-5f, height + 2e-5f);
     }
 
     /// <summary>A rod across the cells of a grid comes to rest, and has no more than eight contacts.</summary>
