@@ -179,6 +179,19 @@ public class SupportGraphTests
         Assert.Equal([0, 1, 2], Build(3, [(2, 1), (1, 0), (0, Ground)], sways: [false, false, true]).Islands.Single().Order());
     }
 
+    /// <summary>What leans on a column that sways does not take bodies out of it: each of them has its one support.</summary>
+    [Fact]
+    public void Nothing_leans_on_what_sways()
+    {
+        bool[] leans = [false, false, true], sways = [false, true, false];
+        var (islands, count) = Build(3, [(0, Ground), (1, 0), (2, 1)], leans: leans, sways: sways);
+        AssertIslands("0 1", islands);
+        Assert.Equal(2, count);
+        AssertIslands("0 1", Build(3, [(0, Ground), (1, 0), (1, 2)], leans: leans, sways: sways).Islands);
+        // Two on one, which is a structure.
+        AssertIslands("0 1 2", Build(4, [(0, Ground), (1, 0), (2, 0), (3, 1)], leans: [.. leans[..2], false, true], sways: [false, true, true, false]).Islands);
+    }
+
     /// <summary>Two on one, one on two, and what stands on that; from the ground upwards, whatever rests there already.</summary>
     [Fact]
     public void A_structure_sways_as_one()

@@ -10,6 +10,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     // What is so many times as heavy as another body and turns so fast, rad/s, carries it: platforms. Of what rocks on each other neither carries the other.
     const float CarrierMass = 8;
     const float CarrierTurn = 0.1f;
+    // Greatest way along the surface, as a part of an arm, by which a patch goes along in a step: half a radian of a turntable's turn. What moves farther is
+    // thrown off, and on what is small and heavy it would be rubbed at the end of a lever that is not there.
+    const float GreatestWay = 0.5f;
 
     // Two rows that share an anchor, so their effective mass is a 2 x 2 block: a block solve stops sliding in one sweep where two rows in turn would not.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -144,6 +147,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         var ahead = new Vector<float>(substep.IsRelaxation ? 0 : 0.5f * substep.Dt);
         var moved = a.Translation - b.Translation + (a.Linear - b.Linear) * ahead;
         moved -= n * Vector3Wide.Dot(moved, n);
+        var way = moved.LengthSquared();
+        carriesA &= Vector.LessThan(way, armA.LengthSquared() * new Vector<float>(GreatestWay * GreatestWay));
+        carriesB &= Vector.LessThan(way, armB.LengthSquared() * new Vector<float>(GreatestWay * GreatestWay));
         armA -= Vector3Wide.Mask(carriesA, moved);
         armB += Vector3Wide.Mask(carriesB, moved);
     }

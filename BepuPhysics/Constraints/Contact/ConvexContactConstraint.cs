@@ -40,6 +40,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     {
         if (substep.WarmStartScale != 1)
             Scale(ref impulses, new Vector<float>(substep.WarmStartScale));
+        ForgetSpinning(bodies, substep, ref impulses);
         var load = impulses.Normals[0];
         var arm = prestep.Contacts[0].OffsetA * load;
         for (int i = 1; i < TContacts.Count; ++i)
@@ -118,6 +119,32 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
         if (MayRestAlone && rests != Vector<int>.Zero)
             LeaveAtRest(rests, before, ref BodySlots.At(ref bodies, 0), ref impulses);
+    }
+
+    // The impulses of the substep before are where this one begins, as what rests is loaded alike in both. What turns by more than this, rad, in a substep has
+    // nothing of the kind: a corner that hit is not the one that hits next, and one sweep does not take back what a wrong impulse gives at the end of an arm.
+    const float GreatestTurn = 3.5f;
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void ForgetSpinning(in TBodies bodies, in Substep substep, ref ConvexContactImpulsesWide<TNormals> impulses)
+    {
+        var slots = bodies;
+        var square = BodySlots.At(ref slots, 0).Angular.LengthSquared();
+        if (TBodies.Count > 1)
+            square = Wide.Max(square, BodySlots.At(ref slots, 1).Angular.LengthSquared());
+        var greatest = GreatestTurn * substep.InverseDt;
+        var spins = Vector.GreaterThan(square, new Vector<float>(greatest * greatest));
+        if (spins != Vector<int>.Zero)
+            Forget(spins, ref impulses);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void Forget(Vector<int> lanes, ref ConvexContactImpulsesWide<TNormals> impulses)
+    {
+        for (int i = 0; i < TNormals.Count; ++i)
+            impulses.Normals[i] = Wide.Mask(~lanes, impulses.Normals[i]);
+        impulses.Friction = Vector3Wide.Mask(~lanes, impulses.Friction);
+        impulses.Twist = Wide.Mask(~lanes, impulses.Twist);
     }
 
     // Lanes without a centre of their own have no twist, and are left as they are to the last bit.

@@ -24,6 +24,7 @@ unsafe partial struct SupportGraph
         {
             ref var support = ref byUpper[leaning[i]];
             support.Carries = (grounded[support.Upper] == 0 || (support.Lower >= 0 && grounded[support.Lower] == 0)) &&
+                grounded[support.Upper] < OfColumn && (support.Lower < 0 || grounded[support.Lower] < OfColumn) &&
                 !(hasFloors && (IsOnFloor(support.Upper) || (support.Lower >= 0 && IsOnFloor(support.Lower))));
             if (!support.Carries || support.Lower < 0)
                 continue;
