@@ -78,13 +78,15 @@ static unsafe class BodyRows
     // Most bodies hang in nothing, or bear little: then there is nothing to transpose, and nothing to clear.
     [MethodImpl(MethodImplOptions.NoInlining)]
     internal static void Stiffen<TRows>(
-        float* stiffness, in TRows rows, Vector<float> dt, bool clears, ref Symmetric3x3Wide worldInertia, ref Vector3Wide angular)
+        float* stiffness, in TRows rows, Vector<float> dt, bool clears, Vector<float> inverseMass, ref Symmetric3x3Wide worldInertia,
+        ref Vector3Wide angular)
         where TRows : unmanaged, IRowPlaces<TRows>
     {
         if (Transpose.AreZero(stiffness, rows))
             return;
         var row = Transpose.Gather(stiffness, FloatsPerRow, rows);
-        GeometricStiffness.Apply(new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), dt, ref worldInertia, ref angular);
+        GeometricStiffness.Apply(
+            new(row.R0, row.R1, row.R2, row.R3, row.R4, row.R5), Wide.DivideOrZero(row.R6, inverseMass), dt, ref worldInertia, ref angular);
         if (clears)
             Transpose.Scatter(default, stiffness, FloatsPerRow, rows);
     }

@@ -49,8 +49,9 @@ public interface IPoseIntegratorCallbacks
     /// <summary>
     /// Whether bodies without constraints take the substeps of the others. If not, they are integrated once, over the whole step, after its substeps:
     /// <see cref="PrepareForIntegration"/> and <see cref="IntegrateVelocity"/> are called for that with the time of the step. It takes a fourth of
-    /// the time with four substeps. They move by the mean of the velocities before and after, so gravity alone makes an exact parabola; forces that
-    /// change within a step are resolved less well, and events between substeps find them where the step began.
+    /// the time with four substeps. They move by the mean of the velocities before and after, so gravity alone makes an exact parabola, and positions are
+    /// those of the middle of the step, so what goes round a centre keeps its energy; forces that change within a step are resolved less well, and events
+    /// between substeps find them where the step began.
     /// </summary>
     bool AllowSubstepsForUnconstrainedBodies { get; }
 

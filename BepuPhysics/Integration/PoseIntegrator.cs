@@ -151,7 +151,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, pose.Orientation);
         // The warm start that follows the first pass gathers the stiffness of this step.
         if (pass.Stiffness != null)
-            Stiffen(pass.Stiffness, rows, dt, stage == IntegrationStage.First, ref worldInertia, ref velocity.Angular);
+            Stiffen(pass.Stiffness, rows, dt, stage == IntegrationStage.First, localInertia.InverseMass, ref worldInertia, ref velocity.Angular);
         if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
         {
             StopAndRead(unsound, indices, ref pose, ref velocity);
@@ -161,7 +161,9 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         WriteWorldInertia(pass.WorldInertias, rows, worldInertia, localInertia.InverseMass);
     }
 
-    // The mean of the velocities at both ends is that of the whole time where the acceleration is the same all along: a parabola, whatever dt is.
+    // The mean of the velocities at both ends is that of the whole time where the acceleration is the same all along: a parabola, whatever dt is. Forces
+    // that depend on the place are those of the middle of the way, half a drift on: a drift, a kick and a drift keep the energy of an orbit, where a kick
+    // from the place at the beginning would add to it in each turn.
     void IPoseIntegrator.IntegrateFree(float dt, in FreeBodies freeBodies, int startBundle, int endBundle, int workerIndex)
     {
         ref var set = ref bodies.Awake;
@@ -181,10 +183,12 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
                 StopAndRead(unsound, indices, ref pose, ref velocity);
             Begin(origins, displacements, rows, pose.Position, velocity.Linear);
             var before = velocity.Linear;
-            IntegrateVelocity(indices, exists, IsKinematic(localInertia), pose, localInertia, workerIndex, wideDt, ref velocity);
+            var middle = pose;
+            middle.Position += before * (wideDt * new Vector<float>(0.5f));
+            IntegrateVelocity(indices, exists, IsKinematic(localInertia), middle, localInertia, workerIndex, wideDt, ref velocity);
             var fast = IsFast(before, velocity.Linear);
             if (Vector.EqualsAny(fast, new Vector<int>(-1)))
-                KeepLostVelocity(origins, rows, indices, fast, pose, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
+                KeepLostVelocity(origins, rows, indices, fast, middle, localInertia, workerIndex, wideDt, before, ref velocity.Linear);
             if (Soundness.IsNot(Soundness.OfVelocities(velocity), exists, out unsound))
             {
                 // Where they are now is where they stay.
@@ -276,7 +280,7 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         var worldInertia = Symmetric3x3Wide.RotateInverseInertia(localInertia.InverseInertiaTensor, orientation);
         // The momentum stays as the solve has left it.
         if (set.Stiffness.Allocated)
-            Stiffen((float*)set.Stiffness.Memory, rows, dt, false, ref worldInertia, ref angular);
+            Stiffen((float*)set.Stiffness.Memory, rows, dt, false, localInertia.InverseMass, ref worldInertia, ref angular);
         WriteWorldInertia((float*)set.WorldInertias.Memory, rows, worldInertia, localInertia.InverseMass);
     }
 

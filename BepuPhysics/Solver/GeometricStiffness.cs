@@ -11,7 +11,11 @@ namespace BepuPhysics.Constraints;
 //
 // Where a substep cannot resolve that motion, it is taken implicitly: inertia I' = I + h^2 (1 - rho) G for the solves of the substep, with
 // rho = (I : G) / (h^2 G : G), about (w h)^-2, so that nothing changes where rho >= 1: a motion that the substep resolves is left alone.
-// The angular velocity is scaled along, w' = I'^-1 I w, since it is the momentum that the step owns.
+//
+// The angular velocity is scaled along, since it is the momentum that the step owns: w' = (J + h^2 (1 - rho) G)^-1 J w. A body that hangs turns about its joint
+// and takes its own mass along, so J is I + m r^2 with the longest of the arms. With I in its place a small body on a long arm, which turns with what it hangs
+// in, lost nearly all of its turn in each substep, and had it back from its joint about axes that G has from the beginning of the step: one that is whirled
+// about gained a hundred times its energy.
 static class GeometricStiffness
 {
     // Part of rho = 1 below which the load of one joint is resolved by far, and is not worth a visit to its bodies.
@@ -45,8 +49,14 @@ static class GeometricStiffness
     }
 
     /// <summary>Replaces the inverse inertia and the angular velocity in lanes whose swing the substep cannot resolve.</summary>
+    /// <param name="stiffness">Sum of what the loads stiffen rotation by, N m, world axes.</param>
+    /// <param name="inertiaOnArm">Inertia of the mass of the body at the end of its longest arm, kg m2; zero of one that only turns.</param>
+    /// <param name="dt">Length of the substep, s.</param>
+    /// <param name="inverseInertia">Inverse inertia of the bodies, world axes.</param>
+    /// <param name="angular">Their angular velocity.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal static void Apply(in Symmetric3x3Wide stiffness, Vector<float> dt, ref Symmetric3x3Wide inverseInertia, ref Vector3Wide angular)
+    internal static void Apply(
+        in Symmetric3x3Wide stiffness, Vector<float> inertiaOnArm, Vector<float> dt, ref Symmetric3x3Wide inverseInertia, ref Vector3Wide angular)
     {
         var squared = Contract(stiffness, stiffness);
         // A load without bounds stiffens nothing: its bodies are about to be stopped.
@@ -64,8 +74,10 @@ static class GeometricStiffness
         var unresolved = loaded & turns & Vector.GreaterThan(added, Vector<float>.Zero);
         if (Vector.EqualsAll(unresolved, Vector<int>.Zero))
             return;
-        var stiffened = Symmetric3x3Wide.Invert(adjugate + stiffness * added);
-        angular = Vector3Wide.Select(unresolved, stiffened * (adjugate * angular), angular);
+        var scaled = stiffness * added;
+        var stiffened = Symmetric3x3Wide.Invert(adjugate + scaled);
+        var onArm = Symmetric3x3Wide.AddDiagonal(adjugate, inertiaOnArm * perInertia);
+        angular = Vector3Wide.Select(unresolved, Symmetric3x3Wide.Invert(onArm + scaled) * (onArm * angular), angular);
         inverseInertia = Symmetric3x3Wide.Select(unresolved, stiffened * perInertia, inverseInertia);
     }
 

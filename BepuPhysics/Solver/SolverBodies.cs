@@ -86,8 +86,10 @@ unsafe readonly struct SolverBodies(
         }
     }
 
-    /// <summary>Adds to the geometric stiffness of a bundle of bodies, N m, world axes, except for kinematics and unused lanes.</summary>
-    internal void AddStiffness(in RowOffsets references, in Symmetric3x3Wide added)
+    /// <summary>
+    /// Adds to the geometric stiffness of a bundle of bodies, N m, world axes, and to the square of their longest arm, except for kinematics and unused lanes.
+    /// </summary>
+    internal void AddStiffness(in RowOffsets references, in Symmetric3x3Wide added, Vector<float> armSquared)
     {
         var row = Transpose.Gather(stiffness, FloatsPerRow, references);
         row.R0 += added.XX;
@@ -96,6 +98,7 @@ unsafe readonly struct SolverBodies(
         row.R3 += added.ZX;
         row.R4 += added.ZY;
         row.R5 += added.ZZ;
+        row.R6 = Wide.Max(row.R6, armSquared);
         Transpose.Scatter(row, stiffness, FloatsPerRow, references);
     }
 

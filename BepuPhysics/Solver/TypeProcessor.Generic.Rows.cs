@@ -33,23 +33,27 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
         Gather(references, PlaceMask, bodies, TConstraint.WarmStartAccess, substep, out _, out var slots);
-        if (!TConstraint.TryGetGeometricStiffness(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle],
-            ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle], out var ofFirst, out var ofLast, out _))
+        ref var prestep = ref ((TPrestep*)batch.Prestep.Memory)[bundle];
+        ref var impulses = ref ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle];
+        if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var ofFirst, out var ofLast, out _))
             return;
+        ReadLoadedArms(slots, prestep, impulses, ofFirst, ofLast, out var squareOfFirst, out var squareOfLast);
         var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
         for (int lane = 0; lane < lanes; ++lane)
         {
-            AddStiffness(references[0][lane], ofFirst, lane, stiffness);
-            AddStiffness(references[TBodies.Count - 1][lane], ofLast, lane, stiffness);
+            AddStiffness(references[0][lane], ofFirst, squareOfFirst, lane, stiffness);
+            AddStiffness(references[TBodies.Count - 1][lane], ofLast, squareOfLast, lane, stiffness);
         }
     }
 
-    static void AddStiffness(int reference, in Symmetric3x3Wide added, int lane, Buffer<BodyInertia> stiffness)
+    // The square of the longest arm is where an inertia has the inverse mass.
+    static void AddStiffness(int reference, in Symmetric3x3Wide added, Vector<float> armSquared, int lane, Buffer<BodyInertia> stiffness)
     {
         if ((reference & EncodedBody.KinematicFlag) != 0)
             return;
-        ref var sum = ref stiffness[reference & EncodedBody.IndexMask].InverseInertiaTensor;
-        sum += Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref Unsafe.AsRef(in added), lane);
+        ref var sum = ref stiffness[reference & EncodedBody.IndexMask];
+        sum.InverseMass = MathHelper.Max(sum.InverseMass, armSquared[lane]);
+        sum.InverseInertiaTensor += Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref Unsafe.AsRef(in added), lane);
     }
 
     /// <inheritdoc/>

@@ -121,9 +121,22 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
             LookForNeighbours(references, bodies, slots, prestep, impulses);
         if (!isStiffened)
             return;
-        bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA);
-        bodies.AddStiffness(new(references[TBodies.Count - 1] & PlaceMask), stiffnessB);
+        ReadLoadedArms(slots, prestep, impulses, stiffnessA, stiffnessB, out var squareA, out var squareB);
+        bodies.AddStiffness(new(references[0] & PlaceMask), stiffnessA, squareA);
+        bodies.AddStiffness(new(references[TBodies.Count - 1] & PlaceMask), stiffnessB, squareB);
     }
+
+    // Squares of the arms of bodies that are stiffened; zero of others.
+    static void ReadLoadedArms(
+        in TBodies slots, in TPrestep prestep, in TImpulses impulses, in Symmetric3x3Wide stiffnessA, in Symmetric3x3Wide stiffnessB,
+        out Vector<float> squareA, out Vector<float> squareB)
+    {
+        TConstraint.ReadArms(slots, prestep, impulses, out squareA, out squareB);
+        squareA = Wide.Mask(IsLoaded(stiffnessA), squareA);
+        squareB = Wide.Mask(IsLoaded(stiffnessB), squareB);
+    }
+
+    static Vector<int> IsLoaded(in Symmetric3x3Wide stiffness) => Vector.GreaterThan(stiffness.XX + stiffness.YY + stiffness.ZZ, Vector<float>.Zero);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void LookForNeighbours(Vector<int>* references, in SolverBodies bodies, in TBodies slots, in TPrestep prestep, in TImpulses impulses)

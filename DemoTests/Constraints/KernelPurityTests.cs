@@ -212,11 +212,13 @@ public unsafe class KernelPurityTests
             var inertias = new Symmetric3x3Wide();
             var loads = new Symmetric3x3Wide();
             var velocities = new Vector3Wide();
+            var onArms = new Vector<float>();
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
             {
                 FillBody(random, out var motion, out var inertia, out _);
                 Lanes.Write(inertia.InverseInertiaTensor, ref inertias, lane);
                 Lanes.Write(motion.Velocity.Angular, ref velocities, lane);
+                onArms = onArms.WithElement(lane, random.Next(3) * random.NextSingle());
                 // Nothing, what a substep resolves, what it does not, and what has no bounds.
                 var load = inertia.InverseInertiaTensor * (random.Next(4) switch { 0 => 0, 1 => 10, 2 => 1e7f, _ => 1e30f });
                 Lanes.Write(load, ref loads, lane);
@@ -224,11 +226,11 @@ public unsafe class KernelPurityTests
             for (int lane = 0; lane < Vector<float>.Count; ++lane)
             {
                 var (inertia, velocity) = (inertias, velocities);
-                GeometricStiffness.Apply(loads, new Vector<float>(1 / 240f), ref inertia, ref velocity);
+                GeometricStiffness.Apply(loads, onArms, new Vector<float>(1 / 240f), ref inertia, ref velocity);
                 var aloneInertia = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref inertias, lane));
                 var aloneVelocity = Lanes.Broadcast<Vector3, Vector3Wide>(Lanes.Read<Vector3, Vector3Wide>(ref velocities, lane));
                 var aloneLoad = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref loads, lane));
-                GeometricStiffness.Apply(aloneLoad, new Vector<float>(1 / 240f), ref aloneInertia, ref aloneVelocity);
+                GeometricStiffness.Apply(aloneLoad, new Vector<float>(onArms[lane]), new Vector<float>(1 / 240f), ref aloneInertia, ref aloneVelocity);
                 Assert.Equal(Bits(aloneInertia, 0), Bits(inertia, lane));
                 Assert.Equal(Bits(aloneVelocity, 0), Bits(velocity, lane));
             }
