@@ -18,6 +18,7 @@ static class AccuracySuite
         .. TroughCases.All,
         .. LandingSpinCases.All,
         .. TurntableCases.All,
+        .. GoingRoundCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,
