@@ -44,6 +44,11 @@ unsafe struct ContainerQuestion
     public ShapeOutline Outline;
     /// <summary>Of what was found, the end.</summary>
     public int End;
+    /// <summary>
+    /// Whether triangles may be left out that are near only where a neighbour is (<see cref="OutlineSides"/>): those of a surface agree on that, but two
+    /// triangles may hold each other there. Then, whether there were such.
+    /// </summary>
+    public bool LeavesToNeighbours;
 }
 
 /// <summary>A shape made of convex children, numbered from zero, in a tree or in a list.</summary>

@@ -74,13 +74,13 @@ public unsafe partial struct Mesh : IContainer
 
     readonly void IContainer.FindOverlaps(
         Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool) =>
-        Find(min, max, outline, ref found, pool);
+        Find(min, max, outline, false, ref found, pool);
 
-    readonly void Find(Vector3 min, Vector3 max, in ShapeOutline outline, ref QuickList<int> found, BufferPool pool)
+    readonly bool Find(Vector3 min, Vector3 max, in ShapeOutline outline, bool leavesToNeighbours, ref QuickList<int> found, BufferPool pool)
     {
         var first = found.Count;
         FindPlaces(min, max, ref found, pool);
-        Take(outline, ref found, first);
+        return Take(outline, leavesToNeighbours, ref found, first);
     }
 
     static void IContainer.FindTogether(Span<ContainerQuestion> questions, ref QuickList<int> found, BufferPool pool)
@@ -88,7 +88,8 @@ public unsafe partial struct Mesh : IContainer
         if (questions.Length == 1)
         {
             ref var question = ref questions[0];
-            ((Mesh*)question.Container)->Find(question.Min, question.Max, question.Outline, ref found, pool);
+            question.LeavesToNeighbours = ((Mesh*)question.Container)->Find(
+                question.Min, question.Max, question.Outline, question.LeavesToNeighbours, ref found, pool);
             question.End = found.Count;
             return;
         }
@@ -108,26 +109,40 @@ public unsafe partial struct Mesh : IContainer
             {
                 var first = found.Count;
                 queries.FindPlaces(i, ref found, pool);
-                ((Mesh*)asked[i].Container)->Take(asked[i].Outline, ref found, first);
+                asked[i].LeavesToNeighbours = ((Mesh*)asked[i].Container)->Take(
+                    asked[i].Outline, asked[i].LeavesToNeighbours, ref found, first);
                 asked[i].End = found.Count;
             }
         }
     }
 
-    // Of places in the tree, those of triangles that a shape is beside or in front of.
+    // Of places in the tree, those of triangles that a shape is beside or in front of, or that are near it only where a neighbour is. Returns whether there are
+    // such as the last. The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    readonly void LeaveOut(in ShapeOutline outline, ref QuickList<int> found, int first)
+    readonly bool LeaveOut(in ShapeOutline outline, bool leavesToNeighbours, ref QuickList<int> found, int first)
     {
         var sides = new OutlineSides(outline, IsMirrored);
+        var knowsNeighbours = leavesToNeighbours && !twoSided && !IsMirrored;
         var places = found.Span.Memory;
         var count = first;
+        leavesToNeighbours = false;
         for (int i = first; i < found.Count; ++i)
         {
-            var isApart = sides.IsApart(CornersAt(places[i]));
+            var side = sides.Find(CornersAt(places[i]), out var beyond);
+            if (side == OutlineSide.IsBeyondEdge && knowsNeighbours)
+            {
+                GetCone(Header->Triangles.GetNumber(places[i]), out var cone);
+                if (sides.IsOfNeighbour(beyond, cone))
+                {
+                    side = OutlineSide.IsApart;
+                    leavesToNeighbours = true;
+                }
+            }
             places[count] = places[i];
-            count += isApart ? 0 : 1;
+            count += side == OutlineSide.IsApart ? 0 : 1;
         }
         found.Count = count;
+        return leavesToNeighbours;
     }
 
     // A, B, C and A of the triangle at a place.
@@ -169,11 +184,11 @@ public unsafe partial struct Mesh : IContainer
             found[i] = Math.Max(found[i], ~found[i]);
     }
 
-    // Of places in the tree to numbers. What is found is asked for by its number soon; its corners were just looked at.
-    readonly void Take(in ShapeOutline outline, ref QuickList<int> found, int first)
+    // Of places in the tree to numbers. What is found is asked for by its number soon; its corners were just looked at. Returns whether triangles are left out
+    // of which what is near is a neighbour's.
+    readonly bool Take(in ShapeOutline outline, bool leavesToNeighbours, ref QuickList<int> found, int first)
     {
-        if (outline.IsKnown)
-            LeaveOut(outline, ref found, first);
+        leavesToNeighbours = outline.IsKnown && LeaveOut(outline, leavesToNeighbours, ref found, first);
         for (int i = first; i < found.Count; ++i)
         {
             found[i] = Header->Triangles.GetNumber(found[i]);
@@ -182,6 +197,7 @@ public unsafe partial struct Mesh : IContainer
         // The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
         if (outline.IsBall && found.Count - first > 1 && !twoSided && !IsMirrored)
             MarkOfNeighbours(outline, ref found, first);
+        return leavesToNeighbours;
     }
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)

@@ -5,10 +5,30 @@ using BepuPhysics.Trees;
 
 namespace BepuPhysics.Collidables;
 
+/// <summary>What a shape is to a triangle, as far as what it lies in says it.</summary>
+enum OutlineSide
+{
+    /// <summary>Nothing is known.</summary>
+    Unknown,
+    /// <summary>It is apart from the triangle by more than its margin.</summary>
+    IsApart,
+    /// <summary>It does not touch the triangle, and what of it is near enough is beyond an edge: that is a neighbour's, if there is one.</summary>
+    IsBeyondEdge,
+}
+
 /// <summary>Tells which triangles a shape is beside, or in front of: what the box around it meets is often only the box around them.</summary>
 /// <remarks>
 /// A shape is apart from a triangle if it is beyond one of the planes that stand on its edges, or in front of its own. That is looked at along four
-/// directions at once, those of AB, BC and CA and the normal. What is behind a triangle is not left out: it may have been pressed through.
+/// directions at once, those of AB, BC and CA and the normal. Next each edge is looked at along a direction that leans from the edge towards the shape's
+/// middle: what rolls over one triangle is high above the next where it is over that. And a box is apart from what is beyond one of its faces.
+/// What is behind a triangle is not left out: it may have been pressed through.
+/// <para>
+/// Nothing is touched at an edge from beyond the neighbour's normal there (TriangleNeighbours). With n the triangle's normal, o out of the edge, and an angle
+/// t by which the surface bends away, the plane of the edge and the neighbour's normal has the normal m = o cos t - n sin t. Of a shape of which no point
+/// is both within the margin u of the triangle's height and on the near side of that plane, whatever is near the triangle is the neighbour's. It is so if
+/// for some direction g = a o + b n, which is a / cos t m + (b + a tan t) n, with a > 0 and b >= 0, all of the shape is farther along g than the edge by
+/// (b + a tan t) u. What is told by this has no contacts once children agree, whatever the test finds, unless nobody has any at a corner of a saddle.
+/// </para>
 /// </remarks>
 readonly struct OutlineSides
 {
@@ -16,9 +36,19 @@ readonly struct OutlineSides
     const float Slack = 1e-5f;
     // Squares below it have lost digits: directions of triangles of some micrometres are not looked along.
     const float LeastSquare = 1e-34f;
+    // Of the sizes and distances: five times what counts as near where children agree.
+    const float Near = 5e-4f;
+    // Of coordinates: by how much places of the shape and of corners may be rounded.
+    const float Rounding = 4e-6f;
+    // Cosine of the greatest angle to a neighbour.
+    const float LeastCosine = .02f;
+    const int Edges = 7;
 
     readonly Lanes center, x, y, z, axis;
-    readonly Vector128<float> radius, roundRadius, front;
+    readonly Vector128<float> radius, roundRadius, front, margin, ball, slack;
+    // The axes of a box as rows, to its sides; how far along each the nearest point of what is apart is, times its half width.
+    readonly Lanes sides;
+    readonly Vector128<float> sideLimits, sideLengths;
     readonly bool isBox;
 
     /// <summary>A vector in each lane.</summary>
@@ -58,17 +88,49 @@ readonly struct OutlineSides
         (radius, roundRadius) = (Vector128.Create(shape.Radius), Vector128.Create(shape.RoundRadius));
         front = Vector128.Create(isMirrored ? -1f : 1);
         isBox = shape.IsBox;
+        margin = Vector128.Create(shape.Margin);
+        ball = Vector128.Create(shape.Radius - shape.Margin);
+        slack = center.Greatest() * Vector128.Create(Rounding) + ball * Vector128.Create(Near);
+        if (isBox)
+        {
+            var (first, second, third) = (shape.X, shape.Y, shape.Z);
+            sides = new(
+                Vector128.Create(first.X, second.X, third.X, 0), Vector128.Create(first.Y, second.Y, third.Y, 0),
+                Vector128.Create(first.Z, second.Z, third.Z, 0));
+            var squares = sides.Dot(sides);
+            sideLengths = Vector128.Sqrt(squares);
+            sideLimits = squares + sideLengths * radius;
+        }
     }
 
     // Of each lane the next.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector128<float> Next(Vector128<float> lanes) => Vector128.Shuffle(lanes, Vector128.Create(1, 2, 3, 0));
 
-    /// <summary>Whether the shape is apart from a triangle by the side of it that it is on; not where anything is beyond all numbers.</summary>
-    /// <param name="corners">A, B, C and A, in the frame of the outline.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool IsApart(in Lanes corners)
+    /// <summary>What is known of an edge in each lane, and of the shape beyond it.</summary>
+    public struct Beyond
     {
+        /// <summary>The edges.</summary>
+        public Lanes Edges;
+        /// <summary>How far the shape's centre is out of each, m, and above the triangle less the margin, or nothing.</summary>
+        public Vector128<float> Beside, Rise;
+        /// <summary>By how much the shape is beyond each along the direction that leans, times its length.</summary>
+        public Vector128<float> Spare;
+        /// <summary>How far the shape reaches to each side of its centre across each, m.</summary>
+        public Vector128<float> Reach;
+        /// <summary>What counts as near, m.</summary>
+        public Vector128<float> Near;
+        /// <summary>Those that may be a neighbour's.</summary>
+        public Vector128<float> Lanes;
+    }
+
+    /// <summary>Looks at a triangle. Where anything is beyond all numbers, nothing is known.</summary>
+    /// <param name="corners">A, B, C and A, in the frame of the outline.</param>
+    /// <param name="beyond">What is known of the edges, if the shape may be beyond one.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public OutlineSide Find(in Lanes corners, out Beyond beyond)
+    {
+        Unsafe.SkipInit(out beyond);
         // AB, BC, CA and nothing; from the corners to the shape.
         var edges = corners.ToNext();
         var ways = new Lanes(center.X - corners.X, center.Y - corners.Y, center.Z - corners.Z);
@@ -80,20 +142,109 @@ readonly struct OutlineSides
             Vector128.ConditionalSelect(isFace, face.Y * front, outwards.Y),
             Vector128.ConditionalSelect(isFace, face.Z * front, outwards.Z));
         var squared = directions.Dot(directions);
-        var reach = radius * Vector128.Sqrt(squared) + Vector128.Abs(directions.Dot(y));
-        if (isBox)
-            reach += Vector128.Abs(directions.Dot(x)) + Vector128.Abs(directions.Dot(z));
-        else
-        {
-            var along = directions.Dot(axis);
-            reach += roundRadius * Vector128.Sqrt(BoxMath.Max(squared - along * along, Vector128<float>.Zero));
-        }
+        var lengths = Vector128.Sqrt(squared);
+        var reach = ReachAlong(directions, squared);
         var length = edges.Greatest();
-        var slack = length * length * ways.Greatest() * Vector128.Create(Slack);
-        slack = Vector128.ConditionalSelect(isFace, slack, slack * length);
-        var isApart = Vector128.GreaterThan(directions.Dot(ways), reach + slack) & Vector128.GreaterThan(squared, Vector128.Create(LeastSquare));
-        return isApart.ExtractMostSignificantBits() != 0;
+        var way = ways.Greatest();
+        var rounding = length * length * way * Vector128.Create(Slack);
+        rounding = Vector128.ConditionalSelect(isFace, rounding, rounding * length);
+        var along = directions.Dot(ways);
+        var isLarge = Vector128.GreaterThan(squared, Vector128.Create(LeastSquare));
+        var isApart = Vector128.GreaterThan(along, reach + radius * lengths + rounding) & isLarge;
+        if (isApart.ExtractMostSignificantBits() != 0)
+            return OutlineSide.IsApart;
+        if (isLarge.ExtractMostSignificantBits() != 15)
+            return OutlineSide.Unknown;
+
+        var inverse = Vector128<float>.One / lengths;
+        var unit = new Lanes(directions.X * inverse, directions.Y * inverse, directions.Z * inverse);
+        var beside = along * inverse;
+        reach *= inverse;
+        var height = Vector128.Create(beside[3]);
+        if (isBox && height[0] > reach[3] && IsBeyondSide(ways, way))
+            return OutlineSide.IsApart;
+        var rise = BoxMath.Max(height - margin, Vector128<float>.Zero);
+        var leaning = new Lanes(
+            unit.X * beside + Vector128.Create(unit.X[3]) * rise, unit.Y * beside + Vector128.Create(unit.Y[3]) * rise,
+            unit.Z * beside + Vector128.Create(unit.Z[3]) * rise);
+        squared = beside * beside + rise * rise;
+        lengths = Vector128.Sqrt(squared);
+        var spare = beside * beside + rise * height - ReachAlong(leaning, squared) - ball * lengths;
+        var near = slack + (length + way) * Vector128.Create(Near);
+        var isBeside = Vector128.GreaterThan(beside, near);
+        isApart = isBeside & Vector128.GreaterThan(spare, (margin + (length + way) * Vector128.Create(Slack)) * lengths);
+        if ((isApart.ExtractMostSignificantBits() & Edges) != 0)
+            return OutlineSide.IsApart;
+        reach += ball;
+        var isBeyond = isBeside & Vector128.GreaterThan(height, near) &
+            (Vector128.GreaterThan(spare, margin * rise + near * lengths) | Vector128.GreaterThan(beside, reach + near));
+        if ((isBeyond.ExtractMostSignificantBits() & Edges) == 0)
+            return OutlineSide.Unknown;
+        (beyond.Edges, beyond.Beside, beyond.Rise, beyond.Spare) = (edges, beside, rise, spare);
+        (beyond.Reach, beyond.Near, beyond.Lanes) = (reach, near, isBeyond);
+        return OutlineSide.IsBeyondEdge;
     }
+
+    // How far what the ball is around reaches along each direction, times its length.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    Vector128<float> ReachAlong(in Lanes directions, Vector128<float> squared)
+    {
+        var reach = Vector128.Abs(directions.Dot(y));
+        if (isBox)
+            return reach + Vector128.Abs(directions.Dot(x)) + Vector128.Abs(directions.Dot(z));
+        var along = directions.Dot(axis);
+        return reach + roundRadius * Vector128.Sqrt(BoxMath.Max(squared - along * along, Vector128<float>.Zero));
+    }
+
+    // Whether all corners are beyond one of the faces of a box.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    bool IsBeyondSide(in Lanes ways, Vector128<float> way)
+    {
+        var (a, b, c) = (sides.Dot(ways.Spread(0)), sides.Dot(ways.Spread(1)), sides.Dot(ways.Spread(2)));
+        var limits = sideLimits + sideLengths * way * Vector128.Create(Slack);
+        var least = BoxMath.Min(BoxMath.Min(a, b), c);
+        var greatest = BoxMath.Max(BoxMath.Max(a, b), c);
+        var isBeyond = Vector128.GreaterThan(least, limits) | Vector128.LessThan(greatest, -limits);
+        return (isBeyond.ExtractMostSignificantBits() & Edges) != 0;
+    }
+
+    /// <summary>Whether all that is near a triangle with one side, whose corners follow each other clockwise seen from the front, is a neighbour's.</summary>
+    /// <param name="beyond">What is known of its edges.</param>
+    /// <param name="cone">What is next to it.</param>
+    public bool IsOfNeighbour(in Beyond beyond, in TriangleCone cone)
+    {
+        var (cosines, sines) = (cone.Cosines.AsVector128(), cone.Sines.AsVector128());
+        var isBound = Vector128.Equals(Vector128.Create(1, 2, 4, 0) & Vector128.Create(cone.FreeMask), Vector128<int>.Zero).AsSingle();
+        var (beside, near) = (beyond.Beside, beyond.Near);
+        // Both sides times the cosine.
+        var along = beyond.Rise * cosines + beside * sines;
+        var isOf = isBound & beyond.Lanes & Vector128.GreaterThan(cosines, Vector128.Create(LeastCosine)) & (
+            Vector128.GreaterThan(beyond.Spare * cosines, margin * along + near * (beside + beyond.Rise)) |
+            Vector128.GreaterThan((beside - beyond.Reach) * cosines, margin * sines + near));
+        // At an obtuse angle what is beyond the edge may be nearest to the other side, unless it is not beyond that.
+        ref readonly var edges = ref beyond.Edges;
+        var (turnNext, turnPrevious) = (edges.Dot(Following(edges)), edges.Dot(Preceding(edges)));
+        var isWithin = Vector128.LessThan(beside + beyond.Reach, -near);
+        isOf &= Vector128.LessThanOrEqual(turnNext, Vector128<float>.Zero) | Following(isWithin);
+        isOf &= Vector128.LessThanOrEqual(turnPrevious, Vector128<float>.Zero) | Preceding(isWithin);
+        // The normals of the other neighbours are not beyond the edge.
+        var lengths = Vector128.Sqrt(edges.Dot(edges));
+        isOf &= Vector128.LessThanOrEqual(cosines * Following(sines) * turnNext, sines * Following(cosines) * lengths * Following(lengths));
+        isOf &= Vector128.LessThanOrEqual(cosines * Preceding(sines) * turnPrevious, sines * Preceding(cosines) * lengths * Preceding(lengths));
+        return (isOf.ExtractMostSignificantBits() & Edges) != 0;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Following(Vector128<float> lanes) => Vector128.Shuffle(lanes, Vector128.Create(1, 2, 0, 3));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Lanes Following(in Lanes lanes) => new(Following(lanes.X), Following(lanes.Y), Following(lanes.Z));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Preceding(Vector128<float> lanes) => Vector128.Shuffle(lanes, Vector128.Create(2, 0, 1, 3));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Lanes Preceding(in Lanes lanes) => new(Preceding(lanes.X), Preceding(lanes.Y), Preceding(lanes.Z));
 
     /// <summary>The cross products of vectors side by side.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

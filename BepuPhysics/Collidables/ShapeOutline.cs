@@ -14,8 +14,8 @@ struct ShapeOutline
     /// <summary>Unit axis of a cylinder, and its radius, m; a segment has none.</summary>
     public Vector3 Axis;
     public float RoundRadius;
-    /// <summary>Radius of the ball, m.</summary>
-    public float Radius;
+    /// <summary>Radius of the ball, m; what of it is margin.</summary>
+    public float Radius, Margin;
     /// <summary>Whether it is a box, or a cylinder.</summary>
     public bool IsBox, IsRound;
 
@@ -28,7 +28,7 @@ struct ShapeOutline
     /// <summary>A shape in its own frame, with a margin around it; nothing is known of one that is neither box nor round.</summary>
     public static unsafe ShapeOutline Of(int typeId, void* shape, in Vector3 center, in Quaternion orientation, float margin)
     {
-        var result = new ShapeOutline { Center = center, Radius = margin };
+        var result = new ShapeOutline { Center = center, Radius = margin, Margin = margin };
         switch (typeId)
         {
             case Box.Id:

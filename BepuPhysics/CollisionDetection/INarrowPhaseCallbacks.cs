@@ -39,7 +39,9 @@ public interface INarrowPhaseCallbacks
 
     /// <summary>Whether to look for contacts between two children of compounds.</summary>
     /// <remarks>
-    /// Asked after the pair as a whole was allowed, in the order of the indices. A shape without children has the index 0. Of a compound with children
+    /// Asked after the pair as a whole was allowed, in the order of the indices, of those that may touch: not of a triangle of a mesh that is apart by
+    /// more than the margin, nor of one that is not touched and near which there is only what is its neighbour's.
+    /// A shape without children has the index 0. Of a compound with children
     /// that are made of children themselves, indices are those of convex pieces: <see cref="Compound.FindPiece"/> says what they belong to.
     /// </remarks>
     bool AllowContactGeneration(int workerIndex, CollidablePair pair, int childIndexA, int childIndexB);

@@ -74,10 +74,10 @@ public unsafe partial struct HeightField
             Find(children[i], out var x, out var z, out var isSecond);
             var triangle = GetTriangle(x, z, isSecond, 0, 0, 0);
             var (a, b, c) = (triangle.A, triangle.B, triangle.C);
-            var isApart = sides.IsApart(
-                new(Vector128.Create(a.X, b.X, c.X, a.X), Vector128.Create(a.Y, b.Y, c.Y, a.Y), Vector128.Create(a.Z, b.Z, c.Z, a.Z)));
+            var side = sides.Find(
+                new(Vector128.Create(a.X, b.X, c.X, a.X), Vector128.Create(a.Y, b.Y, c.Y, a.Y), Vector128.Create(a.Z, b.Z, c.Z, a.Z)), out _);
             children[count] = children[i];
-            count += isApart ? 0 : 1;
+            count += side == OutlineSide.IsApart ? 0 : 1;
         }
         found.Count = count;
     }

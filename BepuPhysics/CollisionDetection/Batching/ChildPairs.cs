@@ -81,6 +81,7 @@ unsafe struct ChildPairs(BufferPool pool)
         public float SpeculativeMargin;
         public bool MoverIsB;
         public bool HasRound;
+        public bool LeavesToNeighbours;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -118,6 +119,9 @@ unsafe struct ChildPairs(BufferPool pool)
             pool.TakeAtLeast(Math.Max(1, capacity), out parent.Placed);
         return parents.Add(parent, pool);
     }
+
+    /// <summary>Notes that triangles of a parent were left out that are near only where a neighbour is.</summary>
+    public readonly void LeaveToNeighbours(int parent) => parents[parent].LeavesToNeighbours = true;
 
     /// <summary>Gives a child the next slot of its parent.</summary>
     public readonly WaitingChild TakeSlot(int parent, ChildIds ids, bool keepsHistory, in ChildShapes shapes)
@@ -184,7 +188,7 @@ unsafe struct ChildPairs(BufferPool pool)
     public bool WaitToJoin(int parent, BufferPool pool)
     {
         ref var open = ref parents[parent];
-        Seams.Add(open.Slots.Memory + PatchSet.Capacity, open.Placed.Memory, open.SlotCount, parent, pool);
+        Seams.Add(open.Slots.Memory + PatchSet.Capacity, open.Placed.Memory, open.SlotCount, parent, open.LeavesToNeighbours, pool);
         return Seams.Sets.Count == SeamMemory.SetCapacity;
     }
 

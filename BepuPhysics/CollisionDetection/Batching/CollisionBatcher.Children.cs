@@ -105,6 +105,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         for (int i = start; i < end; ++i)
         {
             ref var found = ref Children->Found[i];
+            if (found.LeavesToNeighbours)
+                Children->LeaveToNeighbours(parent);
             if (!found.IsAllowed && !Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
                 continue;
             task.GetChildren(batch, Shapes, found, out var children);
@@ -128,6 +130,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             return;
         }
         var parent = Children->Open(pair, 1, joins: true, Dt, Pool);
+        if (found.LeavesToNeighbours)
+            Children->LeaveToNeighbours(parent);
         AddChild(parent, found.Children, children, pair);
         Release(parent);
     }

@@ -40,6 +40,16 @@ struct FoundChild(int parent, ChildIds children)
     public bool Touches;
     /// <summary>Whether it is known that they are to be tested.</summary>
     public bool IsAllowed;
+    /// <summary>Whether triangles beside this one were left out, of which what is near the other shape is a neighbour's.</summary>
+    public bool LeavesToNeighbours;
+
+    /// <summary>Writes one in place: what is made elsewhere first is copied as a whole, and waits for its parts.</summary>
+    public void Write(int parent, ChildIds children)
+    {
+        Parent = parent;
+        Children = children;
+        LeadsOut = IsOfNeighbour = Touches = IsAllowed = LeavesToNeighbours = false;
+    }
 }
 
 /// <summary>The convex shapes of two children, and where they are. A shape without children is its own.</summary>

@@ -116,7 +116,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
     }
 
     readonly void Add(int childA, int childB, ref QuickList<FoundChild> found) =>
-        found.Add(new(parent, flipped ? new(childB, childA) : new(childA, childB)), pool);
+        found.Allocate(pool).Write(parent, flipped ? new(childB, childA) : new(childA, childB));
 
     void Descend(in TContainerA a, in TContainerB b, in NodePlacement placement, int countA, Shapes shapes, ref QuickList<FoundChild> found)
     {

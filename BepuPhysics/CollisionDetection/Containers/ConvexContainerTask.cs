@@ -27,7 +27,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     {
         var children = new QuickList<int>(InitialCapacity, pool);
         if (TContainer.AsksTogether)
-            FindTogether(batch, dt, ref children, ref found, pool);
+            FindTogether(batch, dt, JoinsChildren && typeof(TConvex) != typeof(Triangle), ref children, ref found, pool);
         else
             FindEach(batch, shapes, dt, ref children, ref found, pool);
         children.Dispose(pool);
@@ -61,7 +61,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                     List(entry, shapes, ref list, ref listed, pool);
                 var outline = TContainer.TakesOutlines ? Outline(entry.A, ref boxes, i) : default;
                 entry.B.FindOverlaps(Read(ref boxes.Min, i), Read(ref boxes.Max, i), outline, shapes, list.Memory, ref children, pool);
-                Add(start + i, entry.Pair, children.AsSpan(), ref found, pool);
+                Add(start + i, entry.Pair, children.AsSpan(), false, ref found, pool);
             }
         }
         if (list.Allocated)
@@ -113,7 +113,8 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
     }
 
     // Who is inside of a solid asks nothing; a place in the order of the batch is kept for its way out.
-    static void FindTogether(in PairBatch batch, float dt, ref QuickList<int> children, ref QuickList<FoundChild> found, BufferPool pool)
+    static void FindTogether(
+        in PairBatch batch, float dt, bool leavesToNeighbours, ref QuickList<int> children, ref QuickList<FoundChild> found, BufferPool pool)
     {
         const int none = -1;
         var entries = Entries(batch);
@@ -135,6 +136,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 question.Min = Read(ref boxes.Min, i);
                 question.Max = Read(ref boxes.Max, i);
                 question.Outline = Outline(entry.A, ref boxes, i);
+                question.LeavesToNeighbours = leavesToNeighbours;
             }
         }
         TContainer.FindTogether(questions[..questionCount], ref children, pool);
@@ -145,13 +147,14 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 found.Add(new(i, Ids(entries[i].Pair, waysOut[i])) { LeadsOut = true }, pool);
                 continue;
             }
-            var end = questions[asked++].End;
-            Add(i, entries[i].Pair, children.AsSpan()[next..end], ref found, pool);
+            ref var question = ref questions[asked++];
+            var end = question.End;
+            Add(i, entries[i].Pair, children.AsSpan()[next..end], question.LeavesToNeighbours, ref found, pool);
             next = end;
         }
     }
 
-    static void Add(int parent, in ParentPair pair, Span<int> children, ref QuickList<FoundChild> found, BufferPool pool)
+    static void Add(int parent, in ParentPair pair, Span<int> children, bool leavesToNeighbours, ref QuickList<FoundChild> found, BufferPool pool)
     {
         var first = found.Count;
         var hasOfNeighbours = false;
@@ -159,7 +162,11 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
         {
             var isOfNeighbour = child < 0;
             hasOfNeighbours |= isOfNeighbour;
-            found.Add(new(parent, Ids(pair, isOfNeighbour ? ~child : child)) { IsOfNeighbour = isOfNeighbour }, pool);
+            // Field by field: what is made elsewhere first is copied as a whole.
+            ref var added = ref found.Allocate(pool);
+            added.Write(parent, Ids(pair, isOfNeighbour ? ~child : child));
+            added.IsOfNeighbour = isOfNeighbour;
+            added.LeavesToNeighbours = leavesToNeighbours;
         }
         if (hasOfNeighbours)
             found[first].Touches = true;

@@ -86,6 +86,7 @@ readonly struct NodePlacement
         var half = node.Max - center;
         var radius = Exact.Length(center) + Exact.Length(half);
         var outline = new ShapeOutline { Center = position + Matrix3x3.TransposeTimes(axes, center), Radius = margin + radius * RelativeMotionWide.Rounding };
+        outline.Margin = outline.Radius;
         outline.SetBox(axes, half);
         return outline;
     }

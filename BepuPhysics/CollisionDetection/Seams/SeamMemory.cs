@@ -37,11 +37,20 @@ struct SeamMemory
     /// <param name="placed">Where each is.</param>
     /// <param name="count">Number of them.</param>
     /// <param name="owner">What they are of.</param>
+    /// <param name="leavesToNeighbours">Whether there are triangles beside these of which what is near is a neighbour's.</param>
     /// <param name="pool">Source of memory.</param>
-    public unsafe void Add(ChildResult* results, PlacedChildren* placed, int count, int owner, BufferPool pool)
+    public unsafe void Add(ChildResult* results, PlacedChildren* placed, int count, int owner, bool leavesToNeighbours, BufferPool pool)
     {
         Touching.EnsureCapacity(SetCapacity * 4, pool);
-        var set = new SeamSet { Owner = owner, Results = results, Placed = placed, First = Touching.Count, Index = -1 };
+        var set = new SeamSet
+        {
+            Owner = owner,
+            Results = results,
+            Placed = placed,
+            First = Touching.Count,
+            Index = -1,
+            LeavesToNeighbours = leavesToNeighbours,
+        };
         var hasTriangle = false;
         for (int i = 0; i < count; ++i)
         {

@@ -46,6 +46,8 @@ unsafe struct SeamSet
     public bool HasForeseen;
     /// <summary>Whether its contacts are those with one plane; see <see cref="FaceCorners"/>.</summary>
     public bool IsOnPlane;
+    /// <summary>Whether there are triangles beside these that were left out, as what is near them is a neighbour's.</summary>
+    public bool LeavesToNeighbours;
     /// <summary>What the set is of.</summary>
     public int Owner;
 }

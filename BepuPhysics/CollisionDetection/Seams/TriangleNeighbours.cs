@@ -90,7 +90,7 @@ static class TriangleNeighbours
             if (child.IsOfNeighbours)
                 deepest = MathHelper.Max(deepest, view.Result(child).Manifold.GreatestDepth);
         }
-        return count > 1 && deepest > 0;
+        return (count > 1 || view.Set.LeavesToNeighbours) && deepest > 0;
     }
 
     /// <summary>Whether what touches along a normal touches a neighbour of one of two children.</summary>

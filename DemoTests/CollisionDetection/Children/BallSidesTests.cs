@@ -89,8 +89,8 @@ public sealed class BallSidesTests() : ShapesTest(61)
             }
         }
         Assert.InRange(contacts, 1000, int.MaxValue);
-        // Of a third of the meshes, which are mirrored, all are tested.
-        Assert.InRange(tested, 1, all * 3 / 4);
+        // Of a third of the meshes, which are mirrored, all are tested; what is not touched and only near a neighbour is left out for both (BeyondEdgeTests).
+        Assert.InRange(tested, 1, all * 4 / 5);
     }
 
     float Offset() => 2 * random.NextSingle() - 1;

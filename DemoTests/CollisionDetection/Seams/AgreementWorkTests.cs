@@ -36,7 +36,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
         fixed (ChildResult* first = children)
         fixed (PlacedChildren* places = placed)
         {
-            memory.Add(first, places, count, owner: 0, pool);
+            memory.Add(first, places, count, owner: 0, leavesToNeighbours: false, pool);
             SeamRounds.Run(ref memory, Registry, pool);
         }
         ref var set = ref memory.Sets[0];

@@ -195,7 +195,7 @@ public sealed unsafe class ShapeReachTests : IDisposable
         fixed (ChildResult* first = results)
         fixed (PlacedChildren* places = placed)
         {
-            memory.Add(first, places, results.Length, owner: 0, pool);
+            memory.Add(first, places, results.Length, owner: 0, leavesToNeighbours: false, pool);
             SeamRounds.Run(ref memory, DefaultTypes.CreateDefaultCollisionTaskRegistry(), pool);
         }
     }
