@@ -13,6 +13,7 @@ unsafe readonly struct ContactConstraint
 {
     readonly float* prestep;
     readonly float* impulses;
+    readonly int* referenceB;
     readonly int contactCount;
     readonly bool hasTwoBodies;
 
@@ -25,6 +26,8 @@ unsafe readonly struct ContactConstraint
         impulses = (float*)Unsafe.AsPointer(ref processor.Impulse(ref batch, location.IndexInTypeBatch, 0));
         this.contactCount = contactCount;
         hasTwoBodies = location.TypeId >= ConstraintTypeIds.ContactTwoBody;
+        if (hasTwoBodies)
+            referenceB = (int*)Unsafe.AsPointer(ref processor.BodyReference(ref batch, location.IndexInTypeBatch, 1));
     }
 
     /// <summary>Asks the processor to load the column. Changes no result.</summary>
@@ -64,6 +67,8 @@ unsafe readonly struct ContactConstraint
                 Keep(arms, ref kept, manifold, ref features);
                 if (!knewB || frictionCenter != default)
                     WriteOffsetB(manifold, frictionCenter);
+                else if ((kept.HasMoved || Exact.DistanceSquared(arms.Normal, manifold.Normal) > StillNormal * StillNormal) && IsOnKinematic)
+                    Write(ContactPrestepLayout.OffsetB(contactCount), manifold.OffsetB - kept.Drift(arms, manifold));
                 return;
             }
         }
@@ -120,6 +125,13 @@ unsafe readonly struct ContactConstraint
 
     // Whether the place of B is written, and not that of friction; see ContactMaterialWide.SharesFriction.
     bool KnowsB => hasTwoBodies && !float.IsNegative(prestep[ContactPrestepLayout.Friction(contactCount) * Vector<float>.Count]);
+
+    // How far a normal turns in a step that has been turned by a deck, and not by what lies at rest: .012 rad/s at 60 steps a second.
+    const float StillNormal = 2e-4f;
+
+    // What no load moves leans for none: of the place of its centre all that counts is how fast its surface moves where the contacts are. On a deck that rolls
+    // that is another one when the arms have turned.
+    bool IsOnKinematic => hasTwoBodies && (*referenceB & EncodedBody.KinematicFlag) != 0;
 
     void Turn(ref OldArms arms, in KeptArms kept, in ConvexContactManifold manifold)
     {

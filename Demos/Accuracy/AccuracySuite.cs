@@ -19,6 +19,7 @@ static class AccuracySuite
         .. LandingSpinCases.All,
         .. TurntableCases.All,
         .. GoingRoundCases.All,
+        .. DeckCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,

@@ -7,13 +7,6 @@ namespace BepuPhysics.Constraints.Contact;
 // Friction of the patch, along the surface and against turning about its normal, and where it acts.
 readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 {
-    // What is so many times as heavy as another body and turns so fast, rad/s, carries it: platforms. Of what rocks on each other neither carries the other.
-    const float CarrierMass = 8;
-    const float CarrierTurn = 0.1f;
-    // Greatest way along the surface, as a part of an arm, by which a patch goes along in a step: half a radian of a turntable's turn. What moves farther is
-    // thrown off, and on what is small and heavy it would be rubbed at the end of a lever that is not there.
-    const float GreatestWay = 0.5f;
-
     // Two rows that share an anchor, so their effective mass is a 2 x 2 block: a block solve stops sliding in one sweep where two rows in turn would not.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void SolveFriction(
@@ -121,38 +114,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         return Vector3Wide.Select(rests, prestep.OffsetB, prestep.Normal * Vector3Wide.Dot(own, prestep.Normal));
     }
 
-    // On what carries another body, as a turntable, the surface's velocity points elsewhere as soon as that has moved on: friction for where it was at
-    // detection makes all that turns along spiral outwards. So the patch goes along with what is carried: on the other body it is where that is in the
-    // middle of the substep, or now, in a relaxation. For the middle, v = w x (r + v dt / 2), and a circle is left to the third order. Only along the
-    // surface: across it arms end there already.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void GoAlong(in TBodies bodies, in Substep substep, in Vector3Wide n, ref Vector3Wide armA, ref Vector3Wide armB)
-    {
-        var slots = bodies;
-        ref var a = ref BodySlots.At(ref slots, 0);
-        ref var b = ref BodySlots.At(ref slots, 1);
-        var share = new Vector<float>(1 / CarrierMass);
-        var (carriesA, carriesB) = (Vector.LessThan(a.InverseMass, b.InverseMass * share), Vector.LessThan(b.InverseMass, a.InverseMass * share));
-        if ((carriesA | carriesB) != Vector<int>.Zero)
-            GoAlong(a, b, carriesA, carriesB, substep, n, ref armA, ref armB);
-    }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void GoAlong(in SolverBodyWide a, in SolverBodyWide b, Vector<int> carriesA, Vector<int> carriesB, in Substep substep, in Vector3Wide n,
-        ref Vector3Wide armA, ref Vector3Wide armB)
-    {
-        var turn = new Vector<float>(CarrierTurn * CarrierTurn);
-        carriesA &= Vector.GreaterThan(a.Angular.LengthSquared(), turn);
-        carriesB &= Vector.Equals(b.InverseMass, Vector<float>.Zero) | Vector.GreaterThan(b.Angular.LengthSquared(), turn);
-        var ahead = new Vector<float>(substep.IsRelaxation ? 0 : 0.5f * substep.Dt);
-        var moved = a.Translation - b.Translation + (a.Linear - b.Linear) * ahead;
-        moved -= n * Vector3Wide.Dot(moved, n);
-        var way = moved.LengthSquared();
-        carriesA &= Vector.LessThan(way, armA.LengthSquared() * new Vector<float>(GreatestWay * GreatestWay));
-        carriesB &= Vector.LessThan(way, armB.LengthSquared() * new Vector<float>(GreatestWay * GreatestWay));
-        armA -= Vector3Wide.Mask(carriesA, moved);
-        armB += Vector3Wide.Mask(carriesB, moved);
-    }
+    static bool IsFlat => TBodies.Count > 1 && TContacts.Count >= LeastFlat;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector3Wide OwnCenter(ref ConvexContactPrestepWide<TContacts> prestep)

@@ -50,6 +50,14 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         var center = PatchCenter(bodies, ref patch);
         var load = Vector<float>.Zero;
         var moment = Vector<float>.Zero;
+        var turned = bodies;
+        var pressed = Vector<float>.Zero;
+        var mayCarry = MayCarry(bodies);
+        if (IsFlat && mayCarry)
+        {
+            TurnSurface(ref turned, substep, n, out var towards);
+            pressed = -Vector3Wide.Dot(towards, n);
+        }
         for (int i = 0; i < TContacts.Count; ++i)
         {
             ref var row = ref rows[i];
@@ -57,10 +65,11 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             WriteJacobian(ref row, n, arm, patch.OffsetB);
             row.Impulse = accumulated.Normals[i];
             row.Lever = (arm - center).Length();
-            row.PositionError = Displacement(bodies, row) - patch.Contacts[i].Depth;
+            row.PositionError = Displacement(turned, row) - patch.Contacts[i].Depth;
             row.MaximumImpulse = new(float.PositiveInfinity);
             row.HardMask = Vector.LessThanOrEqual(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
             AimNormal(substep, patch.Material, ref row);
+            row.TargetVelocity -= pressed;
             load += row.Impulse;
             moment += row.Impulse * row.Lever;
         }
@@ -71,7 +80,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         if (TBodies.Count > 1)
         {
             rubbedB = center - patch.OffsetB;
-            GoAlong(bodies, substep, n, ref rubbedA, ref rubbedB);
+            if (mayCarry)
+                GoAlong(bodies, substep, n, ref rubbedA, ref rubbedB);
         }
         WriteJacobian(ref rows[FirstFriction], x, rubbedA, rubbedA - rubbedB);
         WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);

@@ -93,19 +93,26 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         if (anyHeld)
             band = Harden(isHeld, substep, prestep.Material.SpringSettings.AngularFrequency, ref softness);
         var inverseDt = new Vector<float>(substep.InverseDt);
+        var mayCarry = MayCarry(bodies);
+        Unsafe.SkipInit(out Vector3Wide pressed);
+        if (IsFlat && mayCarry)
+            TurnSurface(ref bodies, substep, prestep.Normal, out pressed);
         var load = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)
         {
             SolveNormal(ref bodies, substep, ref prestep, prestep.Contacts[i], softness, anyHeld, band, inverseDt, ref impulses.Normals[i]);
             load += impulses.Normals[i];
         }
+        if (IsFlat && mayCarry)
+            BodySlots.At(ref bodies, 1).Linear -= pressed;
         var center = PatchCenter(bodies, ref prestep);
         var coefficient = Coefficient(ref prestep);
         Vector3Wide rubbedA = center, rubbedB = default;
         if (TBodies.Count > 1)
         {
             rubbedB = center - prestep.OffsetB;
-            GoAlong(bodies, substep, prestep.Normal, ref rubbedA, ref rubbedB);
+            if (mayCarry)
+                GoAlong(bodies, substep, prestep.Normal, ref rubbedA, ref rubbedB);
         }
         SolveFriction(ref bodies, prestep.Normal, rubbedA, rubbedB, coefficient * load, ref impulses.Friction);
         if (TContacts.Count > 1)
