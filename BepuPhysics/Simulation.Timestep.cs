@@ -70,10 +70,23 @@ public sealed partial class Simulation
         // contacts would go, and with them what they bear. See Docs/decisions/step-length.md.
         var reach = MathHelper.Max(dt, Solver.UsualDt);
         PoseIntegrator.Prepare(reach);
-        var work = new BoundsPredictor { Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = reach };
+        var dispatcher = Bodies.Awake.Count < BoundsPredictor.MinimumBodyCountForThreads ? null : threadDispatcher;
+        // Whether there is anything to be remembered of is known afterwards. Mostly it is as in the last step.
+        var work = new BoundsPredictor
+        {
+            Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = reach,
+            Motions = commonMotion.Begin(Bodies.HasMovingKinematics),
+        };
+        Bodies.HasMovingKinematics = false;
         try
         {
-            StagedWork.Run(ref work, Bodies.Awake.Count < BoundsPredictor.MinimumBodyCountForThreads ? null : threadDispatcher);
+            StagedWork.Run(ref work, dispatcher);
+            if (Bodies.HasMovingKinematics && !work.Motions.Allocated)
+            {
+                work.Motions = commonMotion.Begin(true);
+                work.IsRepeated = true;
+                StagedWork.Run(ref work, dispatcher);
+            }
         }
         catch
         {
@@ -110,7 +123,10 @@ public sealed partial class Simulation
         using (Profiler.Time(BroadPhase))
             BroadPhase.UpdateTrees(threadDispatcher);
         using (Profiler.Time(NarrowPhase))
+        {
+            commonMotion.Apply();
             NarrowPhase.FindContacts(dt, threadDispatcher);
+        }
         using (Profiler.Time(SimulationProfiler.Flush))
             NarrowPhase.Flush(threadDispatcher);
     }

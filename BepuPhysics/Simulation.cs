@@ -18,6 +18,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     bool isDisposed;
     readonly CollidableTraits traits;
     readonly SleepingIslands islands;
+    readonly CommonMotion commonMotion;
 
     /// <summary>Who may do what now.</summary>
     internal WorldLock World => world;
@@ -81,6 +82,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
         Statics.Connect(Bodies, Awakener, traits);
         Solver.Connect(Awakener);
         Quarantine = new Quarantine(Bodies, bufferPool);
+        commonMotion = new CommonMotion(this, bufferPool);
         DefaultTypes.RegisterDefaults(Solver);
         bufferPool.AddUser(this);
     }
@@ -190,6 +192,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase?.Dispose();
         Solver.Dispose();
+        commonMotion.ReturnMemory();
         islands.Dispose();
         Awakener.Dispose();
         Quarantine.Dispose();
@@ -221,6 +224,7 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     {
         NarrowPhase.Abandon();
         Solver.Abandon();
+        commonMotion.Abandon();
         islands.Abandon();
         Awakener.Abandon();
         Bodies.Abandon();

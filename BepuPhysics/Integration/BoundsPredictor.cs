@@ -5,6 +5,7 @@ using System.Threading;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities;
+using BepuUtilities.Memory;
 using BepuUtilities.TaskScheduling;
 
 namespace BepuPhysics;
@@ -20,8 +21,6 @@ namespace BepuPhysics;
 unsafe struct BoundsPredictor : IStagedWork
 {
     const int BundlesPerBlock = 16;
-    // Part of what its acceleration moves a body in a step for which there is room at least.
-    const float LeastFall = 0.5f;
 
     /// <summary>Bodies below which this ends before another thread is awake.</summary>
     internal const int MinimumBodyCountForThreads = 1024;
@@ -31,6 +30,10 @@ unsafe struct BoundsPredictor : IStagedWork
     public BroadPhase BroadPhase;
     public IPoseIntegrator Integrator;
     public float Dt;
+    /// <summary>A row for each body, where what it does is asked for again; see <see cref="PredictedMotion"/>.</summary>
+    public Buffer<PredictedMotion> Motions;
+    /// <summary>Whether it is predicted for the second time in a step, and who rests is counted already.</summary>
+    public bool IsRepeated;
 
     public readonly int StageCount => 1;
 
@@ -59,8 +62,12 @@ unsafe struct BoundsPredictor : IStagedWork
         var activities = set.Activity.Memory + start;
         var speeds = (float*)&speedSquared;
         long rest = 0;
-        for (int i = 0; i < count; ++i)
+        for (int i = 0; i < count && !IsRepeated; ++i)
             rest += activities[i].Note(speeds[i]);
+        // Whoever writes it writes the same.
+        var moves = Vector.Equals(speedSquared, new Vector<float>(float.PositiveInfinity));
+        if (moves != Vector<int>.Zero)
+            Bodies.HasMovingKinematics = true;
         var collidables = set.Collidables.Memory + start;
         Span<int> shapeIndices = stackalloc int[Vector<float>.Count];
         Unsafe.SkipInit(out Vector<float> radius);
@@ -92,7 +99,30 @@ unsafe struct BoundsPredictor : IStagedWork
         }
         if (done != 0)
             Write(done, collidables, pose.Position, velocity, gain, radius, expansion, min, max);
+        if (done != 0 && Motions.Allocated)
+            Remember(start, done, moves, velocity, gain, radius, expansion);
         return rest;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly void Remember(int start, int lanes, Vector<int> moves, in BodyVelocityWide velocity, Vector<float> gain, Vector<float> radius,
+        Vector<float> expansion)
+    {
+        for (int left = lanes; left != 0; left &= left - 1)
+        {
+            var i = BitOperations.TrailingZeroCount(left);
+            Motions[start + i] = new()
+            {
+                Linear = new(velocity.Linear.X[i], velocity.Linear.Y[i], velocity.Linear.Z[i]),
+                Gain = gain[i],
+                Angular = new(velocity.Angular.X[i], velocity.Angular.Y[i], velocity.Angular.Z[i]),
+                Radius = radius[i],
+                Expansion = expansion[i],
+                Dt = Dt,
+                Body = Bodies.Awake.IndexToHandle[start + i],
+                Moves = moves[i] != 0,
+            };
+        }
     }
 
     readonly void Write(
@@ -102,7 +132,7 @@ unsafe struct BoundsPredictor : IStagedWork
         var dt = new Vector<float>(Dt);
         var turning = Wide.Min(velocity.Angular.Length() * dt * maximumRadius, maximumAngularExpansion);
         var reach = velocity.Linear.Length() * dt + turning;
-        var missing = Wide.Max(Vector<float>.Zero, gain * dt * new Vector<float>(LeastFall) - reach);
+        var missing = Wide.Max(Vector<float>.Zero, gain * dt * new Vector<float>(PredictedMotion.LeastFall) - reach);
         reach += missing;
         // What each body says of its bounds, in its lane.
         Vector<float> least = default, most = default, unbounded = default;
