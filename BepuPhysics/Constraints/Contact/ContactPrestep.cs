@@ -54,7 +54,10 @@ struct ContactMaterialWide
     /// <summary>Held patches whose first body has no constraint but them: the last bit of their frequency says so.</summary>
     internal readonly Vector<int> IsHeldAlone => HeldWith(LoneBit);
 
-    /// <summary>Of these, patches whose body the warm start of this substep has brought to rest: the last bit but one.</summary>
+    /// <summary>Of two bodies, held patches on a floor that turns; the same bit.</summary>
+    internal readonly Vector<int> TurnsAlong => HeldWith(LoneBit);
+
+    /// <summary>Of those that are held alone, patches whose body the warm start of this substep has brought to rest: the last bit but one.</summary>
     internal readonly Vector<int> IsAtRest => HeldWith(RestBit);
 
     /// <summary>Says which of the patches that are held alone have their body at rest.</summary>
@@ -77,8 +80,9 @@ struct ContactMaterialWide
 
     /// <summary>The frequency of a held patch of a body that has other constraints too.</summary>
     /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
-    internal static float HeldSpring(float band) =>
-        BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit));
+    /// <param name="turnsAlong">Whether it <see cref="TurnsAlong"/>; of two bodies.</param>
+    internal static float HeldSpring(float band, bool turnsAlong) => BitConverter.Int32BitsToSingle(
+        (BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit)) | (turnsAlong ? LoneBit : 0));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     readonly Vector<int> HeldWith(int bit)

@@ -113,6 +113,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             rubbedB = center - prestep.OffsetB;
             if (mayCarry)
                 GoAlong(bodies, substep, prestep.Normal, ref rubbedA, ref rubbedB);
+            if (anyHeld)
+                TurnTogether(bodies, substep, prestep.Normal, prestep.Material.TurnsAlong, ref rubbedA, ref rubbedB);
         }
         SolveFriction(ref bodies, prestep.Normal, rubbedA, rubbedB, coefficient * load, ref impulses.Friction);
         if (TContacts.Count > 1)

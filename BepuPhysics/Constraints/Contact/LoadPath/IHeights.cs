@@ -9,7 +9,7 @@ interface IHeights
     float Of(int body);
 }
 
-/// <summary>How what rests moves along with what moves and does not turn.</summary>
+/// <summary>How what rests moves along with what moves.</summary>
 interface IFloors
 {
     /// <summary>Whether two kinematic bodies move as one.</summary>

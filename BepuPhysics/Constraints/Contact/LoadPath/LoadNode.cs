@@ -9,8 +9,12 @@ struct LoadNode
     public int Body;
     /// <summary>Index of the kinematic body along with which it moves; negative where it rests on what does not move.</summary>
     public int Floor;
-    /// <summary>What a game has changed of that body's velocity since the last step, m/s.</summary>
+    /// <summary>What a game has changed of the velocity of that body, where this one is, since the last step, m/s.</summary>
     public Vector3 FloorChange;
+    /// <summary>Where it is, less where the arms of the contacts below say that it is, to a floor that turns, m.</summary>
+    public Vector3 Lag;
+    /// <summary>What it has changed of the angular velocity of that body, rad/s.</summary>
+    public Vector3 FloorTurnChange;
     /// <summary>Its supports, one after the other.</summary>
     public int FirstSupport, SupportCount;
     /// <summary>Greatest distance of a contact from the centre, m.</summary>

@@ -7,8 +7,9 @@ namespace BepuPhysics.Constraints.Contact;
 
 // What rests on what moves.
 //
-// A kinematic body that moves and does not turn is a floor, and what it carries moves along with it: all that is said of rest is said of velocities relative
-// to the floor, and so is the kinetic energy that the transfer must lower.
+// A kinematic body that moves is a floor, and what it carries moves along with it as one rigid thing: all that is said of rest is said of velocities relative
+// to that motion, and so is the kinetic energy that the transfer must lower. Impulses between bodies make no difference between the two measures; those of
+// the floor do no work on what is at rest on it.
 //
 // A game changes the velocity of a floor from step to step, and the floor has the new one from the first substep on. Nothing with a mass follows that: where
 // a wagon brakes with .3 g, what lies on it would be pushed back with 1.2 g in the first of four substeps, which friction cannot, and slip a little in each
@@ -20,6 +21,11 @@ sealed unsafe partial class LoadPathStage
     const float GreatestChange = 1;
     // Changes below this part of a velocity, or of a position in a step, are rounding.
     const float Rounding = 1f / (1 << 21);
+    // The same, of what a game makes of a turn and places, as velocities of parts that turn as one.
+    const float AlikeShare = 1f / (1 << 18);
+    // Greatest acceleration by which a floor that turns takes along what rests on it, in what pulls at that from outside. What goes round faster is left to
+    // friction, whose limit is near.
+    const float GreatestTurn = 0.125f;
 
     // Of each block of bodies: whether any is a floor.
     readonly bool[] hasFloorsIn = new bool[MaximumBlocks];
@@ -34,6 +40,8 @@ sealed unsafe partial class LoadPathStage
         var velocity = motion.Velocity.Linear;
         ref var earlier = ref before[body].Angular;
         earlier = velocity;
+        ref var turn = ref turnsBefore[body];
+        turn = new(motion.Velocity.Angular, motion.Velocity.Angular);
         var displacement = set.Displacements[body].Linear;
         var inverseDt = solver.PreviousDt > 0 ? 1 / solver.PreviousDt : 0;
         // What was put elsewhere, or is new, did not move.
@@ -43,12 +51,55 @@ sealed unsafe partial class LoadPathStage
             var rounding = Rounding * (Exact.Length(motion.Pose.Position) * inverseDt + Exact.Length(velocity));
             if (Exact.Length(last - velocity) > rounding)
                 earlier = last;
+            last = set.Displacements[body].Angular * inverseDt;
+            if (Exact.Length(last - turn.Linear) > Rounding * Exact.Length(turn.Linear))
+                turn.Angular = last;
         }
-        return velocity != default || earlier != default;
+        return velocity != default || earlier != default || turn.Linear != default || turn.Angular != default;
     }
 
     // Of what rests on the ground none, and so are its bits as if there were no floors.
-    Vector3 FloorVelocity(in LoadNode node) => node.Floor < 0 ? default : bodies.Awake.MotionStates[node.Floor].Velocity.Linear;
+    FloorMotion MotionOf(in LoadNode node, float dt)
+    {
+        if (node.Floor < 0)
+            return default;
+        ref var motion = ref bodies.Awake.MotionStates[node.Floor];
+        return new(motion.Velocity.Linear, motion.Velocity.Angular, motion.Pose.Position, dt * 0.5f);
+    }
+
+    bool Turns(in LoadNode node) => node.Floor >= 0 && bodies.Awake.MotionStates[node.Floor].Velocity.Angular != default;
+
+    // Kept arms are not where contacts are, and those contacts of the sweeps are at rest that would be if they were. Who handed momentum down until bodies are
+    // at rest where they are would work against the sweeps in each substep.
+    void FindLags(int start, int end)
+    {
+        ref var set = ref bodies.Awake;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (!Turns(node))
+                continue;
+            // All the way down, in the order in which each has its supports.
+            node.Lag = default;
+            for (int body = node.Body; body >= 0;)
+            {
+                ref var link = ref graph.Links[graph.Nodes[graph.NodeOf[body]].FirstSupport];
+                var lower = link.Lower >= 0 ? link.Lower : SupportLink.Floor(link.Lower);
+                if (link.KnowsLower)
+                    node.Lag += set.MotionStates[body].Pose.Position - set.MotionStates[lower].Pose.Position + link.ToLower;
+                body = link.Lower;
+            }
+        }
+    }
+
+    void FindFloorChange(ref LoadNode node)
+    {
+        ref var set = ref bodies.Awake;
+        ref var floor = ref set.MotionStates[node.Floor];
+        node.FloorTurnChange = TurnChange(floor, turnsBefore[node.Floor]);
+        node.FloorChange = Change(floor, before[node.Floor]) +
+            Exact.Cross(node.FloorTurnChange, set.MotionStates[node.Body].Pose.Position - floor.Pose.Position);
+    }
 
     void PushAlong(int start, int end, int substep)
     {
@@ -59,8 +110,33 @@ sealed unsafe partial class LoadPathStage
         for (int i = start; i < end; ++i)
         {
             ref var node = ref graph.Nodes[i];
-            if (node.Floor >= 0)
-                set.MotionStates[node.Body].Velocity.Linear += node.FloorChange * part;
+            if (node.Floor < 0)
+                continue;
+            ref var velocity = ref set.MotionStates[node.Body].Velocity;
+            velocity.Linear += node.FloorChange * part;
+            velocity.Angular += node.FloorTurnChange * part;
+        }
+    }
+
+    // What is remembered of a patch for the next step (where its arms end, along which normal and with which friction it pushes) is remembered in the world.
+    // On a floor that turns it is to be as it was on the floor. Otherwise a deck that tips leaves the arms behind, which its load does not see as long as
+    // they are kept; then it rubs along with the velocity of another place, and walks down the deck by millimetres a second.
+    void TurnPatches(int block, float dt)
+    {
+        var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
+        for (int i = FirstOf(block, blockCount, graph.Nodes.Count); i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (node.Floor < 0)
+                continue;
+            var half = bodies.Awake.MotionStates[node.Floor].Velocity.Angular * (dt * 0.5f);
+            if (half == default)
+                continue;
+            // The third power of an angle of a step is left.
+            var length = MathF.Sqrt(1 + Exact.LengthSquared(half));
+            var turn = new Quaternion(half / length, 1 / length);
+            for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
+                graph.Links[j].Turn(turn);
         }
     }
 
@@ -68,19 +144,48 @@ sealed unsafe partial class LoadPathStage
     static Vector3 Change(in MotionState floor, in BodyVelocity before) =>
         floor.Velocity.Linear == before.Linear ? before.Linear - before.Angular : default;
 
-    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<BodyInertia> inertias, Buffer<ConstraintList> constraints,
-        int substepCount, float dt) : IHeights, IFloors
+    static Vector3 TurnChange(in MotionState floor, in BodyVelocity turnsBefore) =>
+        floor.Velocity.Angular == turnsBefore.Linear ? turnsBefore.Linear - turnsBefore.Angular : default;
+
+    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<BodyVelocity> turnsBefore, Buffer<BodyInertia> inertias,
+        Buffer<ConstraintList> constraints, int substepCount, float dt) : IHeights, IFloors
     {
         public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, Gain(body));
 
-        public bool MoveAlike(int kinematic, int other) =>
-            before[kinematic].Linear == before[other].Linear && before[kinematic].Angular == before[other].Angular;
+        public bool MoveAlike(int kinematic, int other)
+        {
+            ref var turn = ref turnsBefore[kinematic];
+            ref var turnOfOther = ref turnsBefore[other];
+            if (turn.Linear != turnOfOther.Linear || turn.Angular != turnOfOther.Angular)
+                return false;
+            ref var own = ref before[kinematic];
+            ref var others = ref before[other];
+            if (turn.Linear == default && turn.Angular == default)
+                return own.Linear == others.Linear && own.Angular == others.Angular;
+            var offset = motions[other].Pose.Position - motions[kinematic].Pose.Position;
+            return IsAlike(own.Linear, Exact.Cross(turn.Linear, offset), others.Linear) &&
+                IsAlike(own.Angular, Exact.Cross(turn.Angular, offset), others.Angular);
+        }
+
+        // Velocities of parts that a game turns as one are rounded.
+        static bool IsAlike(Vector3 linear, Vector3 turning, Vector3 other) =>
+            Exact.Length(linear + turning - other) <= AlikeShare * (Exact.Length(linear) + Exact.Length(turning));
+
+        // The velocity of the last step of what moves along with a kinematic body, where another body is.
+        Vector3 Earlier(int kinematic, int body)
+        {
+            ref var turn = ref turnsBefore[kinematic].Angular;
+            if (turn == default)
+                return before[kinematic].Angular;
+            return before[kinematic].Angular + Exact.Cross(turn, motions[body].Pose.Position - motions[kinematic].Pose.Position);
+        }
 
         public bool RestsOn(int body, int kinematic)
         {
             var gain = Gain(body);
             var squared = Exact.LengthSquared(gain);
-            return Rests(before[body].Linear - before[kinematic].Angular, gain, squared) && Follows(kinematic, gain, squared);
+            return Rests(before[body].Linear - Earlier(kinematic, body), gain, squared) && Follows(kinematic, body, gain, squared) &&
+                GoesRoundSlowly(body, kinematic, squared);
         }
 
         public bool Sways(int body, int kinematic)
@@ -89,9 +194,10 @@ sealed unsafe partial class LoadPathStage
             var squared = Exact.LengthSquared(gain);
             var velocity = before[body].Linear;
             if (kinematic >= 0)
-                velocity -= before[kinematic].Angular;
+                velocity -= Earlier(kinematic, body);
             var most = SupportFinder.SwayingShare * QuietSteps * substepCount;
-            return Exact.LengthSquared(velocity) < most * most * squared && (kinematic < 0 || Follows(kinematic, gain, squared));
+            return Exact.LengthSquared(velocity) < most * most * squared && (kinematic < 0 ||
+                (Follows(kinematic, body, gain, squared) && GoesRoundSlowly(body, kinematic, squared)));
         }
 
         public bool IsBalanced(in SupportLink support, int kinematic, ref StandingLoad load)
@@ -120,16 +226,26 @@ sealed unsafe partial class LoadPathStage
         {
             var velocity = before[body].Linear;
             if (kinematic >= 0)
-                velocity -= before[kinematic].Angular;
+                velocity -= Earlier(kinematic, body);
             load.Add(1 / inertias[body].InverseMass, motions[body].Pose.Position, velocity, Gain(body) * (1 / dt));
         }
 
         public int CountConstraints(int body) => constraints[body].Count;
 
-        // Whether what stands on a floor follows the change of its velocity.
-        bool Follows(int kinematic, Vector3 gain, float squared)
+        bool GoesRoundSlowly(int body, int kinematic, float squared)
         {
-            var change = Change(motions[kinematic], before[kinematic]);
+            ref var turn = ref turnsBefore[kinematic].Linear;
+            if (turn == default)
+                return true;
+            var inwards = Exact.Cross(turn, Exact.Cross(turn, motions[body].Pose.Position - motions[kinematic].Pose.Position)) * dt;
+            return Exact.LengthSquared(inwards) < GreatestTurn * GreatestTurn * squared;
+        }
+
+        // Whether what stands on a floor follows the change of its velocity.
+        bool Follows(int kinematic, int body, Vector3 gain, float squared)
+        {
+            var change = Change(motions[kinematic], before[kinematic]) + Exact.Cross(TurnChange(motions[kinematic], turnsBefore[kinematic]),
+                motions[body].Pose.Position - motions[kinematic].Pose.Position);
             // Against what pulls at the body it is only pressed on.
             var against = MathHelper.Min(0, Exact.Dot(change, gain));
             var greatest = GreatestChange * substepCount;

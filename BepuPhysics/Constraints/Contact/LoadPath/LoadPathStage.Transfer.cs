@@ -6,7 +6,7 @@ namespace BepuPhysics.Constraints.Contact;
 // What is done with an island that has something to hand down.
 sealed unsafe partial class LoadPathStage
 {
-    void Transfer(int island, ref Room room, int block)
+    void Transfer(int island, ref Room room, int block, float dt)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
@@ -16,22 +16,23 @@ sealed unsafe partial class LoadPathStage
         if (!first.IsActive)
             return;
         var firstSupport = first.FirstSupport;
+        var floor = MotionOf(first, dt);
         var supports = ReadSupports(island, ref room);
         for (int i = end - 1; i >= start; --i)
         {
             ref var node = ref graph.Nodes[i];
             if (node.HasLoad && !node.Leans)
-                HandDown(ref node, SupportsOf(node, supports, firstSupport));
+                HandDown(ref node, SupportsOf(node, supports, firstSupport), floor);
         }
-        var isColumn = first.IsOfColumn || (!first.IsRelaxed && first.MayBeColumn && LeavesMuch(start, end) && IsColumn(start, end));
+        var isColumn = first.IsOfColumn || (!first.IsRelaxed && first.MayBeColumn && LeavesMuch(start, end, floor) && IsColumn(start, end));
         if (first.IsRelaxed || isColumn)
-            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length), block, isColumn);
-        Apply(start, end, supports);
+            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length), block, isColumn, floor);
+        Apply(start, end, supports, floor);
     }
 
     // Whether any body has more left, after all was handed down, than a step of acceleration gives: what tips over does, and turns together with all that is
     // on it. Less comes and goes in what stands, and a column that was relaxed by turns would fall by the luck of each.
-    bool LeavesMuch(int start, int end)
+    bool LeavesMuch(int start, int end, in FloorMotion floor)
     {
         ref var set = ref bodies.Awake;
         for (int i = start; i < end; ++i)
@@ -39,8 +40,8 @@ sealed unsafe partial class LoadPathStage
             ref var node = ref graph.Nodes[i];
             ref var velocity = ref set.MotionStates[node.Body].Velocity;
             ref var inertia = ref set.WorldInertias[node.Body];
-            var speed = Exact.Length(velocity.Linear - FloorVelocity(node) + node.Linear * inertia.InverseMass) +
-                Exact.Length(velocity.Angular + inertia.InverseInertiaTensor * node.Angular) * node.Radius;
+            var speed = Exact.Length(velocity.Linear - floor.At(set.MotionStates[node.Body].Pose.Position - node.Lag) + node.Linear * inertia.InverseMass) +
+                Exact.Length(velocity.Angular - floor.Angular + inertia.InverseInertiaTensor * node.Angular) * node.Radius;
             if (speed > node.Gain * solver.LastSubstepCount)
                 return true;
         }
@@ -76,7 +77,8 @@ sealed unsafe partial class LoadPathStage
     }
 
     // All of its bodies at once, and all of its patches: those through which nothing was handed down are read here.
-    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches, int block, bool isColumn)
+    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches, int block, bool isColumn,
+        in FloorMotion floor)
     {
         var firstSupport = graph.Nodes[start].FirstSupport;
         for (int i = start; i < end; ++i)
@@ -94,8 +96,7 @@ sealed unsafe partial class LoadPathStage
         }
         ref var set = ref bodies.Awake;
         var relaxation = new LoadRelaxation(
-            new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias,
-            FloorVelocity(graph.Nodes[start]));
+            new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias, floor);
         if (isColumn)
             relaxation.RunColumn(new Span<ColumnBlock>(columns.Memory + block * graph.LongestColumn, end - start));
         else
@@ -105,15 +106,15 @@ sealed unsafe partial class LoadPathStage
     static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>
         ofIsland.Slice(node.FirstSupport - firstOfIsland, node.SupportCount);
 
-    void HandDown(ref LoadNode node, Span<LoadSupport> supports)
+    void HandDown(ref LoadNode node, Span<LoadSupport> supports, in FloorMotion floor)
     {
         ref var set = ref bodies.Awake;
-        ref var velocity = ref set.MotionStates[node.Body].Velocity;
+        ref var motion = ref set.MotionStates[node.Body];
         ref var inertia = ref set.WorldInertias[node.Body];
         foreach (ref var support in supports)
             support.Read();
-        LoadTransfer.Find(supports, (velocity.Linear - FloorVelocity(node)) * (1 / inertia.InverseMass) + node.Linear,
-            Symmetric3x3.Invert(inertia.InverseInertiaTensor) * velocity.Angular + node.Angular, node.Radius);
+        LoadTransfer.Find(supports, (motion.Velocity.Linear - floor.At(motion.Pose.Position - node.Lag)) * (1 / inertia.InverseMass) + node.Linear,
+            Symmetric3x3.Invert(inertia.InverseInertiaTensor) * (motion.Velocity.Angular - floor.Angular) + node.Angular, node.Radius);
         foreach (ref var support in supports)
         {
             support.Change(out var linear, out var angular);
@@ -130,7 +131,7 @@ sealed unsafe partial class LoadPathStage
 
     // As far as it lowers the kinetic energy of the island, to who moves along with its floor, and no farther than all of it. Both ends obey what bounds
     // the impulses, and these bounds are convex: so does all between.
-    void Apply(int start, int end, Span<LoadSupport> supports)
+    void Apply(int start, int end, Span<LoadSupport> supports, in FloorMotion floor)
     {
         ref var set = ref bodies.Awake;
         float slope = 0, curvature = 0;
@@ -139,9 +140,10 @@ sealed unsafe partial class LoadPathStage
             ref var node = ref graph.Nodes[i];
             if (!node.HasLoad)
                 continue;
-            ref var velocity = ref set.MotionStates[node.Body].Velocity;
+            ref var motion = ref set.MotionStates[node.Body];
             ref var inertia = ref set.WorldInertias[node.Body];
-            slope += Exact.Dot(velocity.Linear - FloorVelocity(node), node.Linear) + Exact.Dot(velocity.Angular, node.Angular);
+            slope += Exact.Dot(motion.Velocity.Linear - floor.At(motion.Pose.Position - node.Lag), node.Linear) +
+                Exact.Dot(motion.Velocity.Angular - floor.Angular, node.Angular);
             curvature += Exact.LengthSquared(node.Linear) * inertia.InverseMass + Exact.Dot(node.Angular, inertia.InverseInertiaTensor * node.Angular);
         }
         // Not if a number went wrong: the comparison is false then.

@@ -29,6 +29,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     SupportGraph graph;
     // Velocities of the centres before the first integration; in the place of the angular ones, where there are floors, those of the last step.
     Buffer<BodyVelocity> before;
+    // Of floors, angular velocities before the first integration, in the place of the linear ones; in that of the angular ones those of the last step.
+    Buffer<BodyVelocity> turnsBefore;
     // Room for one link per lane of all bundles of contacts; each block begins where its bundles do.
     Buffer<SupportLink> found;
     // Per body, whether something pushes it from the side that is not among what was found.
@@ -63,6 +65,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return false;
         blockCount = Math.Min(MaximumBlocks, (bundleCount + LeastBundlesPerBlock - 1) / LeastBundlesPerBlock);
         pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out before);
+        pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out turnsBefore);
         pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out found);
         pool.TakeAtLeast(Math.Max(1, bodies.Awake.Count), out spoilt);
         spoilt.Clear(0, bodies.Awake.Count);
@@ -103,13 +106,15 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 Fill(block, substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
-                FindLoads(block, substep.Index);
+                FindLoads(block, substep);
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                    Transfer(island, ref rooms[block], block);
+                    Transfer(island, ref rooms[block], block, substep.Dt);
                 break;
             case SolverPoint.AfterSubsteps:
+                if (HasFloors)
+                    TurnPatches(block, substep.Dt * solver.LastSubstepCount);
                 LetGo(block);
                 break;
         }
@@ -138,7 +143,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     {
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
-        var finder = new SupportFinder(awake, before.Memory, set.Constraints.Memory, spoilt.Memory, HasFloors, QuietSteps * solver.LastSubstepCount,
+        var finder = new SupportFinder(
+            awake, before.Memory, turnsBefore.Memory, set.Constraints.Memory, spoilt.Memory, HasFloors, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale, substep.Dt);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
@@ -164,7 +170,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return;
         }
         ref var set = ref bodies.Awake;
-        var motions = new Motions(set.MotionStates, before, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
+        var motions = new Motions(set.MotionStates, before, turnsBefore, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
         graph.Build(found.Memory, used, set.Count, spoilt, motions, pool);
         MakeRooms();
     }
@@ -213,9 +219,10 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             ref var node = ref graph.Nodes[i];
             SetTolerance(ref node, dt);
             if (node.Floor >= 0)
-                node.FloorChange = Change(bodies.Awake.MotionStates[node.Floor], before[node.Floor]);
+                FindFloorChange(ref node);
+            var turns = Turns(node);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(graph.Links[j].Band);
+                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(graph.Links[j].Band, turns);
         }
     }
 
@@ -236,26 +243,28 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     }
 
     // Finds which bodies of a block have something to hand down, and in which islands that is worth while for any of them.
-    void FindLoads(int block, int substep)
+    void FindLoads(int block, in Substep substep)
     {
         var start = FirstOf(block, blockCount, graph.Nodes.Count);
         var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
         if (start == end)
             return;
         if (HasFloors)
-            PushAlong(start, end, substep);
+            PushAlong(start, end, substep.Index);
+        if (HasFloors && substep.Index == 0)
+            FindLags(start, end);
         for (int island = graph.IslandOf(start); start < end; ++island)
         {
             ref var first = ref graph.Nodes[graph.Islands[island]];
             var endOfIsland = Math.Min(end, graph.Islands[island + 1]);
             // Who has the others of the island can but say the same.
-            if (HasLoads(start, endOfIsland, first.IsActive))
+            if (HasLoads(start, endOfIsland, first.IsActive, MotionOf(first, substep.Dt)))
                 first.NeedsWork = true;
             start = endOfIsland;
         }
     }
 
-    bool HasLoads(int start, int end, bool isActive)
+    bool HasLoads(int start, int end, bool isActive, in FloorMotion floor)
     {
         ref var set = ref bodies.Awake;
         // What was taken out in the last substep came from more than one, so its impulses overshoot now: until that has died down, less counts.
@@ -265,7 +274,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             ref var node = ref graph.Nodes[i];
             ref var velocity = ref set.MotionStates[node.Body].Velocity;
-            var speed = Exact.Length(velocity.Linear - FloorVelocity(node)) + Exact.Length(velocity.Angular) * node.Radius;
+            var speed = Exact.Length(velocity.Linear - floor.At(set.MotionStates[node.Body].Pose.Position - node.Lag)) +
+                Exact.Length(velocity.Angular - floor.Angular) * node.Radius;
             node.HasLoad = speed > node.Tolerance * MathHelper.Min(share, ActiveShare);
             needsWork |= speed > node.Tolerance * share;
             node.Linear = default;
@@ -299,6 +309,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             pool.Return(ref spoilt);
         if (found.Allocated)
             pool.Return(ref found);
+        if (turnsBefore.Allocated)
+            pool.Return(ref turnsBefore);
         if (before.Allocated)
             pool.Return(ref before);
     }

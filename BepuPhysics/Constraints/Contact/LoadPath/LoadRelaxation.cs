@@ -17,10 +17,10 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="patches">As many, of which the nodes are written.</param>
 /// <param name="motions">Of the active set.</param>
 /// <param name="inertias">Of the active set.</param>
-/// <param name="floorVelocity">Velocity to which they come to rest, m/s.</param>
+/// <param name="floor">How that moves on which they come to rest.</param>
 readonly unsafe ref partial struct LoadRelaxation(
     Span<LoadNode> nodes, Span<LoadSupport> supports, Span<PatchRelaxation> patches, Buffer<MotionState> motions, Buffer<BodyInertia> inertias,
-    Vector3 floorVelocity)
+    in FloorMotion floor)
 {
     // There and back is a round. An arch that has just been put down stands with twelve of them if it has thirteen stones, with 32 if 21, with 128 if 31; what
     // stands takes few. With fewer a small arch of thirteen creeps by what they leave.
@@ -33,6 +33,7 @@ readonly unsafe ref partial struct LoadRelaxation(
     readonly Span<LoadNode> nodes = nodes;
     readonly Span<LoadSupport> supports = supports;
     readonly Span<PatchRelaxation> patches = patches;
+    readonly FloorMotion floor = floor;
 
     // A body that impulses of the present patch move.
     ref struct Moved
@@ -124,11 +125,11 @@ readonly unsafe ref partial struct LoadRelaxation(
             return;
         ref var node = ref nodes[index];
         ref var inertia = ref inertias[node.Body];
-        ref var velocity = ref motions[node.Body].Velocity;
+        ref var motion = ref motions[node.Body];
         body.InverseMass = inertia.InverseMass;
         body.InverseInertia = inertia.InverseInertiaTensor;
-        body.Linear = velocity.Linear - floorVelocity + node.Linear * body.InverseMass;
-        body.Angular = velocity.Angular + body.InverseInertia * node.Angular;
+        body.Linear = motion.Velocity.Linear - floor.At(motion.Pose.Position - node.Lag) + node.Linear * body.InverseMass;
+        body.Angular = motion.Velocity.Angular - floor.Angular + body.InverseInertia * node.Angular;
     }
 
     void Solve(int index)

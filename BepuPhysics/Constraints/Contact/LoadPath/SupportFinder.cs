@@ -7,6 +7,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// <summary>Finds the contact constraints of a bundle that carry one of their bodies against what pulls at it, and are quiet.</summary>
 /// <param name="bodies">The bodies, after the first integration.</param>
 /// <param name="before">Their velocities before it, a row each; in its second half that of the last step, by which floors are told.</param>
+/// <param name="turnsBefore">Of floors, angular velocities before it, a row each; in the second half those of the last step.</param>
 /// <param name="constraints">Their lists of constraints, a row each.</param>
 /// <param name="spoilt">Per body: becomes 1 where something pushes it from the side that is not found.</param>
 /// <param name="hasFloors">Whether a kinematic body moves, or did in the last step: then the second half of each row is read too.</param>
@@ -21,8 +22,8 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, ConstraintList* constraints, byte* spoilt, bool hasFloors, float quietSteps, RestTolerance tolerance,
-    float warmStartScale, float dt)
+    SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, bool hasFloors, float quietSteps,
+    RestTolerance tolerance, float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
     internal const int LeastContacts = 3;
@@ -98,12 +99,19 @@ readonly unsafe struct SupportFinder(
         var resting = Wide.Select(flat, new Vector<float>(RestingSteps), new Vector<float>(SwayingShare * quietSteps)) * fastest;
         var rests = Rests(bodyA.Linear - gainA, gainA, resting) & Rests(bodyB.Linear - gainB, gainB, resting);
         var moves = Vector<int>.Zero;
+        var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
+        Vector3Wide turnGainB = default;
+        var earlierB = bodyB.Linear - gainB;
         if (hasB && hasFloors)
         {
             // What moves nearly alike may rest on what moves: the graph knows it, and asks each of both.
-            gainB = Vector3Wide.Select(fixedB, bodyB.Linear - ReadEarlier(references[1]), gainB);
+            gainB = Vector3Wide.Select(fixedB, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
+            var turn = ReadEarlier(turnsBefore, references[1]);
+            turnGainB = Vector3Wide.Mask(fixedB, ReadNow(turnsBefore, references[1]) - turn);
+            // What turns moves A along where that is.
+            earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(fixedB, Vector3Wide.Cross(turn, offsetB));
             var most = resting + resting + new Vector<float>(FallingShare * quietSteps) * fastest;
-            var together = flat & Vector.LessThan((bodyA.Linear - gainA - (bodyB.Linear - gainB)).LengthSquared(), most * most);
+            var together = flat & Vector.LessThan((bodyA.Linear - gainA - earlierB).LengthSquared(), most * most);
             moves = Vector.AndNot(together, rests);
             rests |= together;
         }
@@ -113,7 +121,7 @@ readonly unsafe struct SupportFinder(
         {
             maySway = carries & flat & (moves | ~rests);
             if (maySway != Vector<int>.Zero)
-                maySway &= MaySway(bodyA.Linear - gainA, bodyB.Linear - gainB, fastest);
+                maySway &= MaySway(bodyA.Linear - gainA, earlierB, fastest);
         }
         carries &= rests | maySway;
         // What moves alike may rest, to a floor that moves, as long as its surfaces are quiet.
@@ -135,13 +143,12 @@ readonly unsafe struct SupportFinder(
             if (hasFloors)
             {
                 // What has just stopped is a floor that moved.
-                var stood = Vector.Equals(gainB.LengthSquared(), Vector<float>.Zero);
-                isFloor = flat & fixedB & Vector.Equals(bodyB.Angular.LengthSquared(), Vector<float>.Zero) & ~(stands & stood);
+                var stood = Vector.Equals(gainB.LengthSquared() + turnGainB.LengthSquared(), Vector<float>.Zero);
+                isFloor = flat & fixedB & ~(stands & stood);
                 stands = stands & stood | isFloor;
             }
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
         }
-        var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         var quiet = Wide.Select(flat, new Vector<float>(quietSteps), new Vector<float>(SwayingShare * quietSteps)) * fastest;
         var bearable = Wide.Select(maySway, new Vector<float>(SwayingShare * quietSteps) * fastest, quiet);
         var slides = Vector<int>.Zero;
@@ -160,6 +167,8 @@ readonly unsafe struct SupportFinder(
                 sways |= Vector.AndNot(maySway, Vector.LessThan(apart, quiet) & Vector.LessThan(aside, quiet * quiet));
             // What the integration has added is no sliding: the warm start takes it away.
             velocity -= gainA - gainB;
+            if (hasFloors)
+                velocity += Vector3Wide.Cross(turnGainB, armB);
             velocity -= normal * Vector3Wide.Dot(velocity, normal);
             slides |= Vector.GreaterThan(velocity.LengthSquared(), sliding * sliding);
             extent = Wide.Min(extent, Wide.Abs(Vector3Wide.Dot(arm, normal)));
@@ -320,9 +329,16 @@ readonly unsafe struct SupportFinder(
     }
 
     // The velocities of the last step.
-    Vector3Wide ReadEarlier(Vector<int> references)
+    static Vector3Wide ReadEarlier(BodyVelocity* rows, Vector<int> references)
     {
-        var half = Transpose.GatherHalf((float*)before + Rows8.Count / 2, Rows8.Count, new RowOffsets(references));
+        var half = Transpose.GatherHalf((float*)rows + Rows8.Count / 2, Rows8.Count, new RowOffsets(references));
+        return new(half.X, half.Y, half.Z);
+    }
+
+    // The velocities before the first integration.
+    static Vector3Wide ReadNow(BodyVelocity* rows, Vector<int> references)
+    {
+        var half = Transpose.GatherHalf((float*)rows, Rows8.Count, new RowOffsets(references));
         return new(half.X, half.Y, half.Z);
     }
 

@@ -1,4 +1,5 @@
 using System.Numerics;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
 
@@ -53,11 +54,44 @@ unsafe struct SupportLink
     /// <summary>In the place of a lower body: what does not move.</summary>
     internal const int Still = -1;
 
-    /// <summary>In the place of a lower body: a kinematic body that moves, or did a step ago, and does not turn. Its own inverse.</summary>
+    /// <summary>In the place of a lower body: a kinematic body that moves, or did a step ago. Its own inverse.</summary>
     internal static int Floor(int kinematic) => Still - 1 - kinematic;
 
     /// <summary>Number of contacts that the upper body rests on.</summary>
     internal readonly int CarryingCount => Count - BitOperations.PopCount((uint)(Open & ~Near));
+
+    /// <summary>Whether the place of the lower body is written, and not that of friction; see <see cref="ContactMaterialWide.SharesFriction"/>.</summary>
+    internal readonly bool KnowsLower => HasTwoBodies && !float.IsNegative(Prestep[ContactPrestepLayout.Friction(Count) * Vector<float>.Count]);
+
+    /// <summary>Centre of the lower body relative to that of the upper one, by the arms of the contacts, m, where it is known.</summary>
+    internal readonly Vector3 ToLower
+    {
+        get
+        {
+            var width = Vector<float>.Count;
+            var column = Prestep + ContactPrestepLayout.OffsetB(Count) * width;
+            var offset = new Vector3(column[0], column[width], column[2 * width]);
+            return IsUpperA ? offset : -offset;
+        }
+    }
+
+    /// <summary>Turns all that the constraint remembers as vectors.</summary>
+    internal readonly void Turn(Quaternion turn)
+    {
+        for (int i = 0; i < Count; ++i)
+            Turn(Prestep, i * ContactPrestepLayout.FloatsPerContact, turn);
+        Turn(Prestep, ContactPrestepLayout.OffsetB(Count), turn);
+        Turn(Prestep, ContactPrestepLayout.Normal(Count), turn);
+        Turn(Impulses, ContactPrestepLayout.FrictionImpulse(Count), turn);
+    }
+
+    static void Turn(float* column, int row, Quaternion turn)
+    {
+        var width = Vector<float>.Count;
+        column += row * width;
+        var turned = Exact.Rotate(new Vector3(column[0], column[width], column[2 * width]), turn);
+        (column[0], column[width], column[2 * width]) = (turned.X, turned.Y, turned.Z);
+    }
 
     /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
     internal readonly ref float Spring => ref Prestep[ContactPrestepLayout.Spring(Count) * Vector<float>.Count];
