@@ -113,7 +113,7 @@ public unsafe class ChildBenchmarks : IDisposable
         fixed (ChildResult* first = children)
         fixed (PlacedChildren* places = placed)
         {
-            memory.Add(first, places, Children, owner: 0, pool);
+            memory.Add(first, places, Children, owner: 0, leavesToNeighbours: false, pool);
             SeamRounds.Run(ref memory, Registry, pool);
         }
         memory.Rank(memory.TouchingOf(memory.Sets[0]), pool);

@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -16,18 +15,10 @@ namespace BepuPhysics.CollisionDetection;
 // So from each kinematic body that moves this goes over those whose bounds overlap, from one to the next, until there are no more. If none of them may meet
 // anything that does not move along (a static, something asleep, another kinematic body), all of them have their margins by their motion relative to it.
 // Otherwise they keep those that they have, which is as it is on the ground.
-//
-// What may meet nobody but each other is stopped by nothing. Any motion will do to measure theirs by, as two of them come nearer to each other by no more
-// than both move relative to it: the one is taken that leaves them least, of those that there are in this world.
 sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
 {
     // Differences below this part of a speed are rounding.
     const float Rounding = 1f / (1 << 18);
-    // Motions that what is by itself is measured by.
-    const int MostMotions = 8;
-    // Where something is at rest in the world, too, only who moves far less relative to something else, and faster than by some steps of what pulls at him.
-    const float LeastSaving = 0.5f;
-    const float LeastGains = 2;
 
     readonly Simulation simulation = simulation;
     readonly BufferPool pool = pool;
@@ -58,25 +49,10 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
     {
         if (count == 0)
             return;
-        Span<int> frames = stackalloc int[MostMotions];
-        int frameCount = 0;
         for (int i = 0; i < count; ++i)
         {
-            if (!motions[i].Moves || !IsKnown(i))
-                continue;
-            Apply(i);
-            var isNew = frameCount < MostMotions;
-            for (int j = 0; j < frameCount && isNew; ++j)
-                isNew = !MovesAlong(i, frames[j]);
-            if (isNew)
-                frames[frameCount++] = i;
-        }
-        frames = frames[..frameCount];
-        var somethingRests = simulation.Statics.Count > 0 || simulation.Bodies.Asleep.Count > 0;
-        for (int i = 0; i < count && frameCount > 0; ++i)
-        {
-            if (motions[i].Surroundings == PredictedSurroundings.Unknown && IsKnown(i) && IsWorthLooking(i, frames, somethingRests))
-                SpreadAlone(i, frames, somethingRests);
+            if (motions[i].Moves && IsKnown(i))
+                Apply(i);
         }
         count = 0;
     }
@@ -130,50 +106,6 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
                 Awake.Collidables[companions[i]].SpeculativeMargin = Margin(companions[i], kinematic);
         }
         companions.Count = start;
-    }
-
-    bool IsWorthLooking(int body, ReadOnlySpan<int> frames, bool somethingRests)
-    {
-        if (Bodies.IsKinematic(Awake.LocalInertias[body]))
-            return false;
-        if (!somethingRests)
-            return true;
-        var speed = Exact.Length(motions[body].Linear);
-        if (!(speed > LeastGains * motions[body].Gain))
-            return false;
-        foreach (var kinematic in frames)
-        {
-            if (Exact.Length(motions[body].Linear - VelocityAt(body, kinematic)) < LeastSaving * speed)
-                return true;
-        }
-        return false;
-    }
-
-    void SpreadAlone(int body, ReadOnlySpan<int> frames, bool somethingRests)
-    {
-        companions.Count = 0;
-        if (!FindAll(-1, body))
-            return;
-        var best = -1;
-        var least = float.PositiveInfinity;
-        if (somethingRests)
-        {
-            least = 0;
-            for (int i = 0; i < companions.Count; ++i)
-                least = MathHelper.Max(least, Exact.Length(motions[companions[i]].Linear));
-        }
-        foreach (var kinematic in frames)
-        {
-            float fastest = 0;
-            for (int i = 0; i < companions.Count; ++i)
-                fastest = MathHelper.Max(fastest, Exact.Length(motions[companions[i]].Linear - VelocityAt(companions[i], kinematic)));
-            if (!(fastest < least))
-                continue;
-            least = fastest;
-            best = kinematic;
-        }
-        for (int i = 0; i < companions.Count && best >= 0; ++i)
-            Awake.Collidables[companions[i]].SpeculativeMargin = Margin(companions[i], best);
     }
 
     // All that a body may meet, and what these may, behind those that there are; whether nothing is among them that does not move along.

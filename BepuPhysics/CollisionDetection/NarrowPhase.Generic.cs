@@ -188,6 +188,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             }
             margin = tested.SpeculativeMargin;
         }
+        else if (collidableA.Shape.Type == Sphere.Id && shapeB.Type == Sphere.Id && margin > 0 &&
+            TryPlaceWhereBallsMeet(ref tested, collidableA.Shape, shapeB, poseA, poseB, worker.Batcher.Dt, ref placed))
+        {
+            poseA = ref placed.A;
+            poseB = ref placed.B;
+            offsetB = poseB.Position;
+        }
         tested.MayHaveRims = MayHaveRims(ref worker.Rims, tested, collidableA.Shape, shapeB);
         tested.MayRoll = task.Expands && MayRoll(tested, collidableA.Shape);
         if (task.Expands)

@@ -14,8 +14,6 @@ static class KnownMisses
             ("prism of 64 sides rolling on 20 degrees, box", "s4 i1"),
             ("prism of 64 sides rolling on 20 degrees, triangle", "s16 i1 r1 stiff"),
             ("prism of 64 sides rolling on 20 degrees, triangle", "s4 i1"));
-        Add("E1", "one substep is a quarter of a turn",
-            ("Slot, 200 rad/s", "s1 i1 r1"));
         Add("J3", "the joints of a chain are as stiff as its sweeps let them be",
             ("HangingKicked, 1:1", "s4 i1"),
             ("HangingKicked, 1:100", "s4 i1"),

@@ -82,6 +82,25 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             armB += n * Wide.Mask(turnsB & IsKinematic(b), risen);
     }
 
+    // Bodies that are held on each other on a floor that turns, as bricks on a carousel, go round each other in a step. Friction for where they were at
+    // detection makes them part by the square of that, which a brick on two others cannot: the two would pull at it against each other, more in each step,
+    // until all friction is at its limit and holds nothing any more. So the patch is where both have it in the middle of the substep, half way between; where
+    // one carries the other, the patch has gone along with that.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void TurnTogether(in TBodies bodies, in Substep substep, in Vector3Wide n, Vector<int> lanes, ref Vector3Wide armA, ref Vector3Wide armB)
+    {
+        ref var slots = ref Unsafe.AsRef(in bodies);
+        ref var a = ref BodySlots.At(ref slots, 0);
+        ref var b = ref BodySlots.At(ref slots, 1);
+        var ahead = Ahead(substep);
+        var (turnsA, turnsB) = Turning(bodies, a, b, ahead);
+        lanes = Vector.AndNot(lanes, turnsA | turnsB | IsKinematic(b));
+        var moved = AlongSurface(a.Translation - b.Translation + (a.Linear - b.Linear) * ahead, n);
+        moved = Vector3Wide.Mask(lanes, moved * new Vector<float>(0.5f));
+        armA -= moved;
+        armB += moved;
+    }
+
     // The face of a drum comes towards what is carried along it, faster the farther that has come: n (w x s) after a way s along it, which is how the drum
     // takes it round. For the place at detection it would come only at the beginning of the next step, and press in the first substeps alone; in the others
     // friction would bear nothing, and what it holds would slip down. So a kinematic body has, while the contacts are solved, the velocity and the displacement

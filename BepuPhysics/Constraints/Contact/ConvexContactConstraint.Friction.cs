@@ -116,35 +116,6 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 
     static bool IsFlat => TBodies.Count > 1 && TContacts.Count >= LeastFlat;
 
-    // Bodies that are held on each other on a floor that turns, as bricks on a carousel, go round each other in a step. Friction for where they were at
-    // detection makes them part by the square of that, which a brick on two others cannot: the two would pull at it against each other, more in each step,
-    // until all friction is at its limit and holds nothing any more. So the patch is where both have it in the middle of the substep, half way between.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void TurnTogether(in TBodies bodies, in Substep substep, in Vector3Wide n, Vector<int> lanes, ref Vector3Wide armA, ref Vector3Wide armB)
-    {
-        if (lanes == Vector<int>.Zero)
-            return;
-        var slots = bodies;
-        ref var b = ref BodySlots.At(ref slots, 1);
-        TurnTogether(BodySlots.At(ref slots, 0), b, lanes & Vector.GreaterThan(b.InverseMass, Vector<float>.Zero), substep, n, ref armA, ref armB);
-    }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void TurnTogether(in SolverBodyWide a, in SolverBodyWide b, Vector<int> lanes, in Substep substep, in Vector3Wide n,
-        ref Vector3Wide armA, ref Vector3Wide armB)
-    {
-        // What carries the other has gone along with it.
-        var share = new Vector<float>(1 / CarrierMass);
-        var squared = new Vector<float>(CarrierTurn * CarrierTurn);
-        lanes = Vector.AndNot(lanes, Vector.LessThan(a.InverseMass, b.InverseMass * share) & Vector.GreaterThan(a.Angular.LengthSquared(), squared));
-        lanes = Vector.AndNot(lanes, Vector.LessThan(b.InverseMass, a.InverseMass * share) & Vector.GreaterThan(b.Angular.LengthSquared(), squared));
-        var ahead = new Vector<float>(substep.IsRelaxation ? 0 : 0.5f * substep.Dt);
-        var moved = a.Translation - b.Translation + (a.Linear - b.Linear) * ahead;
-        moved = Vector3Wide.Mask(lanes, (moved - n * Vector3Wide.Dot(moved, n)) * new Vector<float>(0.5f));
-        armA -= moved;
-        armB += moved;
-    }
-
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector3Wide OwnCenter(ref ConvexContactPrestepWide<TContacts> prestep)
     {

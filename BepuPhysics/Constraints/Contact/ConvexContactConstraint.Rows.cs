@@ -82,6 +82,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             rubbedB = center - patch.OffsetB;
             if (mayCarry)
                 GoAlong(bodies, substep, n, ref rubbedA, ref rubbedB);
+            TurnTogether(bodies, substep, n, patch.Material.TurnsAlong, ref rubbedA, ref rubbedB);
         }
         WriteJacobian(ref rows[FirstFriction], x, rubbedA, rubbedA - rubbedB);
         WriteFriction(ref rows[FirstFriction + 1], Vector3Wide.Dot(accumulated.Friction, y), coefficient, load);

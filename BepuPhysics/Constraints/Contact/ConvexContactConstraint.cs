@@ -113,7 +113,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             rubbedB = center - prestep.OffsetB;
             if (mayCarry)
                 GoAlong(bodies, substep, prestep.Normal, ref rubbedA, ref rubbedB);
-            if (anyHeld)
+            if (anyHeld && prestep.Material.TurnsAlong != Vector<int>.Zero)
                 TurnTogether(bodies, substep, prestep.Normal, prestep.Material.TurnsAlong, ref rubbedA, ref rubbedB);
         }
         SolveFriction(ref bodies, prestep.Normal, rubbedA, rubbedB, coefficient * load, ref impulses.Friction);
