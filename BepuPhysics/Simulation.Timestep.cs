@@ -74,7 +74,11 @@ public sealed partial class Simulation
         // Whether there is anything to be remembered of is known afterwards. Mostly it is as in the last step.
         var work = new BoundsPredictor
         {
-            Bodies = Bodies, Shapes = Shapes, BroadPhase = BroadPhase, Integrator = PoseIntegrator, Dt = reach,
+            Bodies = Bodies,
+            Shapes = Shapes,
+            BroadPhase = BroadPhase,
+            Integrator = PoseIntegrator,
+            Dt = reach,
             Motions = commonMotion.Begin(Bodies.HasMovingKinematics),
         };
         Bodies.HasMovingKinematics = false;

@@ -14,7 +14,7 @@ public sealed partial class Bodies
     /// <summary>How many bodies had rested long enough to sleep when the last step began, and how many just so. Workers add to it.</summary>
     internal long RestCounts;
 
-    /// <summary>Whether a kinematic body with a shape moved when bounds were predicted last. Workers set it.</summary>
+    /// <summary>Whether the centre of a kinematic body with a shape moved when bounds were predicted last. Workers set it.</summary>
     internal bool HasMovingKinematics;
 
     /// <summary>Bodies that had rested long enough to sleep when the last step began.</summary>

@@ -12,7 +12,8 @@ namespace BepuPhysics.CollisionDetection;
 // nearer by all that they move. But only what is there can stop a body. Where all that bodies may meet, themselves or through each other, moves
 // like one rigid body, they are brought to rest relative to that at most, and what counts is how far they go relative to it.
 //
-// So from each kinematic body that moves this goes over those whose bounds overlap, from one to the next, until there are no more. If none of them may meet
+// So from each kinematic body whose centre moves (turntables and drums are slow beside trains and ships, and most of what they carry would be gone over for
+// nothing) this goes over those whose bounds overlap, from one to the next, until there are no more. If none of them may meet
 // anything that does not move along (a static, something asleep, another kinematic body), all of them have their margins by their motion relative to it.
 // Otherwise they keep those that they have, which is as it is on the ground.
 sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)

@@ -65,7 +65,8 @@ unsafe struct BoundsPredictor : IStagedWork
         for (int i = 0; i < count && !IsRepeated; ++i)
             rest += activities[i].Note(speeds[i]);
         // Whoever writes it writes the same.
-        var moves = Vector.Equals(speedSquared, new Vector<float>(float.PositiveInfinity));
+        var moves = Vector.Equals(speedSquared, new Vector<float>(float.PositiveInfinity)) &
+            Vector.GreaterThan(velocity.Linear.LengthSquared(), Vector<float>.Zero);
         if (moves != Vector<int>.Zero)
             Bodies.HasMovingKinematics = true;
         var collidables = set.Collidables.Memory + start;

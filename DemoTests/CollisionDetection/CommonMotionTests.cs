@@ -73,21 +73,22 @@ public class CommonMotionTests
     }
 
     [Fact]
-    public void Who_turns_with_a_turntable_looks_no_farther_than_at_rest()
+    public void Who_turns_with_a_train_in_a_bend_looks_no_farther_than_at_rest()
     {
         var turn = new Vector3(0, 1.5f, 0);
+        var velocity = new Vector3(30, 0, 0);
         using var still = new World();
         using var table = new World();
         still.AddFloor(default);
-        table.AddFloor(default, turn);
+        table.AddFloor(velocity, turn);
         foreach (var place in new Vector3[] { new(0, 0.5f, 0), new(2, 0.5f, 1), new(2, 1.5f, 1), new(-7, 0.5f, 4) })
         {
             still.Add(place, default, default);
-            table.Add(place, Vector3.Cross(turn, place), turn);
+            table.Add(place, velocity + Vector3.Cross(turn, place), turn);
         }
         still.Step();
         table.Step();
-        Assert.All(still.Margins().Zip(table.Margins()), margins => Assert.Equal(margins.First, margins.Second, 1e-6f));
+        Assert.All(still.Margins().Zip(table.Margins()), margins => Assert.Equal(margins.First, margins.Second, 1e-5f));
     }
 
     /// <summary>
