@@ -16,8 +16,10 @@ unsafe struct ListenedBundle
     public int ContactCount, BodyCount;
     /// <summary>Whether impulses are summed: not where nothing could be told that depends on them.</summary>
     public bool IsMeasured;
+    /// <summary>Whether surfaces come together that are still apart.</summary>
+    public bool Comes;
 
-    /// <summary>Greatest speed at which surfaces approach before the step.</summary>
+    /// <summary>Greatest speed at which surfaces approach before the step, or as they meet in it.</summary>
     public Vector<float> ApproachSpeed;
     /// <summary>Depths of the contacts when collisions were detected.</summary>
     public Few4<Vector<float>> Depths;
@@ -32,6 +34,46 @@ unsafe struct ListenedBundle
     /// <returns>The state of each lane, without impulses.</returns>
     internal Vector<int> Begin(in SolverBodies bodies, float hitSpeed, bool isMeasured)
     {
+        var overlap = Vector<int>.Zero;
+        for (int i = 0; i < ContactCount; ++i)
+        {
+            Depths[i] = ((ContactPrestepWide*)Prestep)[i].Depth;
+            overlap |= Vector.GreaterThan(Depths[i], Vector<float>.Zero);
+            Normals[i] = Vector<float>.Zero;
+        }
+        var speed = Approach(bodies);
+        ApproachSpeed = speed;
+        Friction = default;
+        var isFast = Vector.GreaterThanOrEqual(speed, new Vector<float>(hitSpeed));
+        // What overlaps as in the step before touches whatever it pushes.
+        IsMeasured = isMeasured || Vector.LessThanAny(isFast | ~overlap, Vector<int>.Zero);
+        Comes = IsMeasured && Vector.LessThanAny(Vector.GreaterThan(speed, Vector<float>.Zero) & ~overlap, Vector<int>.Zero);
+        return (overlap & new Vector<int>(ListenedState.Overlaps)) | (isFast & new Vector<int>(ListenedState.IsFast));
+    }
+
+    /// <summary>Makes the speeds of approach those at which surfaces meet that are apart. When bodies of the first substep have been integrated.</summary>
+    /// <param name="bodies">Bodies, whose velocities have gained what a substep gives.</param>
+    /// <param name="hitSpeed">Speed of approach from which on a touch is a hit.</param>
+    /// <param name="inverseDt">One over the length of the substep, 1/s.</param>
+    /// <returns>Which lanes are fast, as bits of the state.</returns>
+    // A velocity is that of the middle of the substep that has ended (Simulation: positions lie on a parabola), and from there on it gains the same all along.
+    internal Vector<int> Foresee(in SolverBodies bodies, float hitSpeed, float inverseDt)
+    {
+        var gain = Approach(bodies) - ApproachSpeed;
+        var depth = Depths[0];
+        for (int i = 1; i < ContactCount; ++i)
+            depth = Wide.Max(depth, Depths[i]);
+        var speed = ApproachSpeed + gain * new Vector<float>(0.5f);
+        var square = speed * speed - gain * depth * new Vector<float>(2 * inverseDt);
+        var comes = Vector.GreaterThan(ApproachSpeed, Vector<float>.Zero) & Vector.LessThan(depth, Vector<float>.Zero) &
+            Vector.GreaterThan(square, Vector<float>.Zero);
+        ApproachSpeed = Wide.Select(comes, Vector.SquareRoot(square), ApproachSpeed);
+        return Vector.GreaterThanOrEqual(ApproachSpeed, new Vector<float>(hitSpeed)) & new Vector<int>(ListenedState.IsFast);
+    }
+
+    // Greatest speed at which surfaces approach.
+    readonly Vector<float> Approach(in SolverBodies bodies)
+    {
         bodies.Gather(new RowOffsets(References[0]), BodyAccess.Velocity, default, out var a);
         Unsafe.SkipInit(out SolverBodyWide b);
         b.Linear = b.Angular = default;
@@ -42,24 +84,15 @@ unsafe struct ListenedBundle
         var linearB = Vector3Wide.Dot(b.Linear, normal);
         var linearA = Vector3Wide.Dot(a.Linear, normal);
         var speed = new Vector<float>(float.NegativeInfinity);
-        var overlap = Vector<int>.Zero;
         for (int i = 0; i < ContactCount; ++i)
         {
             ref var contact = ref ((ContactPrestepWide*)Prestep)[i];
-            overlap |= Vector.GreaterThan(contact.Depth, Vector<float>.Zero);
             // As ContactRow has it.
             var along = linearA + Vector3Wide.Dot(a.Angular, Vector3Wide.Cross(contact.OffsetA, normal))
                 + (Vector3Wide.Dot(b.Angular, Vector3Wide.Cross(normal, contact.OffsetA - offsetB)) - linearB);
             speed = Wide.Max(speed, -along);
-            Depths[i] = contact.Depth;
-            Normals[i] = Vector<float>.Zero;
         }
-        ApproachSpeed = speed;
-        Friction = default;
-        var isFast = Vector.GreaterThanOrEqual(speed, new Vector<float>(hitSpeed));
-        // What overlaps as in the step before touches whatever it pushes.
-        IsMeasured = isMeasured || Vector.LessThanAny(isFast | ~overlap, Vector<int>.Zero);
-        return (overlap & new Vector<int>(ListenedState.Overlaps)) | (isFast & new Vector<int>(ListenedState.IsFast));
+        return speed;
     }
 
     /// <summary>Adds what the present substep has pushed.</summary>

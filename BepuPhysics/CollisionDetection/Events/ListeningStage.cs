@@ -49,8 +49,6 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
 
     void ISolverStage.Execute(SolverPoint point, in Substep substep, int block)
     {
-        if (point == SolverPoint.AfterIntegration && substep.Index == 0)
-            return;
         if (block >= BundleBlocks)
         {
             NoteCenters(block - BundleBlocks);
@@ -64,6 +62,8 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
             ref var state = ref Unsafe.AsRef<Vector<int>>(states.Memory + i * Vector<int>.Count);
             if (point == SolverPoint.BeforeSubsteps)
                 state = bundle.Begin(rows, HitSpeed, measured[i] != 0);
+            else if (point == SolverPoint.AfterIntegration && substep.Index == 0)
+                state |= bundle.Comes ? bundle.Foresee(rows, HitSpeed, substep.InverseDt) : default;
             else if (bundle.IsMeasured)
                 bundle.Sum();
             if (point == SolverPoint.AfterSubsteps)
