@@ -29,14 +29,14 @@ public abstract partial class NarrowPhase
         // A bounce is no impulse of a constraint.
         for (int i = 0; i < Restitution.PairCount; ++i)
         {
-            if (Restitution.TryGetBounce(i, out var constraint, out var impulse))
-                Simulation.Events.AddBounce(pairOfConstraint[constraint.Slot], impulse);
+            if (Restitution.TryGetBounce(i, out var constraint, out var impulse, out var friction))
+                Simulation.Events.AddBounce(pairOfConstraint[constraint.Slot], impulse, friction);
         }
         for (int i = 0; i < FastPairs.Count; ++i)
         {
-            var impulse = FastPairs.ImpulseOf(i, out var pair);
+            var impulse = FastPairs.ImpulseOf(i, out var pair, out var friction);
             if (impulse > 0)
-                Simulation.Events.AddBounce(pair, impulse);
+                Simulation.Events.AddBounce(pair, impulse, friction);
             else if (FastPairs.HasPassed(i))
                 Simulation.Events.AddPassed(pair);
         }

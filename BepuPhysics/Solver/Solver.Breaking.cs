@@ -136,6 +136,15 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Adds what a blow has asked of a constraint, if it may break. Called on worker threads.</summary>
+    internal void AddBreakingImpulse(int slot, float linear, float angular)
+    {
+        if (PlaceOfBreakable(slot) is not (> 0 and var place))
+            return;
+        breakable[place - 1].Impulse += linear;
+        breakable[place - 1].AngularImpulse += angular;
+    }
+
     void BreakOverloaded()
     {
         for (int i = 0; i < breakable.Count; ++i)

@@ -1,3 +1,4 @@
+using System.Numerics;
 using BepuPhysics.Collidables;
 
 namespace BepuPhysics.CollisionDetection;
@@ -50,6 +51,8 @@ struct FastPair
     public float Friction, Restitution;
     /// <summary>What impacts have pushed along their normals in this step, N s.</summary>
     public float Impulse;
+    /// <summary>What friction of impacts has pushed A with, N s.</summary>
+    public Vector3 FrictionImpulse;
 
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;

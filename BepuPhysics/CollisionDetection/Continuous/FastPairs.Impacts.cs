@@ -117,7 +117,8 @@ sealed unsafe partial class FastPairs
         if (!(speed > 0))
             return;
         var tangent = sliding * (-1 / speed);
-        Push(new ContactRow(tangent, Exact.Cross(armA, tangent), Exact.Cross(tangent, armB)), inertiaA, inertiaB, speed,
+        pair.FrictionImpulse += tangent * Push(
+            new ContactRow(tangent, Exact.Cross(armA, tangent), Exact.Cross(tangent, armB)), inertiaA, inertiaB, speed,
             pair.Friction * pushed, ref a.Velocity, ref b.Velocity);
     }
 

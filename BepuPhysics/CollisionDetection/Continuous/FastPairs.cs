@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
@@ -99,10 +100,10 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     /// <summary>Whether a pair is one of a sensor that was met in the step.</summary>
     internal bool HasPassed(int index) => pairs[index].HasPassed;
 
-    /// <summary>What the impacts of a pair have pushed along their normals, N s.</summary>
-    internal float ImpulseOf(int index, out CollidablePair pair)
+    /// <summary>What the impacts of a pair have pushed along their normals, and what friction of them has pushed A with, N s.</summary>
+    internal float ImpulseOf(int index, out CollidablePair pair, out Vector3 friction)
     {
-        pair = pairs[index].Pair;
+        (pair, friction) = (pairs[index].Pair, pairs[index].FrictionImpulse);
         return pairs[index].Impulse;
     }
 

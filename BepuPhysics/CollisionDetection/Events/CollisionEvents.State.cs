@@ -18,9 +18,9 @@ public sealed unsafe partial class CollisionEvents
         if (!copy.Restores)
             return;
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = sensed.Count = 0;
-        manifolds.Count = contacts.Count = 0;
+        manifolds.Count = contacts.Count = bounces.Count = 0;
         for (int i = 0; i < pairs.Count; ++i)
-            pairs[i].ManifoldCount = 0;
+            pairs[i].ManifoldCount = pairs[i].Bounce = 0;
         isStale = true;
         stage.Forget();
         solver.OptionalStages.Remove(stage);

@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities.Collections;
 
@@ -19,6 +20,8 @@ public sealed unsafe partial class CollisionEvents
     QuickList<ListenedPlace> places;
     // Of all manifolds of the pairs; those of a pair are written where something is told of it.
     QuickList<EventContact> contacts;
+    // Of those of the pairs that had any in this step.
+    QuickList<ListenedBounce> bounces;
     QuickList<ContactEvent> began;
     QuickList<ContactEvent> ended;
     QuickList<ContactEvent> hits;
@@ -50,7 +53,7 @@ public sealed unsafe partial class CollisionEvents
     internal void BeginSolve(ref PairCache cache, bool isAtRest)
     {
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = 0;
-        contacts.Count = 0;
+        contacts.Count = bounces.Count = 0;
         isPersistingTold = false;
         isSettled &= isAtRest && added.Count == 0 && turned.Count == 0 && removalsSeen == traits.RemovalCount;
         if (isSettled)
@@ -90,7 +93,7 @@ public sealed unsafe partial class CollisionEvents
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            pair.BounceImpulse = 0;
+            pair.Bounce = 0;
             if (!TryPlace(pair, ref manifolds, ref contactCount))
                 return false;
         }
@@ -134,7 +137,7 @@ public sealed unsafe partial class CollisionEvents
             var isNoted = order >= 0;
             var isSensed = false;
             pair.MayPass = pair.HasPassed = false;
-            pair.BounceImpulse = 0;
+            pair.Bounce = 0;
             // A pair is noted for each of its constraints.
             for (; isNoted && fresh < added.Count && ListenedPair.Compare(pair, added[fresh]) == 0; ++fresh)
             {
@@ -205,11 +208,19 @@ public sealed unsafe partial class CollisionEvents
     }
 
     /// <summary>Adds what a bounce has pushed to the pair, if it is listened to.</summary>
-    internal void AddBounce(in CollidablePair pair, float impulse)
+    internal void AddBounce(in CollidablePair pair, float impulse, Vector3 friction)
     {
         var index = IndexOf(new() { Pair = pair });
-        if (index >= 0)
-            pairs[index].BounceImpulse += impulse;
+        if (index < 0)
+            return;
+        if (pairs[index].Bounce == 0)
+        {
+            Add(ref bounces, default);
+            pairs[index].Bounce = bounces.Count;
+        }
+        ref var bounce = ref bounces[pairs[index].Bounce - 1];
+        bounce.Impulse += impulse;
+        bounce.Friction += friction;
     }
 
     /// <summary>Notes that the way of the other of a pair has met its sensor.</summary>
@@ -248,6 +259,7 @@ public sealed unsafe partial class CollisionEvents
         Release(ref sensed);
         Release(ref pairs);
         Release(ref spare);
+        Release(ref bounces);
         Release(ref began);
         Release(ref ended);
         Release(ref hits);
@@ -269,6 +281,7 @@ public sealed unsafe partial class CollisionEvents
     void AbandonLists()
     {
         added = sensed = pairs = spare = default;
+        bounces = default;
         began = ended = hits = persisting = default;
         AbandonSleep();
         manifolds = spareManifolds = default;

@@ -28,7 +28,7 @@ public sealed unsafe partial class CollisionEvents
                 continue;
             }
             var state = StateOf(pair);
-            var pushes = (state & ListenedState.Pushes) != 0 || pair.BounceImpulse > 0;
+            var pushes = (state & ListenedState.Pushes) != 0 || pair.Bounce > 0;
             var touches = pushes || (state & ListenedState.Overlaps) != 0 || (pair.IsSensor && (pair.Exists || pair.HasPassed));
             var kinds = touches ? pair.Touches ? EventMask.Persist : EventMask.Begin : pair.Touches ? EventMask.End : EventMask.None;
             if (pushes && ((state & ListenedState.IsFast) != 0 || (pair.ManifoldCount == 0 && hitSpeed == 0)))
@@ -82,7 +82,9 @@ public sealed unsafe partial class CollisionEvents
 
     void Tell(ref ListenedPair pair, EventMask kinds, ref PairCache cache)
     {
-        var told = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor, Impulse = pair.BounceImpulse };
+        var told = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor };
+        if (pair.Bounce > 0)
+            (told.Impulse, told.FrictionImpulse) = (bounces[pair.Bounce - 1].Impulse, bounces[pair.Bounce - 1].Friction);
         if (pair.ManifoldCount > 0)
             Describe(ref pair, ref told, ref cache);
         Tell(ref ended, kinds & EventMask.End, told);

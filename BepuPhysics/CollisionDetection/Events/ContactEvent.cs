@@ -18,9 +18,12 @@ public struct ContactEvent
     public float Depth;
     /// <summary>Sum of what all contacts pushed along their normals in the step, bounces included, N s.</summary>
     public float Impulse;
-    /// <summary>What friction pushed A with in the step, bounces left out, N s; B was pushed the other way.</summary>
+    /// <summary>What friction pushed A with in the step, bounces included, N s; B was pushed the other way.</summary>
     public Vector3 FrictionImpulse;
-    /// <summary>Greatest speed at which surfaces approached along the normal before the step pushed them, m/s; negative where they parted.</summary>
+    /// <summary>
+    /// Greatest speed at which surfaces approached along the normal before the step pushed them, with what gravity gives until they meet, m/s; negative where
+    /// they parted.
+    /// </summary>
     public float ApproachSpeed;
     /// <summary>Whether one of the two is a sensor.</summary>
     public bool IsSensor;

@@ -26,8 +26,8 @@ struct ListenedPair
     public int IndexInCache;
     /// <summary>Its manifolds in this step.</summary>
     public int FirstManifold, ManifoldCount;
-    /// <summary>Sum of the impulses of this step's bounces.</summary>
-    public float BounceImpulse;
+    /// <summary>One more than where the sum of this step's bounces is, or 0 where there were none.</summary>
+    public int Bounce;
 
     /// <summary>By slots, then by generations: whether slots were others' before does not change the order.</summary>
     public static int Compare(in ListenedPair a, in ListenedPair b)
@@ -47,6 +47,15 @@ struct ListenedPair
     {
         public readonly int Compare(ref ListenedPair a, ref ListenedPair b) => ListenedPair.Compare(a, b);
     }
+}
+
+/// <summary>What the bounces of a pair have pushed in a step, N s.</summary>
+struct ListenedBounce
+{
+    /// <summary>Along the normals.</summary>
+    public float Impulse;
+    /// <summary>What friction pushed A with.</summary>
+    public Vector3 Friction;
 }
 
 /// <summary>A contact constraint whose pair is listened to.</summary>

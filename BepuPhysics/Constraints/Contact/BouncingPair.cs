@@ -1,3 +1,5 @@
+using System.Numerics;
+
 namespace BepuPhysics.Constraints.Contact;
 
 /// <summary>A pair with a coefficient of restitution, for one step.</summary>
@@ -36,10 +38,14 @@ struct BouncingPair
     public bool IsLoaded;
     /// <summary>Whether the surfaces overlap, and carry no load.</summary>
     public bool Overlaps;
+    /// <summary>Whether one of the bodies is in a structure of joints; known from the first impact of a step on.</summary>
+    public bool IsInStructure;
     /// <summary>Whether it takes part in the impact that is being made.</summary>
     public bool Joins;
     /// <summary>What impacts have pushed along the normal in this step, N s.</summary>
     public float Impulse;
+    /// <summary>What friction of impacts has pushed A with in this step, N s.</summary>
+    public Vector3 Friction;
     /// <summary>Where the constraint is in this step.</summary>
     public ContactPlace Place;
     /// <summary>What the integration of a substep adds to the speed at each contact, or to that along the normal, either way, m/s.</summary>

@@ -116,6 +116,17 @@ readonly unsafe ref struct ContactRows
         set.MotionStates[body].Pose.Position = origin + set.Displacements[body].Linear;
     }
 
+    /// <summary>Turns a body.</summary>
+    // By so little that the sine is the angle.
+    internal void Turn(int body, Vector3 way)
+    {
+        ref var orientation = ref set.MotionStates[body].Pose.Orientation;
+        orientation = Exact.Normalize(Exact.Concatenate(orientation, new(way.X * 0.5f, way.Y * 0.5f, way.Z * 0.5f, 1)));
+    }
+
+    /// <summary>Takes note of how a body was moved and turned.</summary>
+    internal void NoteMove(int contact, float apart) => Depth(contact) -= apart;
+
     /// <summary>Takes note that A was moved against B.</summary>
     internal void NoteMove(Vector3 way)
     {

@@ -19,6 +19,8 @@ struct ImpactGroups(BufferPool pool)
     QuickList<int> leaders = new(16, pool);
     // Where each group begins in the members, and where the last one ends.
     QuickList<int> starts = new(16, pool);
+    // First pair of each structure of joints; -1 for none.
+    QuickList<int> firstOfStructure = new(4, pool);
     // Where each block begins in the groups, and where the last one ends.
     QuickList<int> blocks = new(4, pool);
 
@@ -28,6 +30,7 @@ struct ImpactGroups(BufferPool pool)
         members.Dispose(pool);
         leaders.Dispose(pool);
         starts.Dispose(pool);
+        firstOfStructure.Dispose(pool);
         blocks.Dispose(pool);
     }
 
@@ -50,7 +53,7 @@ struct ImpactGroups(BufferPool pool)
     internal readonly int FirstOf(int body) => firstOfBody[body];
 
     /// <summary>Links pairs to their bodies, and finds the groups.</summary>
-    internal void Link(ref QuickList<BouncingPair> pairs, int bodyCount)
+    internal void Link(ref QuickList<BouncingPair> pairs, int bodyCount, ImpactStructures structures)
     {
         Resize(ref firstOfBody, bodyCount);
         firstOfBody.AsSpan().Fill(-1);
@@ -63,8 +66,35 @@ struct ImpactGroups(BufferPool pool)
             if (pair.B >= 0)
                 pair.NextOfB = Link(pair.B, i);
         }
+        if (!structures.IsEmpty)
+            LinkStructures(ref pairs, structures);
         Gather(pairs.Count);
         Divide();
+    }
+
+    // Pairs of bodies that hang together by joints have to do with each other, too.
+    void LinkStructures(ref QuickList<BouncingPair> pairs, ImpactStructures structures)
+    {
+        Resize(ref firstOfStructure, structures.Count);
+        firstOfStructure.AsSpan().Fill(-1);
+        for (int i = 0; i < pairs.Count; ++i)
+        {
+            ref var pair = ref pairs[i];
+            var (islandA, islandB) = (structures.IslandOf(pair.A), pair.B >= 0 ? structures.IslandOf(pair.B) : -1);
+            pair.IsInStructure = islandA >= 0 || islandB >= 0;
+            LinkStructure(islandA, i);
+            LinkStructure(islandB, i);
+        }
+    }
+
+    readonly void LinkStructure(int island, int pair)
+    {
+        if (island < 0)
+            return;
+        if (firstOfStructure[island] < 0)
+            firstOfStructure[island] = pair;
+        else
+            Join(LeaderOf(firstOfStructure[island]), LeaderOf(pair));
     }
 
     int Link(int body, int pair)
@@ -77,7 +107,7 @@ struct ImpactGroups(BufferPool pool)
     }
 
     // The first of a group leads it.
-    void Join(int a, int b)
+    readonly void Join(int a, int b)
     {
         if (a < b)
             leaders[b] = a;
@@ -85,7 +115,7 @@ struct ImpactGroups(BufferPool pool)
             leaders[a] = b;
     }
 
-    int LeaderOf(int pair)
+    readonly int LeaderOf(int pair)
     {
         while (leaders[pair] != pair)
         {

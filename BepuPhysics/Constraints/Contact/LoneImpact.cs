@@ -17,6 +17,8 @@ struct LoneImpact
     internal BodyVelocity ChangeOfB;
     /// <summary>What it pushes along the normal, N s.</summary>
     internal float Impulse;
+    /// <summary>What friction pushes A with, N s.</summary>
+    internal Vector3 Friction;
 
     /// <summary>Makes the impact of a pair of one contact.</summary>
     /// <param name="pair">The pair.</param>
@@ -67,6 +69,7 @@ struct LoneImpact
         var pushY = (cross * velocityX - massX * velocityY) / determinant;
         var length = MathF.Sqrt(pushX * pushX + pushY * pushY);
         var scale = length > most ? most / length : 1;
+        Friction = (direction * pushX + Exact.Cross(normal, direction) * pushY) * scale;
         Add(ref ChangeOfA, x.ResponseOfA(inertiaA, pushX * scale), y.ResponseOfA(inertiaA, pushY * scale));
         Add(ref ChangeOfB, x.ResponseOfB(inertiaB, pushX * scale), y.ResponseOfB(inertiaB, pushY * scale));
         return true;

@@ -12,26 +12,24 @@ sealed unsafe partial class Restitution
 {
     // Impacts of one pair in one substep.
     const int MaximumImpacts = 16;
-    // Pairs of one impact.
-    const int MaximumPairs = 256;
     // Part of the substep, and of the speed, within which impacts are alike.
     internal const float AlikeShare = 1e-3f;
     // Cosine of the angle between the normals of one floor.
     const float SameDirection = 0.9999f;
 
-    void Bounce(int block, float dt, BufferPool workerPool)
+    void Bounce(int block, in Substep substep, BufferPool workerPool)
     {
         var impacts = new Impacts(this, workerPool);
         for (int group = groups.FirstGroup(block); group < groups.FirstGroup(block + 1); ++group)
-            impacts.Make(group, dt);
+            impacts.Make(group, substep);
         impacts.Dispose();
     }
 
     // Of one worker.
-    struct Impacts(Restitution owner, BufferPool pool)
+    partial struct Impacts(Restitution owner, BufferPool pool)
     {
         ImpactQueue queue = new(pool);
-        SharedImpact impact = new(pool);
+        SharedImpact impact = new(owner.structures, pool);
 
         readonly ref QuickList<BouncingPair> Pairs => ref owner.pairs;
 
@@ -41,14 +39,18 @@ sealed unsafe partial class Restitution
             impact.Dispose();
         }
 
-        public void Make(int group, float dt)
+        public void Make(int group, in Substep substep)
         {
             if (!queue.Fill(ref Pairs, owner.groups, group))
                 return;
-            MakeImpacts(dt);
-            Separate(group, dt);
+            if (!owner.structures.IsEmpty)
+                EnterStructures(group, substep);
+            MakeImpacts(substep.Dt);
+            Separate(group, substep.Dt);
             // Who was in the way.
-            MakeImpacts(dt);
+            MakeImpacts(substep.Dt);
+            if (!owner.structures.IsEmpty)
+                LeaveStructures(group);
             HideOverlaps(group);
         }
 
@@ -81,6 +83,10 @@ sealed unsafe partial class Restitution
                     ref var pair = ref Pairs[impact.Pair(i)];
                     pair.Joins = false;
                     pair.Impulse += impact.NormalImpulse(i);
+                    pair.Friction += impact.FrictionImpulse(i);
+                    // Whom his joints hold is not asked again.
+                    if (impact.HasStructures && impact.IsHeld(i))
+                        pair.ImpactCount = MaximumImpacts;
                 }
                 var contacts = owner.Contacts(Pairs[first]);
                 for (int i = 0; i < impact.BodyCount; ++i)
@@ -89,6 +95,12 @@ sealed unsafe partial class Restitution
                         continue;
                     contacts.Push(body, change);
                     Shift(contacts, body, change.Linear * -time);
+                }
+                if (impact.HasStructures)
+                {
+                    PushStructures(contacts, time);
+                    LookAtPairsOfAll(dt);
+                    continue;
                 }
                 // When all have changed: a pair of two of them is looked at once, for the second one.
                 var second = impact.BodyCount == 2 && impact.TryGetChange(1, out var other, out _) ? other : -1;
@@ -105,12 +117,15 @@ sealed unsafe partial class Restitution
             ref var pair = ref Pairs[index];
             if (pair.Coefficient > 0 || pair.ContactCount > 1)
                 return false;
+            if (owner.structures.PartOf(pair.A) >= 0 || owner.structures.PartOf(pair.B) >= 0)
+                return false;
             var contacts = owner.Contacts(pair);
             Unsafe.SkipInit(out LoneImpact lone);
             if (!lone.TryMake(pair, contacts, time, dt))
                 return false;
             Note(ref pair);
             pair.Impulse += lone.Impulse;
+            pair.Friction += lone.Friction;
             contacts.Push(pair.A, lone.ChangeOfA);
             Shift(contacts, pair.A, lone.ChangeOfA.Linear * -time);
             if (pair.B >= 0)
@@ -143,14 +158,14 @@ sealed unsafe partial class Restitution
         // contacts of one patch are not told apart either.
         void JoinNeighbours(int index, float time, float dt)
         {
-            JoinNeighboursOf(Pairs[index].A, index, time, dt);
+            JoinNeighboursOfAll(Pairs[index].A, index, time, dt);
             if (Pairs[index].B >= 0)
-                JoinNeighboursOf(Pairs[index].B, index, time, dt);
+                JoinNeighboursOfAll(Pairs[index].B, index, time, dt);
         }
 
         void JoinNeighboursOf(int body, int index, float time, float dt)
         {
-            for (int i = owner.groups.FirstOf(body); i >= 0 && impact.PairCount < MaximumPairs; i = Pairs[i].NextOf(body))
+            for (int i = owner.groups.FirstOf(body); i >= 0 && impact.HasRoom; i = Pairs[i].NextOf(body))
             {
                 ref var pair = ref Pairs[i];
                 if (pair.Joins || !(pair.Coefficient > 0) || !(Pairs[index].Coefficient > 0))
@@ -197,11 +212,17 @@ sealed unsafe partial class Restitution
                 ref var pair = ref Pairs[i];
                 if (later >= 0 && (pair.A == later || pair.B == later))
                     continue;
-                owner.Predict(ref pair, owner.Contacts(pair), dt);
-                if (pair.ImpactCount == MaximumImpacts)
-                    pair.Time = BouncingPair.Never;
-                queue.Update(ref Pairs, i);
+                LookAt(i, dt);
             }
+        }
+
+        void LookAt(int index, float dt)
+        {
+            ref var pair = ref Pairs[index];
+            owner.Predict(ref pair, owner.Contacts(pair), dt);
+            if (pair.ImpactCount >= MaximumImpacts)
+                pair.Time = BouncingPair.Never;
+            queue.Update(ref Pairs, index);
         }
 
         // What this leaves, as others are in the way or the overlap is deep, the next steps take out.

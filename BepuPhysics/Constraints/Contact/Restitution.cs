@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -42,6 +43,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     const float RoundingShare = 1e-6f;
 
     QuickList<BouncingPair> pairs = new(16, pool);
+    readonly ImpactStructures structures = new(solver, bodies, pool);
     ImpactGroups groups = new(pool);
     bool isLinked;
     bool anyMeets;
@@ -57,15 +59,16 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     /// <summary>Impacts of a constraint in the last substep in which its group had any.</summary>
     internal int ImpactCountOf(int index) => pairs[index].ImpactCount;
 
-    /// <summary>What the bounces of a constraint have pushed along its normal in the last step, N s.</summary>
+    /// <summary>What the bounces of a constraint have pushed in the last step, N s.</summary>
     /// <param name="index">Which of those that are watched.</param>
     /// <param name="constraint">The constraint.</param>
-    /// <param name="impulse">The impulse.</param>
+    /// <param name="impulse">Along its normal.</param>
+    /// <param name="friction">What friction pushed A with.</param>
     /// <returns>Whether there were any.</returns>
-    internal bool TryGetBounce(int index, out ConstraintHandle constraint, out float impulse)
+    internal bool TryGetBounce(int index, out ConstraintHandle constraint, out float impulse, out Vector3 friction)
     {
-        constraint = pairs[index].Constraint;
-        impulse = pairs[index].Impulse;
+        ref var pair = ref pairs[index];
+        (constraint, impulse, friction) = (pair.Constraint, pair.Impulse, pair.Friction);
         return impulse > 0;
     }
 
@@ -96,12 +99,14 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     {
         pairs.Dispose(pool);
         groups.Dispose();
+        structures.Dispose();
     }
 
     internal void Abandon()
     {
         pairs = default;
         groups = default;
+        structures.Abandon();
     }
 
     // Where a game calls the stages of a step by itself, it may solve again what it has removed bodies from in between, or put them to sleep.
@@ -142,7 +147,10 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             return 0;
         anyMeets = false;
         if (!isLinked)
-            groups.Link(ref pairs, bodies.ActiveSet.Count);
+        {
+            structures.Find(ref pairs);
+            groups.Link(ref pairs, bodies.ActiveSet.Count, structures);
+        }
         isLinked = true;
         return groups.BlockCount;
     }
@@ -151,7 +159,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     {
         if (point == SolverPoint.BeforeWarmStart)
         {
-            Bounce(block, substep.Dt, workerPool);
+            Bounce(block, substep, workerPool);
             return;
         }
         var end = Math.Min(pairs.Count, (block + 1) * PairsPerBlock);
@@ -210,6 +218,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pair.Speed = 0;
         pair.Overlap = 0;
         pair.Overlaps = false;
+        var stays = false;
         var earliest = pair.IsLoaded ? 0 : -dt * solver.LastSubstepCount;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
@@ -221,6 +230,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
                 var parting = pair.Coefficient > 0 ? PartingSteps * solver.LastSubstepCount * dt : dt;
                 var left = MathHelper.Min(0, speed) * parting - gap;
+                stays |= left > 0;
                 pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(left, contacts.MaximumRecoveryVelocity * dt));
             }
             if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, pair.Gained[i], dt)) ||
@@ -234,6 +244,11 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             pair.Time = time;
             pair.Speed = speed;
         }
+        // To move one body out of an overlap is to move all of its structure, some of it into others: the solver is told.
+        if (!stays || !pair.IsInStructure)
+            return;
+        pair.Overlaps = false;
+        pair.Overlap = 0;
     }
 
     float RestingSpeed(in BouncingPair pair, in ContactRows contacts, float gained, float dt)

@@ -16,10 +16,14 @@ namespace BepuPhysics.Constraints.Contact;
 // What the sweeps leave over, and friction that pushes contacts back together, may give a little energy more than there was; the impulses
 // are then scaled. With impulses x and relative velocities u before and u' after, the kinetic energy changes by x (u + u') / 2: so the scale
 // -2 x u / x (u' - u) changes nothing. No impact adds energy, and so no sequence of impacts does.
-unsafe struct SharedImpact(BufferPool pool)
+//
+// Bodies in joints take their structures along (SharedImpact.Structures.cs); rows then see each other by what one does to all others.
+unsafe partial struct SharedImpact(ImpactStructures structures, BufferPool pool)
 {
     // A patch converges by about a factor of two a sweep; one on bodies of little inertia for its breadth is slower.
     const int MaximumSweeps = 256;
+    // Pairs of one impact.
+    const int MaximumPairs = 256;
     // What a sweep changes, of the greatest speed of approach, from which on it changes nothing but rounding.
     const float RoundingShare = 2e-7f;
     // With the normal impulses given, friction is one block for each patch.
@@ -30,6 +34,8 @@ unsafe struct SharedImpact(BufferPool pool)
         // In the active set; -1 for a static.
         public int Index;
         public bool IsFixed;
+        // Part of a structure of joints, or -1.
+        public int Part;
         public BodyInertia Inertia;
         public BodyVelocity Velocity;
         public BodyVelocity Change;
@@ -44,6 +50,8 @@ unsafe struct SharedImpact(BufferPool pool)
         public int B;
         // Velocity before the impact.
         public float Before;
+        // Velocity as it is, where there are structures.
+        public float Now;
         public float Impulse;
         // What a unit impulse adds to the velocity.
         public float InverseMass;
@@ -61,6 +69,8 @@ unsafe struct SharedImpact(BufferPool pool)
         public int End;
         // Of the two rows of friction; -1 without.
         public int Tangent;
+        // Direction of the first; that of the second is across.
+        public Vector3 Direction;
         // What a unit impulse in one of these adds to the velocity of the other.
         public float Coupling;
     }
@@ -68,6 +78,13 @@ unsafe struct SharedImpact(BufferPool pool)
     QuickList<Body> bodies = new(4, pool);
     QuickList<Row> rows = new(16, pool);
     QuickList<Meeting> patches = new(4, pool);
+    // What a unit impulse of a row adds to the velocity of another, where there are structures.
+    QuickList<float> couplings;
+    // What a unit impulse of the row that is looked at adds to the bodies.
+    QuickList<BodyVelocity> changes;
+    // Length of a row of the couplings.
+    int stride;
+    bool hasStructures;
     float time;
     float dt;
     // Greatest speed of approach, and in any row.
@@ -80,6 +97,10 @@ unsafe struct SharedImpact(BufferPool pool)
         bodies.Dispose(pool);
         rows.Dispose(pool);
         patches.Dispose(pool);
+        if (!couplings.Span.Allocated)
+            return;
+        couplings.Dispose(pool);
+        changes.Dispose(pool);
     }
 
     /// <summary>Begins an impact.</summary>
@@ -90,7 +111,7 @@ unsafe struct SharedImpact(BufferPool pool)
         this.time = time;
         this.dt = dt;
         speed = greatestSpeed = 0;
-        bounces = false;
+        bounces = hasStructures = false;
         bodies.Count = rows.Count = patches.Count = 0;
     }
 
@@ -109,6 +130,15 @@ unsafe struct SharedImpact(BufferPool pool)
         return sum;
     }
 
+    /// <summary>What friction pushes A of a pair that takes part with, N s.</summary>
+    internal readonly Vector3 FrictionImpulse(int index)
+    {
+        ref var patch = ref patches[index];
+        if (patch.Tangent < 0)
+            return default;
+        return patch.Direction * rows[patch.Tangent].Impulse + Exact.Cross(patch.Normal, patch.Direction) * rows[patch.Tangent + 1].Impulse;
+    }
+
     /// <summary>Number of bodies that take part.</summary>
     internal readonly int BodyCount => bodies.Count;
 
@@ -116,12 +146,12 @@ unsafe struct SharedImpact(BufferPool pool)
     /// <param name="index">Which of those that take part.</param>
     /// <param name="body">Its index in the active set.</param>
     /// <param name="change">What its velocity gains.</param>
-    /// <returns>Whether it moves.</returns>
+    /// <returns>Whether it moves, and is in no structure.</returns>
     internal readonly bool TryGetChange(int index, out int body, out BodyVelocity change)
     {
         body = bodies[index].Index;
         change = bodies[index].Change;
-        return !bodies[index].IsFixed;
+        return !bodies[index].IsFixed && bodies[index].Part < 0;
     }
 
     /// <summary>Adds those contacts of a pair that meet within the substep.</summary>
@@ -136,13 +166,15 @@ unsafe struct SharedImpact(BufferPool pool)
         bounces |= pair.Coefficient > 0;
         // The velocity has gained what the acceleration of the whole substep gives. A parabola has gained half of that when the substep begins.
         var notYet = 0.5f - time / dt;
+        var gainA = bodies[a].Part >= 0 ? structures.GainOf(bodies[a].Part) : pair.GainA;
+        var gainB = bodies[b].Part >= 0 ? structures.GainOf(bodies[b].Part) : pair.GainB;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             var row = pair.Rows[i];
             var velocity = row.Along(contacts.VelocityA, contacts.VelocityB);
             if (!(contacts.Gap(i, row) - pair.ReachOfAlike(MathHelper.Max(-velocity, 0), dt) <= 0))
                 continue;
-            velocity -= row.Along(pair.GainA, pair.GainB) * notYet;
+            velocity -= row.Along(gainA, gainB) * notYet;
             speed = MathHelper.Max(speed, -velocity);
             AddRow(row, contacts.Arm(i), a, b, velocity);
         }
@@ -167,7 +199,17 @@ unsafe struct SharedImpact(BufferPool pool)
             if (bodies[i].Index == index)
                 return i;
         }
-        bodies.Add(new() { Index = index, IsFixed = isFixed, Inertia = inertia, Velocity = velocity }, pool);
+        var part = isFixed ? -1 : structures.PartOf(index);
+        hasStructures |= part >= 0;
+        bodies.Add(
+            new()
+            {
+                Index = index,
+                IsFixed = isFixed,
+                Part = part,
+                Inertia = part >= 0 ? structures.InertiaOf(part) : inertia,
+                Velocity = velocity,
+            }, pool);
         return bodies.Count - 1;
     }
 
@@ -181,6 +223,8 @@ unsafe struct SharedImpact(BufferPool pool)
     /// <summary>Finds what the pairs that were added make of their bodies.</summary>
     internal void Solve()
     {
+        if (hasStructures)
+            BeginStructures();
         // One row is exact.
         Settle(rows.Count > 1 ? MaximumSweeps : 1);
         if (AddFriction())
@@ -204,12 +248,16 @@ unsafe struct SharedImpact(BufferPool pool)
         }
     }
 
-    readonly float Velocity(in Row row) => row.Before + row.Along.Along(bodies[row.A].Change, bodies[row.B].Change);
+    readonly float Velocity(in Row row) => hasStructures ? row.Now : row.Before + row.Along.Along(bodies[row.A].Change, bodies[row.B].Change);
 
-    readonly void Push(ref Row row, float change)
+    readonly void Push(int index, float change)
     {
+        ref var row = ref rows[index];
         row.Impulse += change;
-        Apply(row, change);
+        if (hasStructures)
+            PushStructures(index, change);
+        else
+            Apply(row, change);
     }
 
     readonly void Apply(in Row row, float impulse)
@@ -239,7 +287,7 @@ unsafe struct SharedImpact(BufferPool pool)
                 if (!(row.InverseMass > 0))
                     continue;
                 var change = MathHelper.Max(-row.Impulse, -Velocity(row) / row.InverseMass);
-                Push(ref row, change);
+                Push(j, change);
                 greatest = MathHelper.Max(greatest, MathF.Abs(change) * row.InverseMass);
             }
         }
@@ -263,8 +311,14 @@ unsafe struct SharedImpact(BufferPool pool)
             var axis = MathF.Abs(patch.Normal.X) < MathF.Abs(patch.Normal.Y) ? Vector3.UnitX : Vector3.UnitY;
             var x = Exact.Normalize(Exact.Cross(patch.Normal, axis));
             patch.Tangent = rows.Count;
+            patch.Direction = x;
             AddTangent(patch, center, x);
             AddTangent(patch, center, Exact.Cross(patch.Normal, x));
+            if (hasStructures)
+            {
+                patch.Coupling = CoupleTangents(patch.Tangent);
+                continue;
+            }
             ref var row = ref rows[patch.Tangent];
             patch.Coupling = rows[patch.Tangent + 1].Along.Along(
                 row.Along.ResponseOfA(bodies[row.A].Inertia, 1), row.Along.ResponseOfB(bodies[row.B].Inertia, 1));
@@ -300,8 +354,8 @@ unsafe struct SharedImpact(BufferPool pool)
             var maximum = patch.Friction * NormalImpulse(i);
             var scale = length > maximum ? maximum / length : 1;
             var (changeX, changeY) = (totalX * scale - x.Impulse, totalY * scale - y.Impulse);
-            Push(ref x, changeX);
-            Push(ref y, changeY);
+            Push(patch.Tangent, changeX);
+            Push(patch.Tangent + 1, changeY);
             greatest = MathHelper.Max(greatest, MathHelper.Max(MathF.Abs(changeX) * x.InverseMass, MathF.Abs(changeY) * y.InverseMass));
         }
         return greatest;
@@ -310,7 +364,7 @@ unsafe struct SharedImpact(BufferPool pool)
     readonly void Return(in Meeting patch)
     {
         for (int i = patch.First; i < patch.End; ++i)
-            Push(ref rows[i], rows[i].Impulse * patch.Coefficient);
+            Push(i, rows[i].Impulse * patch.Coefficient);
     }
 
     readonly void Sum()
@@ -339,5 +393,7 @@ unsafe struct SharedImpact(BufferPool pool)
             bodies[i].Change = default;
         for (int i = 0; i < rows.Count; ++i)
             Apply(rows[i], rows[i].Impulse);
+        if (hasStructures)
+            SumStructures();
     }
 }

@@ -52,6 +52,9 @@ unsafe partial struct DirectPlan
     // The last island of those whose structures have the same hash.
     QuickDictionary<ulong, int, HashOfHash> lastOfHash;
 
+    /// <summary>Whether each structure is by itself, also where others are equal.</summary>
+    internal bool KeepsApart;
+
     /// <summary>Whether any joint is solved at once.</summary>
     internal readonly bool IsEmpty => Nodes.Count == 0;
 
@@ -77,12 +80,14 @@ unsafe partial struct DirectPlan
     /// <param name="references">Its bodies, dynamic ones first.</param>
     /// <param name="dynamicCount">Number of dynamic ones.</param>
     /// <param name="pool">Memory.</param>
+    /// <param name="mostJointsWithLoops">Joints of a structure with loops beyond which it is not added.</param>
     /// <returns>Whether it was added.</returns>
     internal bool TryAdd(
-        ReadOnlySpan<DirectNode> joints, ReadOnlySpan<ConstraintHandle> handles, ReadOnlySpan<int> references, int dynamicCount, BufferPool pool)
+        ReadOnlySpan<DirectNode> joints, ReadOnlySpan<ConstraintHandle> handles, ReadOnlySpan<int> references, int dynamicCount, BufferPool pool,
+        int mostJointsWithLoops = MostJointsWithLoops)
     {
         var hash = HashOf(joints, references.Length, dynamicCount);
-        if (lastOfHash.TryGetValue(hash, out var last) && IsEqual(Islands[last], joints, references.Length, dynamicCount))
+        if (!KeepsApart && lastOfHash.TryGetValue(hash, out var last) && IsEqual(Islands[last], joints, references.Length, dynamicCount))
         {
             AddMember(ref Islands[last], handles, references);
             return true;
@@ -92,7 +97,7 @@ unsafe partial struct DirectPlan
         pool.Take<int>(joints.Length * Solver.MaximumBodiesPerConstraint, out var bodies);
         var graph = GraphOf(joints, dynamicCount, starts, bodies, pool);
         var isTree = !graph.HasLoops(joints, withBounds: true, pool);
-        var isAdded = isTree || joints.Length <= MostJointsWithLoops;
+        var isAdded = isTree || joints.Length <= mostJointsWithLoops;
         if (isAdded)
         {
             pool.Take<int>(joints.Length, out var order);

@@ -1,0 +1,113 @@
+namespace BepuPhysics.Constraints.Contact;
+
+// Impacts of bodies in joints: what happens to one of a structure happens to all.
+sealed unsafe partial class Restitution
+{
+    partial struct Impacts
+    {
+        void EnterStructures(int group, in Substep substep)
+        {
+            // Without an impact nobody's speeds matter.
+            for (int i = 0; i < owner.groups.CountOf(group) && !queue.IsEmpty; ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                if (pair.IsInStructure)
+                    Enter(pair, substep);
+            }
+            // Their speeds are others now; and in the first substep nobody knew who is in joints.
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                if (Pairs[owner.groups.Pair(group, i)].IsInStructure)
+                    LookAt(owner.groups.Pair(group, i), substep.Dt);
+            }
+        }
+
+        readonly void Enter(in BouncingPair pair, in Substep substep)
+        {
+            if (owner.structures.IslandOf(pair.A) is >= 0 and var islandA)
+                owner.structures.Enter(islandA, substep, Pairs, owner.groups);
+            if (pair.B >= 0 && owner.structures.IslandOf(pair.B) is >= 0 and var islandB)
+                owner.structures.Enter(islandB, substep, Pairs, owner.groups);
+        }
+
+        readonly void LeaveStructures(int group)
+        {
+            var structures = owner.structures;
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                if (!pair.IsInStructure)
+                    continue;
+                if (structures.IslandOf(pair.A) is >= 0 and var islandA)
+                    structures.Leave(islandA);
+                if (pair.B >= 0 && structures.IslandOf(pair.B) is >= 0 and var islandB)
+                    structures.Leave(islandB);
+            }
+        }
+
+        // What the impact has made of all bodies of the structures that take part.
+        readonly void PushStructures(in ContactRows contacts, float time)
+        {
+            for (int i = 0; i < impact.BodyCount; ++i)
+            {
+                if (!impact.TryGetStructure(i, out var island))
+                    continue;
+                owner.structures.NoteBlow(island);
+                var (first, end) = owner.structures.PartsOf(island);
+                for (int part = first; part < end; ++part)
+                {
+                    var change = owner.structures.ChangeOf(part);
+                    var body = owner.structures.BodyOf(part);
+                    contacts.Push(body, change);
+                    ShiftPart(contacts, body, new(change.Linear * -time, change.Angular * -time));
+                }
+            }
+        }
+
+        // A body in joints has to be turned with its structure: moved alone it would leave them.
+        readonly void ShiftPart(in ContactRows contacts, int body, in BodyVelocity way)
+        {
+            contacts.Move(body, way.Linear);
+            contacts.Turn(body, way.Angular);
+            for (int i = owner.groups.FirstOf(body); i >= 0; i = Pairs[i].NextOf(body))
+            {
+                ref var pair = ref Pairs[i];
+                var ofPair = owner.Contacts(pair);
+                for (int j = 0; j < pair.ContactCount; ++j)
+                    ofPair.NoteMove(j, pair.A == body ? pair.Rows[j].Along(way, default) : pair.Rows[j].Along(default, way));
+            }
+        }
+
+        void LookAtPairsOfAll(float dt)
+        {
+            for (int i = 0; i < impact.BodyCount; ++i)
+            {
+                if (impact.TryGetChange(i, out var body, out _))
+                    LookAtPairsOf(body, -1, dt);
+                else if (impact.TryGetStructure(i, out var island))
+                    LookAtPairsOfStructure(island, dt);
+            }
+        }
+
+        void LookAtPairsOfStructure(int island, float dt)
+        {
+            var (first, end) = owner.structures.PartsOf(island);
+            for (int part = first; part < end; ++part)
+                LookAtPairsOf(owner.structures.BodyOf(part), -1, dt);
+        }
+
+        // A table falls on four legs.
+        void JoinNeighboursOfAll(int body, int index, float time, float dt)
+        {
+            var part = owner.structures.PartOf(body);
+            if (part < 0)
+            {
+                JoinNeighboursOf(body, index, time, dt);
+                return;
+            }
+            var (first, end) = owner.structures.PartsOf(owner.structures.IslandOfPart(part));
+            for (int i = first; i < end; ++i)
+                JoinNeighboursOf(owner.structures.BodyOf(i), index, time, dt);
+        }
+    }
+}
