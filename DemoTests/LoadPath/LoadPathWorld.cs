@@ -57,15 +57,19 @@ sealed class LoadPathWorld : IDisposable
     }
 
     /// <summary>A wall of bricks of 1 by .5 by .5 m, each over the gap between two below, with halves at the ends of every other row.</summary>
-    public void AddWall(int rows, int bricks, Vector3 velocity = default)
+    /// <param name="rows">Number of rows.</param>
+    /// <param name="bricks">Number of whole bricks of a row.</param>
+    /// <param name="velocity">Of all of it, m/s.</param>
+    /// <param name="aside">How far each row is aside of the one below, across the wall, m.</param>
+    public void AddWall(int rows, int bricks, Vector3 velocity = default, float aside = 0)
     {
         for (int row = 0; row < rows; ++row)
         {
             var odd = row % 2;
             for (int i = 0; i < bricks - odd; ++i)
-                Add(new Vector3(i + odd * 0.5f, 0.25f + row * 0.5f, 0), new Vector3(1, 0.5f, 0.5f), 1, velocity);
+                Add(new Vector3(i + odd * 0.5f, 0.25f + row * 0.5f, row * aside), new Vector3(1, 0.5f, 0.5f), 1, velocity);
             for (int end = 0; odd == 1 && end < 2; ++end)
-                Add(new Vector3(end * (bricks - 0.5f) - 0.25f, 0.25f + row * 0.5f, 0), new Vector3(0.5f), 0.5f, velocity);
+                Add(new Vector3(end * (bricks - 0.5f) - 0.25f, 0.25f + row * 0.5f, row * aside), new Vector3(0.5f), 0.5f, velocity);
         }
     }
 

@@ -35,6 +35,8 @@ struct LoadNode
     public bool IsRelaxed;
     /// <summary>Of the first body of an island: whether each of its bodies has one support, so that it may be a column.</summary>
     public bool MayBeColumn;
+    /// <summary>Of the first body of an island: whether the island has tipped over in this step.</summary>
+    public bool Tips;
     /// <summary>Whether it is of a column that sways.</summary>
     public bool IsOfColumn;
     /// <summary>Whether it is of a structure that sways.</summary>

@@ -121,23 +121,47 @@ sealed unsafe partial class LoadPathStage
     // What is remembered of a patch for the next step (where its arms end, along which normal and with which friction it pushes) is remembered in the world.
     // On a floor that turns it is to be as it was on the floor. Otherwise a deck that tips leaves the arms behind, which its load does not see as long as
     // they are kept; then it rubs along with the velocity of another place, and walks down the deck by millimetres a second.
+    //
+    // What tips over turns together, and the arms between its bodies with it, beside what the floor turns. Arms that stayed as they were would have each of
+    // the bodies go on along a line, and not round the edge that all of it tips over: those above would be lifted off those below.
     void TurnPatches(int block, float dt)
     {
+        ref var set = ref bodies.Awake;
+        var start = FirstOf(block, blockCount, graph.Nodes.Count);
         var end = FirstOf(block + 1, blockCount, graph.Nodes.Count);
-        for (int i = FirstOf(block, blockCount, graph.Nodes.Count); i < end; ++i)
+        if (start == end)
+            return;
+        var island = graph.IslandOf(start);
+        for (int i = start; i < end; ++i)
         {
+            while (i >= graph.Islands[island + 1])
+                ++island;
             ref var node = ref graph.Nodes[i];
-            if (node.Floor < 0)
+            var floor = node.Floor >= 0 ? set.MotionStates[node.Floor].Velocity.Angular : default;
+            var tips = graph.Nodes[graph.Islands[island]].Tips;
+            if (floor == default && !tips)
                 continue;
-            var half = bodies.Awake.MotionStates[node.Floor].Velocity.Angular * (dt * 0.5f);
-            if (half == default)
-                continue;
-            // The third power of an angle of a step is left.
-            var length = MathF.Sqrt(1 + Exact.LengthSquared(half));
-            var turn = new Quaternion(half / length, 1 / length);
+            var turn = TurnIn(dt, floor);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Links[j].Turn(turn);
+            {
+                ref var link = ref graph.Links[j];
+                if (floor != default)
+                    link.Turn(turn);
+                if (tips && link.Lower >= 0)
+                {
+                    var both = set.MotionStates[node.Body].Velocity.Angular + set.MotionStates[link.Lower].Velocity.Angular;
+                    link.TurnArms(TurnIn(dt, both * 0.5f - floor));
+                }
+            }
         }
+    }
+
+    // The third power of an angle of a step is left.
+    static Quaternion TurnIn(float dt, Vector3 angular)
+    {
+        var half = angular * (dt * 0.5f);
+        var length = MathF.Sqrt(1 + Exact.LengthSquared(half));
+        return new(half / length, 1 / length);
     }
 
     // What a game gave a floor since the last step. Where callbacks change its velocity in each substep, that alone is its acceleration.

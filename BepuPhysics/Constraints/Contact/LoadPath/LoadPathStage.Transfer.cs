@@ -24,8 +24,16 @@ sealed unsafe partial class LoadPathStage
             if (node.HasLoad && !node.Leans)
                 HandDown(ref node, SupportsOf(node, supports, firstSupport), floor);
         }
-        var isColumn = first.IsOfColumn || (!first.IsRelaxed && first.MayBeColumn && LeavesMuch(start, end, floor) && IsColumn(start, end));
-        if (first.IsRelaxed || isColumn)
+        var leavesMuch = SupportGraph.MayTip(end - start) && !first.IsOfColumn && !first.IsRelaxed && LeavesMuch(start, end, floor);
+        var isColumn = first.IsOfColumn || (leavesMuch && first.MayBeColumn && IsColumn(start, end));
+        var tips = leavesMuch && !isColumn;
+        if (tips)
+        {
+            first.Tips = true;
+            hasTipped[block] = true;
+            Shorten(start, end, supports, floor);
+        }
+        if (first.IsRelaxed || isColumn || tips)
             Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length), block, isColumn, floor);
         Apply(start, end, supports, floor);
     }
@@ -46,6 +54,24 @@ sealed unsafe partial class LoadPathStage
                 return true;
         }
         return false;
+    }
+
+    // The moment that a face cannot bear is left to the one body above it, which would turn alone. What tips over turns with all that is on it: on the way
+    // from what the warm start has left to where all is handed down the kinetic energy falls for a small part, and then rises. There the rounds begin.
+    void Shorten(int start, int end, Span<LoadSupport> supports, in FloorMotion floor)
+    {
+        var part = Descent(start, end, floor);
+        var firstSupport = graph.Nodes[start].FirstSupport;
+        for (int i = start; i < end; ++i)
+        {
+            ref var node = ref graph.Nodes[i];
+            if (!node.HasLoad)
+                continue;
+            node.Linear *= part;
+            node.Angular *= part;
+            foreach (ref var support in SupportsOf(node, supports, firstSupport))
+                support.Shorten(part);
+        }
     }
 
     // Whether bodies of which each has one support stand one on the other, and nothing else touches or holds them but what may be on top.
@@ -131,7 +157,7 @@ sealed unsafe partial class LoadPathStage
 
     // As far as it lowers the kinetic energy of the island, to who moves along with its floor, and no farther than all of it. Both ends obey what bounds
     // the impulses, and these bounds are convex: so does all between.
-    void Apply(int start, int end, Span<LoadSupport> supports, in FloorMotion floor)
+    float Descent(int start, int end, in FloorMotion floor)
     {
         ref var set = ref bodies.Awake;
         float slope = 0, curvature = 0;
@@ -148,9 +174,15 @@ sealed unsafe partial class LoadPathStage
         }
         // Not if a number went wrong: the comparison is false then.
         var part = -slope / curvature;
-        if (!(part > 0))
+        return part > 0 ? MathHelper.Min(part, 1) : 0;
+    }
+
+    void Apply(int start, int end, Span<LoadSupport> supports, in FloorMotion floor)
+    {
+        var part = Descent(start, end, floor);
+        if (part == 0)
             return;
-        part = MathHelper.Min(part, 1);
+        ref var set = ref bodies.Awake;
         var firstSupport = graph.Nodes[start].FirstSupport;
         for (int i = start; i < end; ++i)
         {

@@ -50,6 +50,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
     readonly bool[] holdsLone = new bool[MaximumBlocks];
+    // Whether any island that each block has worked on tips over.
+    readonly bool[] hasTipped = new bool[MaximumBlocks];
     bool hasBegun;
 
     LoadPathMode Mode => solver.LoadPath;
@@ -113,7 +115,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                     Transfer(island, ref rooms[block], block, substep.Dt);
                 break;
             case SolverPoint.AfterSubsteps:
-                if (HasFloors)
+                if (HasFloors || hasTipped.AsSpan(0, blockCount).Contains(true))
                     TurnPatches(block, substep.Dt * solver.LastSubstepCount);
                 LetGo(block);
                 break;
@@ -150,6 +152,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;
         holdsLone[block] = false;
+        hasTipped[block] = false;
         for (var bundles = BundlesOf(block); bundles.MoveNext();)
         {
             for (int i = bundles.First; i < bundles.End; ++i)
@@ -195,7 +198,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
-        if (graph.MayRelaxAny || graph.LongestColumn > 0)
+        if (graph.MayRelaxAny || graph.MayTipAny)
             pool.TakeAtLeast(Math.Max(1, count), out patches);
         if (graph.LongestColumn > 0)
             pool.TakeAtLeast(blockCount * graph.LongestColumn, out columns);

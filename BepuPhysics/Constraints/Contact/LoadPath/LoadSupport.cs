@@ -95,6 +95,15 @@ unsafe struct LoadSupport
         Impulse(first + 3) = TwistBefore + (TwistAfter - TwistBefore) * part;
     }
 
+    /// <summary>Goes back to a part of the way from the impulses before the transfer to those after it.</summary>
+    internal void Shorten(float part)
+    {
+        for (int i = 0; i < Count; ++i)
+            After[i] = Before[i] + (After[i] - Before[i]) * part;
+        FrictionAfter = FrictionBefore + (FrictionAfter - FrictionBefore) * part;
+        TwistAfter = TwistBefore + (TwistAfter - TwistBefore) * part;
+    }
+
     /// <summary>What it has come to by now.</summary>
     internal readonly PatchImpulses Present => new() { Normals = After, Friction = FrictionAfter, Twist = TwistAfter };
 

@@ -11,15 +11,22 @@ unsafe partial struct SupportGraph
     /// <summary>Most bodies of a column.</summary>
     internal const int MaximumColumn = 128;
 
+    /// <summary>Whether an island of so many bodies is small enough to be relaxed if it tips over.</summary>
+    internal static bool MayTip(int count) => count is >= 2 and <= MaximumStructure;
+
     // Islands whose bodies have one support each: where none bears two, they are columns.
     void FindSingle(int islandCount)
     {
         LongestColumn = 0;
+        MayTipAny = false;
         for (int i = 0; i < islandCount; ++i)
         {
             ref var first = ref Nodes[Islands[i]];
             var count = Islands[i + 1] - Islands[i];
-            if (count < 2 || count > MaximumColumn)
+            if (!MayTip(count))
+                continue;
+            MayTipAny = true;
+            if (count > MaximumColumn)
                 continue;
             var isSingle = true;
             for (int j = Islands[i]; isSingle && j < Islands[i + 1]; ++j)

@@ -78,11 +78,17 @@ unsafe struct SupportLink
     /// <summary>Turns all that the constraint remembers as vectors.</summary>
     internal readonly void Turn(Quaternion turn)
     {
+        TurnArms(turn);
+        Turn(Prestep, ContactPrestepLayout.Normal(Count), turn);
+        Turn(Impulses, ContactPrestepLayout.FrictionImpulse(Count), turn);
+    }
+
+    /// <summary>Turns the arms of the constraint, and from one of its bodies to the other.</summary>
+    internal readonly void TurnArms(Quaternion turn)
+    {
         for (int i = 0; i < Count; ++i)
             Turn(Prestep, i * ContactPrestepLayout.FloatsPerContact, turn);
         Turn(Prestep, ContactPrestepLayout.OffsetB(Count), turn);
-        Turn(Prestep, ContactPrestepLayout.Normal(Count), turn);
-        Turn(Impulses, ContactPrestepLayout.FrictionImpulse(Count), turn);
     }
 
     static void Turn(float* column, int row, Quaternion turn)
