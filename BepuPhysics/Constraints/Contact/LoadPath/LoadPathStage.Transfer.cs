@@ -24,9 +24,11 @@ sealed unsafe partial class LoadPathStage
             if (node.HasLoad && !node.Leans)
                 HandDown(ref node, SupportsOf(node, supports, firstSupport), floor);
         }
-        var leavesMuch = SupportGraph.MayTip(end - start) && !first.IsOfColumn && !first.IsRelaxed && LeavesMuch(start, end, floor);
+        // Of tens of milliseconds for some hundreds of bricks, that is for who asks for it.
+        var mayTip = Mode == LoadPathMode.Always && SupportGraph.MayTip(end - start);
+        var leavesMuch = (mayTip || first.MayBeColumn) && !first.IsOfColumn && !first.IsRelaxed && LeavesMuch(start, end, floor);
         var isColumn = first.IsOfColumn || (leavesMuch && first.MayBeColumn && IsColumn(start, end));
-        var tips = leavesMuch && !isColumn;
+        var tips = leavesMuch && mayTip && !isColumn;
         if (tips)
         {
             first.Tips = true;
@@ -126,7 +128,7 @@ sealed unsafe partial class LoadPathStage
         if (isColumn)
             relaxation.RunColumn(new Span<ColumnBlock>(columns.Memory + block * graph.LongestColumn, end - start));
         else
-            relaxation.Run();
+            relaxation.Run(Mode == LoadPathMode.Always ? LoadRelaxation.RoundsOfTipping : LoadRelaxation.RoundsOfStructure);
     }
 
     static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>
