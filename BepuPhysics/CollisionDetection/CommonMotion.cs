@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
@@ -50,11 +51,17 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
     {
         if (count == 0)
             return;
+        // In an order that does not depend on where bodies lie: of two that move alike the first tells their margins, to rounding.
+        var kinematics = new QuickList<ulong>(8, pool);
         for (int i = 0; i < count; ++i)
         {
             if (motions[i].Moves && IsKnown(i))
-                Apply(i);
+                kinematics.Add((ulong)motions[i].Body.Slot << 32 | (uint)i, pool);
         }
+        kinematics.AsSpan().Sort();
+        for (int i = 0; i < kinematics.Count; ++i)
+            Apply((int)(uint)kinematics[i]);
+        kinematics.Dispose(pool);
         count = 0;
     }
 
@@ -176,16 +183,14 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
     Vector3 VelocityAt(int body, int kinematic)
     {
         ref var frame = ref motions[kinematic];
-        if (frame.Angular == default)
-            return frame.Linear;
-        return frame.Linear + Exact.Cross(frame.Angular, Awake.MotionStates[body].Pose.Position - Awake.MotionStates[kinematic].Pose.Position);
+        return Exact.VelocityAt(frame.Linear, frame.Angular, Awake.MotionStates[body].Pose.Position - Awake.MotionStates[kinematic].Pose.Position);
     }
 
     bool MovesAlong(int other, int kinematic)
     {
         if (other == kinematic)
             return true;
-        if (kinematic < 0 || !IsKnown(other))
+        if (!IsKnown(other))
             return false;
         ref var motion = ref motions[other];
         ref var frame = ref motions[kinematic];
@@ -216,12 +221,13 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
             if (index == Self)
                 return true;
             if (index < 0)
-                AllMoveAlong = other.Mobility == CollidableMobility.Static && !Owner.Reaches(other, Bounds);
+                AllMoveAlong &= other.Mobility == CollidableMobility.Static && !Owner.Reaches(other, Bounds);
             else if (other.Mobility == CollidableMobility.Kinematic)
-                AllMoveAlong = Owner.MovesAlong(index, Kinematic);
+                AllMoveAlong &= Owner.MovesAlong(index, Kinematic);
             else
-                AllMoveAlong = Add(index, isKinematic);
-            return AllMoveAlong;
+                AllMoveAlong &= Add(index, isKinematic);
+            // One is enough for a body. Of those that a kinematic one meets each has to be looked at: what it is with may move along though others do not.
+            return AllMoveAlong || isKinematic;
         }
 
         readonly bool Add(int index, bool isStart)

@@ -7,6 +7,8 @@ enum SolverPoint
 {
     /// <summary>Before the first substep: velocities are those of the last step.</summary>
     BeforeSubsteps,
+    /// <summary>As the one before, when all stages are done there.</summary>
+    LastBeforeSubsteps,
     /// <summary>Bodies of a substep have been integrated.</summary>
     AfterIntegration,
     /// <summary>As the one before, when all stages are done there: the place for what needs all of their results.</summary>

@@ -187,6 +187,7 @@ public sealed unsafe partial class Solver
             optional = default;
         BeginSubstep(ref work, 0);
         AddOptional(ref work, optional, SolverPoint.BeforeSubsteps);
+        AddOptional(ref work, optional, SolverPoint.LastBeforeSubsteps);
         for (int substep = 0; substep < LastSubstepCount; ++substep)
         {
             if (substep > 0)

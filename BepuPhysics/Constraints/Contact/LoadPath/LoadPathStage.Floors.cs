@@ -25,7 +25,7 @@ sealed unsafe partial class LoadPathStage
     const float AlikeShare = 1f / (1 << 18);
     // Greatest acceleration by which a floor that turns takes along what rests on it, in what pulls at that from outside. What goes round faster is left to
     // friction, whose limit is near.
-    const float GreatestTurn = 0.125f;
+    const float GreatestInwardPull = 0.125f;
 
     // Of each block of bodies: whether any is a floor.
     readonly bool[] hasFloorsIn = new bool[MaximumBlocks];
@@ -196,13 +196,8 @@ sealed unsafe partial class LoadPathStage
             Exact.Length(linear + turning - other) <= AlikeShare * (Exact.Length(linear) + Exact.Length(turning));
 
         // The velocity of the last step of what moves along with a kinematic body, where another body is.
-        Vector3 Earlier(int kinematic, int body)
-        {
-            ref var turn = ref turnsBefore[kinematic].Angular;
-            if (turn == default)
-                return before[kinematic].Angular;
-            return before[kinematic].Angular + Exact.Cross(turn, motions[body].Pose.Position - motions[kinematic].Pose.Position);
-        }
+        Vector3 Earlier(int kinematic, int body) => Exact.VelocityAt(
+            before[kinematic].Angular, turnsBefore[kinematic].Angular, motions[body].Pose.Position - motions[kinematic].Pose.Position);
 
         public bool RestsOn(int body, int kinematic)
         {
@@ -262,7 +257,7 @@ sealed unsafe partial class LoadPathStage
             if (turn == default)
                 return true;
             var inwards = Exact.Cross(turn, Exact.Cross(turn, motions[body].Pose.Position - motions[kinematic].Pose.Position)) * dt;
-            return Exact.LengthSquared(inwards) < GreatestTurn * GreatestTurn * squared;
+            return Exact.LengthSquared(inwards) < GreatestInwardPull * GreatestInwardPull * squared;
         }
 
         // Whether what stands on a floor follows the change of its velocity.

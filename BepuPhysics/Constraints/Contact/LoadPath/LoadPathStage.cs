@@ -79,15 +79,19 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
         SolverPoint.BeforeSubsteps => BodyBlockCount,
-        SolverPoint.AmidBeforeFirstWarmStart => 1,
+        SolverPoint.LastBeforeSubsteps or SolverPoint.AmidBeforeFirstWarmStart => 1,
         SolverPoint.BeforeFirstWarmStart or SolverPoint.LastBeforeFirstWarmStart or
             SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart or SolverPoint.AfterSubsteps => blockCount,
         _ => 0,
     };
 
     // Where nothing rests on anything, or all of it alone, there is no graph to work on.
-    int ISolverStage.CountBlocks(SolverPoint point, int most) =>
-        point is SolverPoint.LastBeforeFirstWarmStart or SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart && graph.Nodes.Count == 0 ? 0 : most;
+    int ISolverStage.CountBlocks(SolverPoint point, int most) => point switch
+    {
+        SolverPoint.LastBeforeSubsteps when !HasFloors => 0,
+        SolverPoint.LastBeforeFirstWarmStart or SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart when graph.Nodes.Count == 0 => 0,
+        _ => most,
+    };
 
     int BodyBlockCount => Math.Clamp(bodies.Awake.Count / LeastBodiesPerBlock, 1, MaximumBlocks);
 
@@ -97,6 +101,9 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             case SolverPoint.BeforeSubsteps:
                 CopyVelocities(block);
+                break;
+            case SolverPoint.LastBeforeSubsteps:
+                FindReached();
                 break;
             case SolverPoint.BeforeFirstWarmStart:
                 Find(block, substep);
@@ -146,7 +153,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         var finder = new SupportFinder(
-            awake, before.Memory, turnsBefore.Memory, set.Constraints.Memory, spoilt.Memory, HasFloors, QuietSteps * solver.LastSubstepCount,
+            awake, before.Memory, turnsBefore.Memory, set.Constraints.Memory, spoilt.Memory, reached.Memory, QuietSteps * solver.LastSubstepCount,
             new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale, substep.Dt);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
@@ -174,8 +181,29 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         }
         ref var set = ref bodies.Awake;
         var motions = new Motions(set.MotionStates, before, turnsBefore, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
-        graph.Build(found.Memory, used, set.Count, spoilt, motions, pool);
+        var byHandle = SortByHandle();
+        graph.Build(found.Memory, used, set.Count, spoilt, motions, pool, byHandle);
+        if (byHandle.Allocated)
+            pool.Return(ref byHandle);
         MakeRooms();
+    }
+
+    // Nothing where bodies lie in the order of their handles, as they do until one of them goes or sleeps.
+    Buffer<int> SortByHandle()
+    {
+        ref var set = ref bodies.Awake;
+        var isInOrder = true;
+        for (int i = 1; i < set.Count; ++i)
+            isInOrder &= set.IndexToHandle[i].Slot > set.IndexToHandle[i - 1].Slot;
+        if (isInOrder)
+            return default;
+        pool.TakeAtLeast<int>(set.Count, out var byHandle);
+        for (int slot = 0, count = 0; count < set.Count; ++slot)
+        {
+            if (bodies.Locations[slot].SetIndex == 0)
+                byHandle[count++] = bodies.Locations[slot].Index;
+        }
+        return byHandle;
     }
 
     // Where a block reads the supports of its islands, one after the other.
@@ -198,7 +226,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
-        if (graph.MayRelaxAny || graph.MayTipAny)
+        if (graph.MayRelaxAny || graph.LongestColumn > 0 || (Mode == LoadPathMode.Always && graph.MayTipAny))
             pool.TakeAtLeast(Math.Max(1, count), out patches);
         if (graph.LongestColumn > 0)
             pool.TakeAtLeast(blockCount * graph.LongestColumn, out columns);
@@ -308,6 +336,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             pool.Return(ref patches);
         if (supports.Allocated)
             pool.Return(ref supports);
+        if (reached.Allocated)
+            pool.Return(ref reached);
         if (spoilt.Allocated)
             pool.Return(ref spoilt);
         if (found.Allocated)

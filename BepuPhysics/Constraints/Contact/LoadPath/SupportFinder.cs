@@ -10,7 +10,10 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="turnsBefore">Of floors, angular velocities before it, a row each; in the second half those of the last step.</param>
 /// <param name="constraints">Their lists of constraints, a row each.</param>
 /// <param name="spoilt">Per body: becomes 1 where something pushes it from the side that is not found.</param>
-/// <param name="hasFloors">Whether a kinematic body moves, or did in the last step: then the second half of each row is read too.</param>
+/// <param name="reached">
+/// Per body: not zero where it is connected with a kinematic body that moves, or did in the last step; null where there is none. Of those the second half of
+/// each row is read too.
+/// </param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
 /// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
@@ -22,7 +25,7 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, bool hasFloors, float quietSteps,
+    SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, byte* reached, float quietSteps,
     RestTolerance tolerance, float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
@@ -102,16 +105,18 @@ readonly unsafe struct SupportFinder(
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
         Vector3Wide turnGainB = default;
         var earlierB = bodyB.Linear - gainB;
-        if (hasB && hasFloors)
+        var mayMove = Reached(references[0]);
+        var anyMoves = mayMove != Vector<int>.Zero;
+        if (hasB && anyMoves)
         {
             // What moves nearly alike may rest on what moves: the graph knows it, and asks each of both.
-            gainB = Vector3Wide.Select(fixedB, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
+            gainB = Vector3Wide.Select(fixedB & mayMove, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
             var turn = ReadEarlier(turnsBefore, references[1]);
-            turnGainB = Vector3Wide.Mask(fixedB, ReadNow(turnsBefore, references[1]) - turn);
+            turnGainB = Vector3Wide.Mask(fixedB & mayMove, ReadNow(turnsBefore, references[1]) - turn);
             // What turns moves A along where that is.
-            earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(fixedB, Vector3Wide.Cross(turn, offsetB));
+            earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(fixedB & mayMove, Vector3Wide.Cross(turn, offsetB));
             var most = resting + resting + new Vector<float>(FallingShare * quietSteps) * fastest;
-            var together = flat & Vector.LessThan((bodyA.Linear - gainA - earlierB).LengthSquared(), most * most);
+            var together = flat & mayMove & Vector.LessThan((bodyA.Linear - gainA - earlierB).LengthSquared(), most * most);
             moves = Vector.AndNot(together, rests);
             rests |= together;
         }
@@ -121,7 +126,7 @@ readonly unsafe struct SupportFinder(
         {
             maySway = carries & flat & (moves | ~rests);
             if (maySway != Vector<int>.Zero)
-                maySway &= MaySway(bodyA.Linear - gainA, earlierB, fastest);
+                maySway &= MaySway(bodyA.Linear - gainA, earlierB, fastest, mayMove);
         }
         carries &= rests | maySway;
         // What moves alike may rest, to a floor that moves, as long as its surfaces are quiet.
@@ -140,12 +145,12 @@ readonly unsafe struct SupportFinder(
             ReadRest(references[1], ref bodyB);
             var speed = bodyB.Linear.LengthSquared() + bodyB.Angular.LengthSquared();
             var stands = Vector.Equals(speed, Vector<float>.Zero);
-            if (hasFloors)
+            if (anyMoves)
             {
                 // What has just stopped is a floor that moved.
                 var stood = Vector.Equals(gainB.LengthSquared() + turnGainB.LengthSquared(), Vector<float>.Zero);
-                isFloor = flat & fixedB & ~(stands & stood);
-                stands = stands & stood | isFloor;
+                isFloor = mayMove & flat & fixedB & ~(stands & stood);
+                stands = Wide.Select(mayMove, stands & stood | isFloor, stands);
             }
             carries &= Wide.Select(fixedB, stands, Vector.GreaterThan(bodyB.InverseMass, Vector<float>.Zero));
         }
@@ -163,11 +168,11 @@ readonly unsafe struct SupportFinder(
             var apart = Vector3Wide.Dot(velocity, normal);
             var aside = (velocity - normal * apart).LengthSquared();
             carries &= Vector.LessThan(apart, bearable) & Vector.LessThan(aside, bearable * bearable);
-            if (hasFloors)
-                sways |= Vector.AndNot(maySway, Vector.LessThan(apart, quiet) & Vector.LessThan(aside, quiet * quiet));
+            if (anyMoves)
+                sways |= mayMove & Vector.AndNot(maySway, Vector.LessThan(apart, quiet) & Vector.LessThan(aside, quiet * quiet));
             // What the integration has added is no sliding: the warm start takes it away.
             velocity -= gainA - gainB;
-            if (hasFloors)
+            if (anyMoves)
                 velocity += Vector3Wide.Cross(turnGainB, armB);
             velocity -= normal * Vector3Wide.Dot(velocity, normal);
             slides |= Vector.GreaterThan(velocity.LengthSquared(), sliding * sliding);
@@ -261,13 +266,23 @@ readonly unsafe struct SupportFinder(
         return Vector.LessThan(velocity.LengthSquared(), resting * resting) | Vector.LessThan((velocity - gain * fall).LengthSquared(), aside);
     }
 
-    // Where anything is a floor that moves the graph asks each of both to its own, and to what does not move.
-    Vector<int> MaySway(in Vector3Wide a, in Vector3Wide b, Vector<float> gain)
+    // What is connected with a floor that moves the graph asks each of both to its own, and to what does not move.
+    Vector<int> MaySway(in Vector3Wide a, in Vector3Wide b, Vector<float> gain, Vector<int> mayMove)
     {
         var most = new Vector<float>(SwayingShare * quietSteps) * gain;
-        if (hasFloors)
-            return Vector.LessThan((a - b).LengthSquared(), most * most * new Vector<float>(4));
-        return Vector.LessThan(a.LengthSquared(), most * most) & Vector.LessThan(b.LengthSquared(), most * most);
+        var maySway = Vector.LessThan(a.LengthSquared(), most * most) & Vector.LessThan(b.LengthSquared(), most * most);
+        if (mayMove != Vector<int>.Zero)
+            maySway = Wide.Select(mayMove, Vector.LessThan((a - b).LengthSquared(), most * most * new Vector<float>(4)), maySway);
+        return maySway;
+    }
+
+    // Whether the first bodies are connected with a floor; their others are then, too.
+    Vector<int> Reached(Vector<int> references)
+    {
+        var lanes = Vector<int>.Zero;
+        for (int lane = 0; reached != null && lane < Vector<int>.Count; ++lane)
+            ((int*)&lanes)[lane] = references[lane] >= 0 && reached[references[lane] & EncodedBody.IndexMask] != 0 ? -1 : 0;
+        return lanes;
     }
 
     static Vector<int> Pushes(int count, Vector<float>* impulses)

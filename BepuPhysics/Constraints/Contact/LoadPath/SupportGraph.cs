@@ -81,11 +81,15 @@ unsafe partial struct SupportGraph
     /// <param name="spoilt">Not zero for each body that something unknown pushes from the side.</param>
     /// <param name="motions">Height of each body, in any unit, by which a circle of supports is cut, and who rests on what moves.</param>
     /// <param name="pool">Source of memory, until <see cref="Dispose"/>.</param>
-    internal void Build<TMotions>(
-        SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, TMotions motions, BufferPool pool)
+    /// <param name="byHandle">
+    /// The bodies in the order of their handles; nothing where they lie in it. Where others have gone they do not, and in which place one lies then depends on
+    /// bodies that it has nothing to do with.
+    /// </param>
+    internal void Build<TMotions>(SupportLink* found, ReadOnlySpan<(int Start, int Count)> pieces, int bodyCount, Buffer<byte> spoilt, TMotions motions,
+        BufferPool pool, Buffer<int> byHandle = default)
         where TMotions : struct, IHeights, IFloors
     {
-        if (IsBuiltOf(found, pieces, bodyCount, spoilt))
+        if (!byHandle.Allocated && IsBuiltOf(found, pieces, bodyCount, spoilt))
             return;
         Dispose(pool);
         var count = 0;
@@ -93,10 +97,10 @@ unsafe partial struct SupportGraph
             count += piece.Count;
         Take(count, bodyCount, pool);
         SortByUpper(found, pieces, bodyCount, spoilt, pool);
-        LinkAbove(bodyCount, pool);
+        LinkAbove(bodyCount, byHandle, pool);
         if (hasFloors)
             pool.TakeAtLeast(bodyCount, out floors);
-        OrderUpwards(bodyCount, motions, pool);
+        OrderUpwards(bodyCount, byHandle, motions, pool);
         if (swaying.Count > 0)
         {
             FindSwaying(found, bodyCount, motions, pool);
@@ -193,30 +197,38 @@ unsafe partial struct SupportGraph
         pool.Return(ref next);
     }
 
-    void LinkAbove(int bodyCount, BufferPool pool)
+    void LinkAbove(int bodyCount, Buffer<int> byHandle, BufferPool pool)
     {
-        for (int i = starts[bodyCount] - 1; i >= 0; --i)
+        for (int i = bodyCount - 1; i >= 0; --i)
         {
-            var lower = byUpper[i].Lower;
-            if (byUpper[i].Leans)
-                leaning.Add(i, pool);
-            else if (byUpper[i].Sways || (byUpper[i].IsWhole && byUpper[i].Moves))
-                swaying.Add(i, pool);
-            if (lower < 0 || byUpper[i].Leans || byUpper[i].Sways)
-                continue;
-            ++waiting[byUpper[i].Upper];
-            nextAbove[i] = above[lower];
-            above[lower] = i;
+            var body = byHandle.Allocated ? byHandle[i] : i;
+            for (int j = starts[body + 1] - 1; j >= starts[body]; --j)
+                LinkAbove(j, pool);
         }
     }
 
-    // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
-    void OrderUpwards<TMotions>(int bodyCount, TMotions motions, BufferPool pool) where TMotions : struct, IHeights, IFloors
+    void LinkAbove(int i, BufferPool pool)
     {
-        dependsOnMotion = hasFloors || swaying.Count > 0;
+        var lower = byUpper[i].Lower;
+        if (byUpper[i].Leans)
+            leaning.Add(i, pool);
+        else if (byUpper[i].Sways || (byUpper[i].IsWhole && byUpper[i].Moves))
+            swaying.Add(i, pool);
+        if (lower < 0 || byUpper[i].Leans || byUpper[i].Sways)
+            return;
+        ++waiting[byUpper[i].Upper];
+        nextAbove[i] = above[lower];
+        above[lower] = i;
+    }
+
+    // A body comes after all that it rests on. Where bodies rest on each other in a circle, the lowest that is left comes next.
+    void OrderUpwards<TMotions>(int bodyCount, Buffer<int> byHandle, TMotions motions, BufferPool pool) where TMotions : struct, IHeights, IFloors
+    {
+        dependsOnMotion = hasFloors || swaying.Count > 0 || byHandle.Allocated;
         int participants = 0;
-        for (int i = 0; i < bodyCount; ++i)
+        for (int place = 0; place < bodyCount; ++place)
         {
+            var i = byHandle.Allocated ? byHandle[place] : place;
             if (above[i] < 0 && starts[i + 1] == starts[i])
                 continue;
             ++participants;

@@ -1,0 +1,60 @@
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Constraints.Contact;
+
+// Which bodies may rest on what moves.
+//
+// What rests on a floor that moves is looked for more widely than what rests on the ground, as each body is asked whether it rests to its own floor, and its
+// supports are put in order before that is known. A stack that has nothing to do with any floor must not know that there is one somewhere: so all that is
+// connected with a floor, over any number of constraints, is gone over from there. It costs what is connected; where nothing moves, nothing.
+sealed unsafe partial class LoadPathStage
+{
+    // Per body, whether it is connected with a floor; not there where there is no floor.
+    Buffer<byte> reached;
+
+    void FindReached()
+    {
+        ref var set = ref bodies.Awake;
+        pool.TakeAtLeast(set.Count, out reached);
+        reached.Clear(0, set.Count);
+        var waiting = new QuickList<int>(64, pool);
+        for (int i = 0; i < set.Count; ++i)
+        {
+            if (set.LocalInertias[i].InverseMass == 0 && IsFloor(i))
+                Reach(i, ref waiting);
+        }
+        while (waiting.Count > 0)
+        {
+            var list = set.Constraints[waiting[waiting.Count - 1]];
+            --waiting.Count;
+            for (int i = 0, edge = list.First; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+                ReachThrough(solver.Locations[solver.Edges.ConstraintSlot(edge)], ref waiting);
+        }
+        waiting.Dispose(pool);
+    }
+
+    void ReachThrough(in ConstraintLocation location, ref QuickList<int> waiting)
+    {
+        // Constraints of kinematic bodies may sleep.
+        if (location.SetIndex != 0)
+            return;
+        var processor = solver.Processor(location.TypeId);
+        ref var batch = ref solver.TypeBatchAt(location);
+        for (int slot = 0; slot < processor.BodiesPerConstraint; ++slot)
+        {
+            var reference = processor.BodyReference(ref batch, location.IndexInTypeBatch, slot);
+            // What is held by a kinematic body on both sides is not moved from one to the other.
+            if ((reference & EncodedBody.KinematicFlag) == 0)
+                Reach(reference & EncodedBody.IndexMask, ref waiting);
+        }
+    }
+
+    void Reach(int body, ref QuickList<int> waiting)
+    {
+        if (reached[body] != 0)
+            return;
+        reached[body] = 1;
+        waiting.Add(body, pool);
+    }
+}
