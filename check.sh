@@ -178,10 +178,10 @@ if step "build with checks" build_with_checks; then
     step "tests with checks" test_with_checks
     run_scenes_with_checks
 fi
+# Without optimization too, as somebody who looks for a fault would.
+begin "scene in a debug build" run_debug_build run pile --steps 5
 begin "benchmarks, once each" run_benchmarks
 # White space; style and order are held by the build and by StyleTests.
 begin "format" dotnet format whitespace --verify-no-changes --no-restore
 settle
-# Without optimization too, as somebody who looks for a fault would.
-step "scene in a debug build" run_debug_build run pile --steps 5
 finish

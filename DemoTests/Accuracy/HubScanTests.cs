@@ -12,10 +12,11 @@ namespace DemoTests.Accuracy;
 /// </summary>
 public class HubScanTests(ITestOutputHelper output)
 {
-    const int GreatestArmCount = 12;
     const double Duration = 4;
     const float HubMass = 4;
 
+    // Each that is treated in a way of its own: up to four joints a body, the first eight with their own order, and many.
+    static readonly int[] armCounts = [1, 2, 3, 4, 7, 8, 12];
     static readonly float[] ratios = [.1f, .5f, 2, 5, 10];
     static readonly Dictionary<string, AccuracySettings> efforts = new()
     {
@@ -44,7 +45,7 @@ public class HubScanTests(ITestOutputHelper output)
     {
         double worst = double.NegativeInfinity;
         string where = "";
-        for (int arms = 1; arms <= GreatestArmCount; ++arms)
+        foreach (int arms in armCounts)
         {
             foreach (float ratio in ratios)
             {

@@ -40,7 +40,13 @@ public class MemoryTests
     [MemberData(nameof(Scenes))]
     public void Steps_after_the_warm_up_take_no_memory(string name, int threads)
     {
-        using var world = new SceneWorld(name == SmallWave ? SmallScenes.Wave() : SceneLibrary.Load(name, seed: 1), threads);
+        var scene = name switch
+        {
+            SmallWave => SmallScenes.Wave(),
+            "tori" => SmallScenes.Tori(18),
+            _ => SceneLibrary.Load(name, seed: 1),
+        };
+        using var world = new SceneWorld(scene, threads);
         int calm = 0, steps = 0;
         (long Managed, ulong Pools) taken = default, last = default;
         for (; steps < MostSteps && calm < CalmSteps; ++steps)
@@ -60,7 +66,7 @@ public class MemoryTests
     [InlineData(1), InlineData(2)]
     public void What_the_first_step_needed_goes_back(int threads)
     {
-        const int width = 120;
+        const int width = 80;
         var scene = new SceneDescription { Name = "boxes" };
         int ground = scene.AddBox(400, 1, 400), box = scene.AddBox(0.5f, 0.5f, 0.5f);
         scene.AddStatic(ground, new Vector3(0, -1, 0));
