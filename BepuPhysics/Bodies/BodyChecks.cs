@@ -13,6 +13,15 @@ static class BodyChecks
 
     internal static void Position(Vector3 value, string name) => Bounded(value, Limits.MaximumPosition, name);
 
+    /// <summary>Whether a position that may be described still may once it is seen from a new origin.</summary>
+    internal static void ShiftedPosition(Vector3 value, Vector3 shift)
+    {
+        if (!IsBounded(value, Limits.MaximumPosition) || IsBounded(value - shift, Limits.MaximumPosition))
+            return;
+        throw new ArgumentException(
+            $"What is at {value} would be beyond {Limits.MaximumPosition} m, seen from {shift}. Nothing was changed.", nameof(shift));
+    }
+
     internal static void Velocity(in BodyVelocity value)
     {
         Bounded(value.Linear, Limits.MaximumLinearVelocity, "linear velocity");
@@ -85,9 +94,12 @@ static class BodyChecks
 
     internal static void Vector(Vector3 value, string name) => Bounded(value, Limits.MaximumImpulse, name);
 
+    static bool IsBounded(Vector3 value, float maximum) =>
+        MathF.Abs(value.X) <= maximum && MathF.Abs(value.Y) <= maximum && MathF.Abs(value.Z) <= maximum;
+
     static void Bounded(Vector3 value, float maximum, string name)
     {
-        if (!(MathF.Abs(value.X) <= maximum && MathF.Abs(value.Y) <= maximum && MathF.Abs(value.Z) <= maximum))
+        if (!IsBounded(value, maximum))
             throw new ArgumentException($"The {name} must be finite and at most {maximum} in each component, not {value}.", name);
     }
 }

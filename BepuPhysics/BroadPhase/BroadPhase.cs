@@ -266,6 +266,12 @@ public sealed unsafe partial class BroadPhase : IDisposable
         RemoveAllLeaves();
     }
 
+    internal void ShiftOrigin(Vector3 shift)
+    {
+        ActiveTree.ShiftOrigin(shift);
+        StaticTree.ShiftOrigin(shift);
+    }
+
     internal void CopyState(StateCopy copy)
     {
         ActiveTree.CopyState(copy);

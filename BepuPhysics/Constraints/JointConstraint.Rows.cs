@@ -26,6 +26,11 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         return Wide.Mask(Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero), linear);
     }
 
+    static bool IConstraint<TBodies, TPrestep, TRows>.HasPlaces => TJoint.HasPlaces;
+
+    static void IConstraint<TBodies, TPrestep, TRows>.ShiftOrigin(ref TPrestep prestep, in Vector3Wide shift) =>
+        TJoint.ShiftOrigin(ref prestep, shift);
+
     static bool IConstraint<TBodies, TPrestep, TRows>.HasSeparation => true;
 
     static void IConstraint<TBodies, TPrestep, TRows>.Separation(

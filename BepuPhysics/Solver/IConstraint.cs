@@ -45,6 +45,14 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
         return false;
     }
 
+    /// <summary>Whether the description holds places of the world, which <see cref="ShiftOrigin"/> moves.</summary>
+    static virtual bool HasPlaces => false;
+
+    /// <summary>Moves the places of the world that the description holds, if <see cref="HasPlaces"/>, to where they are seen from a new origin.</summary>
+    /// <param name="prestep">The description.</param>
+    /// <param name="shift">Where the new origin is, m: taken from each place. Zero in lanes that are not in use.</param>
+    static virtual void ShiftOrigin(ref TPrestep prestep, in Vector3Wide shift) { }
+
     /// <summary>Applies the impulses that earlier substeps accumulated.</summary>
     static abstract void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
 

@@ -1,10 +1,11 @@
 using System;
+using System.Numerics;
 using BepuPhysics.Constraints;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics;
 
-// Saving and restoring.
+// Saving and restoring, and another origin of the world.
 public sealed unsafe partial class Solver
 {
     /// <summary>Slots of constraints that were ever in use.</summary>
@@ -33,6 +34,21 @@ public sealed unsafe partial class Solver
         // Which joints are solved at once is found again from where they are.
         directStage.Replace(default);
         chosenVersion = jointVersion - 1;
+    }
+
+    /// <summary>Moves the places of the world that descriptions of constraints hold to where they are seen from a new origin.</summary>
+    internal void ShiftOrigin(Vector3 shift)
+    {
+        for (int i = 0; i < Sets.Length; ++i)
+        {
+            ref var batches = ref Sets[i].Batches;
+            for (int j = 0; j < batches.Count; ++j)
+            {
+                ref var types = ref batches[j].TypeBatches;
+                for (int k = 0; k < types.Count; ++k)
+                    Processor(types[k].TypeId).ShiftOrigin(ref types[k], shift);
+            }
+        }
     }
 
     void CopySettings(StateCopy copy)

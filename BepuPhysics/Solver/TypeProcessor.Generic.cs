@@ -18,6 +18,19 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override bool MakesHubs => TConstraint.MakesHubs;
 
     /// <inheritdoc/>
+    internal override void ShiftOrigin(ref TypeBatch batch, Vector3 shift)
+    {
+        if (!TConstraint.HasPlaces)
+            return;
+        var prestep = (TPrestep*)batch.Prestep.Memory;
+        for (int i = 0; i < batch.BundleCount; ++i)
+        {
+            var isUsed = Vector.LessThan(Vector<int>.Indices, new Vector<int>(batch.ConstraintCount - i * Vector<int>.Count));
+            TConstraint.ShiftOrigin(ref prestep[i], Vector3Wide.Mask(isUsed, Vector3Wide.Broadcast(shift)));
+        }
+    }
+
+    /// <inheritdoc/>
     internal override void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + startBundle * TBodies.Count;

@@ -49,6 +49,9 @@ public abstract partial class TypeProcessor
     /// <summary>As <see cref="Solve"/>, for a batch in which bodies occur more than once: on split bodies.</summary>
     internal abstract void SolveSplit(ref TypeBatch batch, in SolverBodies bodies, in SplitBodies split, in Substep substep, int startBundle, int endBundle);
 
+    /// <summary>Moves the places of the world that descriptions hold to where they are seen from a new origin.</summary>
+    internal abstract void ShiftOrigin(ref TypeBatch batch, Vector3 shift);
+
     /// <summary>Appends a constraint with zero impulses and an unwritten description.</summary>
     /// <param name="batch">The batch.</param>
     /// <param name="handle">Its handle.</param>

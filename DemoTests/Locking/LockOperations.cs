@@ -197,6 +197,7 @@ static class LockOperations
     static void Whole(Dictionary<string, (OperationKind, Action<LockedWorld>)> list)
     {
         list.Add("Simulation.Clear", (OperationKind.Change, w => w.Simulation.Clear()));
+        list.Add("Simulation.ShiftOrigin", (OperationKind.Whole, w => w.Simulation.ShiftOrigin(new(1, 2, 3))));
         list.Add("Simulation.WarmUp", (OperationKind.Change, w => w.Simulation.WarmUp()));
         list.Add("Simulation.EnsureCapacity", (OperationKind.Change, w => w.Simulation.EnsureCapacity(new(5000, 5000, 0, 100, 5000, 16, 4))));
         list.Add("Simulation.PredictBoundingBoxes", (OperationKind.Stage, w => w.Simulation.PredictBoundingBoxes(LockedWorld.Dt, w.Dispatcher)));

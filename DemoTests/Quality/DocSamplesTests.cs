@@ -19,7 +19,8 @@ public sealed class DocSamplesTests : IDisposable
     static readonly string[] sampleFiles =
     [
         "DemoTests/Quality/DocSamples.cs",
-        .. new[] { "Characters", "Events", "FastThings", "Nearby", "Rays", "Rollback", "Sweeps" }.Select(name => $"DemoTests/Quality/DocSamples.{name}.cs"),
+        .. new[] { "Characters", "Events", "FastThings", "LargeWorlds", "Nearby", "Rays", "Rollback", "Sweeps" }
+            .Select(name => $"DemoTests/Quality/DocSamples.{name}.cs"),
     ];
 
     const float Dt = 1 / 60f;

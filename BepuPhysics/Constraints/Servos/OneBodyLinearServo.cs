@@ -68,6 +68,12 @@ readonly struct OneBodyLinearServoJoint : IJacobianJoint<OneBody, OneBodyLinearS
         error.V = (bodies.A.Position - prestep.Target) + geometry.Offset;
 
     /// <inheritdoc/>
+    public static bool HasPlaces => true;
+
+    /// <inheritdoc/>
+    public static void ShiftOrigin(ref OneBodyLinearServoWide prestep, in Vector3Wide shift) => prestep.Target -= shift;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in OneBodyLinearServoWide prestep) => prestep.SpringSettings;
 

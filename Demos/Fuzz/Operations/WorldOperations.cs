@@ -11,6 +11,7 @@ static class WorldOperations
         new("Simulation.Clear", 1, w => w.Simulation.Clear()),
         new("Simulation.Validate", 2, Validate),
         new("Simulation.WarmUp", 1, w => w.Simulation.WarmUp(w.AnyDispatcher())),
+        new("Simulation.ShiftOrigin", 2, w => w.Simulation.ShiftOrigin(w.Random.Spoil(w.Random.Vector(w.Random.Magnitude(1e-3f, 1e6f)), 10))),
         new("Simulation.EnsureCapacity", 2, w => w.Simulation.EnsureCapacity(Sizes(w))),
         new("BroadPhase.EnsureCapacity", 1, w => w.Simulation.BroadPhase.EnsureCapacity(w.AnyCount(), w.AnyCount())),
         new("BroadPhase.Resize", 2, w => w.Simulation.BroadPhase.Resize(w.AnyCount(), w.AnyCount())),
