@@ -117,12 +117,12 @@ public unsafe partial struct Mesh : IContainer
     }
 
     // Of places in the tree, those of triangles that a shape is beside or in front of, or that are near it only where a neighbour is. Returns whether there are
-    // such as the last. The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
+    // such as the last.
     [MethodImpl(MethodImplOptions.NoInlining)]
     readonly bool LeaveOut(in ShapeOutline outline, bool leavesToNeighbours, ref QuickList<int> found, int first)
     {
         var sides = new OutlineSides(outline, IsMirrored);
-        var knowsNeighbours = leavesToNeighbours && !twoSided && !IsMirrored;
+        var knowsNeighbours = leavesToNeighbours && KnowsNeighbours;
         var places = found.Span.Memory;
         var count = first;
         leavesToNeighbours = false;
@@ -194,8 +194,7 @@ public unsafe partial struct Mesh : IContainer
             found[i] = Header->Triangles.GetNumber(found[i]);
             Header->Prefetch(found[i]);
         }
-        // The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
-        if (outline.IsBall && found.Count - first > 1 && !twoSided && !IsMirrored)
+        if (outline.IsBall && found.Count - first > 1 && KnowsNeighbours)
             MarkOfNeighbours(outline, ref found, first);
         return leavesToNeighbours;
     }

@@ -138,6 +138,9 @@ public unsafe partial struct Mesh : IDisposableShape
     public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
         new MeshShapeBatch(pool, initialCapacity, shapes);
 
+    // The cones of what is mirrored are in another order, and what has two sides has neighbours at both.
+    readonly bool KnowsNeighbours => !twoSided && !IsMirrored;
+
     // Two corners change places, so that the front of a mirror image is the image of the front.
     internal readonly bool IsMirrored => scale.X < 0 ^ scale.Y < 0 ^ scale.Z < 0;
 

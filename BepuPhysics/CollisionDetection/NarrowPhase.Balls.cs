@@ -13,7 +13,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Square of the least turn of the normal, rad, for which it is worth it: 1/16 of a degree.
     const float LeastTurnSquared = 1.2e-6f;
 
-    /// <summary>Finds where two balls will touch, if they are apart and meet off centre.</summary>
+    /// <summary>Finds where two balls will touch, if they are apart and meet off centre. Then this is an impact.</summary>
     /// <param name="tested">The pair.</param>
     /// <param name="ballA">Shape of A, a ball.</param>
     /// <param name="ballB">Shape of B, a ball.</param>
@@ -21,34 +21,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <param name="poseB">Where B is.</param>
     /// <param name="dt">Length of the step, s.</param>
     /// <param name="placed">Where they will touch.</param>
-    /// <returns>Whether they do; otherwise they are to be tested where they are.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    bool TryPlaceWhereBallsMeet(
+    void PlaceWhereBallsMeet(
         ref TestedPair tested, TypedIndex ballA, TypedIndex ballB, in RigidPose poseA, in RigidPose poseB, float dt, ref ImpactPoses placed)
     {
         var offset = poseB.Position - poseA.Position;
         var reach = Simulation.Shapes.GetShape<Sphere>(ballA.Index).Radius + Simulation.Shapes.GetShape<Sphere>(ballB.Index).Radius;
         var apart = Exact.LengthSquared(offset) - reach * reach;
         if (!(apart > 0))
-            return false;
+            return;
         var velocity = VelocityOf(tested.Pair.B).Linear - VelocityOf(tested.Pair.A).Linear;
         var closing = -Exact.Dot(offset, velocity);
         // |offset + velocity t| = reach, by the root that loses no digits.
         var discriminant = closing * closing - Exact.LengthSquared(velocity) * apart;
         if (!(closing > 0 && discriminant > 0))
-            return false;
+            return;
         var time = apart / (closing + MathF.Sqrt(discriminant));
         if (!(time <= dt * Lookahead))
-            return false;
+            return;
         var meeting = offset + velocity * time;
         var turn = Exact.Cross(offset, meeting);
         if (!(Exact.LengthSquared(turn) > LeastTurnSquared * Exact.LengthSquared(offset) * reach * reach))
-            return false;
+            return;
         tested.IsImpact = true;
         tested.ImpactTime = time;
         // Nobody asks how a ball is turned.
         placed.A = new(default, poseA.Orientation);
         placed.B = new(meeting, poseB.Orientation);
-        return true;
     }
 }

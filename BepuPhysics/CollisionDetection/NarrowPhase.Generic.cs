@@ -174,13 +174,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         Unsafe.SkipInit(out ImpactPoses placed);
         if (mode >= ContinuousDetectionMode.Continuous)
         {
-            if (TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed, out var isApart))
-            {
-                poseA = ref placed.A;
-                poseB = ref placed.B;
-                offsetB = poseB.Position;
-            }
-            else if (isApart)
+            if (!TryPlaceAtImpact(workerIndex, ref tested, collidableA.Shape, shapeB, poseA, poseB, ref placed, out var isApart) && isApart)
             {
                 CompleteApart(workerIndex, tested, offsetB);
                 worker.TestedPairs.Free(pairId, worker.Pool);
@@ -188,8 +182,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             }
             margin = tested.SpeculativeMargin;
         }
-        else if (collidableA.Shape.Type == Sphere.Id && shapeB.Type == Sphere.Id && margin > 0 &&
-            TryPlaceWhereBallsMeet(ref tested, collidableA.Shape, shapeB, poseA, poseB, worker.Batcher.Dt, ref placed))
+        else if (collidableA.Shape.Type == Sphere.Id && shapeB.Type == Sphere.Id && margin > 0)
+            PlaceWhereBallsMeet(ref tested, collidableA.Shape, shapeB, poseA, poseB, worker.Batcher.Dt, ref placed);
+        if (tested.IsImpact)
         {
             poseA = ref placed.A;
             poseB = ref placed.B;

@@ -32,6 +32,10 @@ public static class Exact
     public static Vector3 Cross(in Vector3 a, in Vector3 b) =>
         new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 
+    /// <summary>Velocity of a point of a rigid motion, v + w x r; exactly v where nothing turns.</summary>
+    public static Vector3 VelocityAt(in Vector3 linear, in Vector3 angular, in Vector3 offset) =>
+        angular == default ? linear : linear + Cross(angular, offset);
+
     /// <summary>Inner product with itself.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static float LengthSquared(in Vector3 v) => Dot(v, v);

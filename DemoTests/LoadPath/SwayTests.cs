@@ -84,7 +84,7 @@ public class SwayTests(ITestOutputHelper output)
     {
         foreach (var velocity in new Vector3[] { default, new(0, 2, 0), new(3, 0, 1) })
         {
-            using var lift = new LiftWorld(_ => velocity);
+            using var lift = new FloorWorld(_ => velocity);
             BodyHandle top = default;
             for (int i = 0; i < 30; ++i)
                 top = lift.Add(new Vector3(0, .5f + i, 0), Vector3.One);

@@ -109,7 +109,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector3Wide SharedCenter(in TBodies bodies, ref ConvexContactPrestepWide<TContacts> prestep, in Vector3Wide own)
     {
-        var slots = bodies;
+        ref var slots = ref Unsafe.AsRef(in bodies);
         var rests = IsZero(BodySlots.At(ref slots, 1).Angular);
         return Vector3Wide.Select(rests, prestep.OffsetB, prestep.Normal * Vector3Wide.Dot(own, prestep.Normal));
     }

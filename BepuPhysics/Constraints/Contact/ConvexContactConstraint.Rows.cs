@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
@@ -130,7 +131,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     // How far the surfaces have parted since collision detection.
     static Vector<float> Displacement(in TBodies bodies, in ConstraintRowWide row)
     {
-        var slots = bodies;
+        ref var slots = ref Unsafe.AsRef(in bodies);
         ref var a = ref BodySlots.At(ref slots, 0);
         var apart = Vector3Wide.Dot(a.Translation, row.A.Linear) + Vector3Wide.Dot(a.Rotation, row.A.Angular);
         if (TBodies.Count > 1)

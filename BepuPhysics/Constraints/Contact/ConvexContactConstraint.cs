@@ -132,16 +132,16 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
 
     // The impulses of the substep before are where this one begins, as what rests is loaded alike in both. What turns by more than this, rad, in a substep has
     // nothing of the kind: a corner that hit is not the one that hits next, and one sweep does not take back what a wrong impulse gives at the end of an arm.
-    const float GreatestTurn = 3.5f;
+    const float GreatestKeptTurn = 3.5f;
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void ForgetSpinning(in TBodies bodies, in Substep substep, ref ConvexContactImpulsesWide<TNormals> impulses)
     {
-        var slots = bodies;
+        ref var slots = ref Unsafe.AsRef(in bodies);
         var square = BodySlots.At(ref slots, 0).Angular.LengthSquared();
         if (TBodies.Count > 1)
             square = Wide.Max(square, BodySlots.At(ref slots, 1).Angular.LengthSquared());
-        var greatest = GreatestTurn * substep.InverseDt;
+        var greatest = GreatestKeptTurn * substep.InverseDt;
         var spins = Vector.GreaterThan(square, new Vector<float>(greatest * greatest));
         if (spins != Vector<int>.Zero)
             Forget(spins, ref impulses);
