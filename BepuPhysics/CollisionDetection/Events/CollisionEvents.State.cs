@@ -8,6 +8,7 @@ public sealed unsafe partial class CollisionEvents
     {
         copy.List(ref pairs);
         copy.List(ref added);
+        copy.List(ref held);
         copy.List(ref turned);
         copy.Dictionary(ref touchingAsleep);
         copy.Value(ref hitSpeed);
@@ -18,7 +19,7 @@ public sealed unsafe partial class CollisionEvents
         if (!copy.Restores)
             return;
         began.Count = ended.Count = hits.Count = persisting.Count = slept.Count = woke.Count = sensed.Count = 0;
-        manifolds.Count = contacts.Count = bounces.Count = 0;
+        manifolds.Count = contacts.Count = bounces.Count = holding.Count = 0;
         for (int i = 0; i < pairs.Count; ++i)
             pairs[i].ManifoldCount = pairs[i].Bounce = 0;
         isStale = true;

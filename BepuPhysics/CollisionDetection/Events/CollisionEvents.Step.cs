@@ -76,6 +76,7 @@ public sealed unsafe partial class CollisionEvents
             contactCount = Merge(ref cache);
         isStale = false;
         added.Count = 0;
+        MeasureHeld();
         stage.EndPlaces();
         if (contactCount == 0)
             return;
@@ -264,6 +265,8 @@ public sealed unsafe partial class CollisionEvents
         Release(ref ended);
         Release(ref hits);
         Release(ref persisting);
+        Release(ref held);
+        Release(ref holding);
         ReleaseSleep();
         Release(ref manifolds);
         Release(ref spareManifolds);
@@ -283,6 +286,7 @@ public sealed unsafe partial class CollisionEvents
         added = sensed = pairs = spare = default;
         bounces = default;
         began = ended = hits = persisting = default;
+        held = holding = default;
         AbandonSleep();
         manifolds = spareManifolds = default;
         places = default;

@@ -13,6 +13,7 @@ public sealed unsafe partial class CollisionEvents
         if (isSettled)
             return false;
         TellSleep();
+        int nextHeld = 0;
         int kept = 0;
         int asleep = 0;
         int persistingCount = 0;
@@ -31,12 +32,15 @@ public sealed unsafe partial class CollisionEvents
             var pushes = (state & ListenedState.Pushes) != 0 || pair.Bounce > 0;
             var touches = pushes || (state & ListenedState.Overlaps) != 0 || (pair.IsSensor && (pair.Exists || pair.HasPassed));
             var kinds = touches ? pair.Touches ? EventMask.Persist : EventMask.Begin : pair.Touches ? EventMask.End : EventMask.None;
-            if (pushes && ((state & ListenedState.IsFast) != 0 || (pair.ManifoldCount == 0 && hitSpeed == 0)))
+            TellHeldBefore(pair, ref nextHeld);
+            var wasHeld = IsHeld(pair, nextHeld);
+            if (wasHeld || (pushes && ((state & ListenedState.IsFast) != 0 || (pair.ManifoldCount == 0 && hitSpeed == 0))))
                 kinds |= EventMask.Hit;
             kinds &= pair.Mask;
             all |= pair.Mask;
             if ((kinds & ~EventMask.Persist) != 0)
-                Tell(ref pair, kinds & ~EventMask.Persist, ref cache);
+                Tell(ref pair, kinds & ~EventMask.Persist, ref cache, (state & ListenedState.GoesOn) != 0, wasHeld ? nextHeld : -1);
+            nextHeld += wasHeld ? 1 : 0;
             pair.Persists = (kinds & EventMask.Persist) != 0;
             persistingCount += pair.Persists ? 1 : 0;
             pair.Touches = touches;
@@ -47,8 +51,9 @@ public sealed unsafe partial class CollisionEvents
                 pairs[kept] = pair;
             ++kept;
         }
+        EndHeld(nextHeld);
         pairs.Count = kept;
-        isSettled = asleep == kept;
+        isSettled = asleep == kept && held.Count == 0;
         removalsSeen = traits.RemovalCount;
         if ((all & EventMask.Persist) == 0)
             return false;
@@ -80,7 +85,7 @@ public sealed unsafe partial class CollisionEvents
         return state;
     }
 
-    void Tell(ref ListenedPair pair, EventMask kinds, ref PairCache cache)
+    void Tell(ref ListenedPair pair, EventMask kinds, ref PairCache cache, bool goesOn = false, int heldIndex = -1)
     {
         var told = new ContactEvent { Pair = pair.Pair, IsSensor = pair.IsSensor };
         if (pair.Bounce > 0)
@@ -90,7 +95,8 @@ public sealed unsafe partial class CollisionEvents
         Tell(ref ended, kinds & EventMask.End, told);
         Tell(ref persisting, kinds & EventMask.Persist, told);
         Tell(ref began, kinds & EventMask.Begin, told);
-        Tell(ref hits, kinds & EventMask.Hit, told);
+        if ((kinds & EventMask.Hit) != EventMask.None)
+            TellHit(told, goesOn, heldIndex);
     }
 
     void Tell(ref QuickList<ContactEvent> list, EventMask kind, in ContactEvent contactEvent)

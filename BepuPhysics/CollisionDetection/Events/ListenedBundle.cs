@@ -71,8 +71,8 @@ unsafe struct ListenedBundle
         return Vector.GreaterThanOrEqual(ApproachSpeed, new Vector<float>(hitSpeed)) & new Vector<int>(ListenedState.IsFast);
     }
 
-    // Greatest speed at which surfaces approach.
-    readonly Vector<float> Approach(in SolverBodies bodies)
+    // Greatest speed at which surfaces approach, at all contacts or at those that have pushed.
+    readonly Vector<float> Approach(in SolverBodies bodies, bool pushedOnly = false)
     {
         bodies.Gather(new RowOffsets(References[0]), BodyAccess.Velocity, default, out var a);
         Unsafe.SkipInit(out SolverBodyWide b);
@@ -90,7 +90,8 @@ unsafe struct ListenedBundle
             // As ContactRow has it.
             var along = linearA + Vector3Wide.Dot(a.Angular, Vector3Wide.Cross(contact.OffsetA, normal))
                 + (Vector3Wide.Dot(b.Angular, Vector3Wide.Cross(normal, contact.OffsetA - offsetB)) - linearB);
-            speed = Wide.Max(speed, -along);
+            var pushed = Vector.GreaterThan(Normals[i], Vector<float>.Zero);
+            speed = Wide.Max(speed, pushedOnly ? Wide.Select(pushed, -along, speed) : -along);
         }
         return speed;
     }
@@ -103,13 +104,28 @@ unsafe struct ListenedBundle
         Friction += *(Vector3Wide*)(Impulses + ContactPrestepLayout.FrictionImpulse(ContactCount));
     }
 
-    /// <summary>Which lanes have pushed.</summary>
-    internal Vector<int> Pushes()
+    /// <summary>Which lanes have pushed, and which of their hits go on, when the step ends.</summary>
+    /// <param name="bodies">Bodies as the step leaves them.</param>
+    /// <param name="hitSpeed">Speed of approach from which on a touch is a hit; with zero all that pushes is one, and none goes on.</param>
+    /// <returns>Bits of the state.</returns>
+    internal Vector<int> End(in SolverBodies bodies, float hitSpeed)
     {
         var sum = Normals[0];
         for (int i = 1; i < ContactCount; ++i)
             sum += Normals[i];
-        return Vector.GreaterThan(sum, Vector<float>.Zero) & new Vector<int>(ListenedState.Pushes);
+        var state = Vector.GreaterThan(sum, Vector<float>.Zero) & new Vector<int>(ListenedState.Pushes);
+        var fast = Vector.GreaterThanOrEqual(ApproachSpeed, new Vector<float>(hitSpeed));
+        if (hitSpeed > 0 && Vector.LessThanAny(fast, Vector<int>.Zero))
+            state |= fast & GoesOn(bodies) & new Vector<int>(ListenedState.GoesOn);
+        return state;
+    }
+
+    // A soft row takes some 70 % of an approach in a substep, so a hit in the last one is not over when the step is. Contacts that have not pushed yet are
+    // another hit.
+    readonly Vector<int> GoesOn(in SolverBodies bodies)
+    {
+        const float overShare = 1 / 20f;
+        return Vector.GreaterThan(Approach(bodies, pushedOnly: true), ApproachSpeed * new Vector<float>(overShare));
     }
 }
 
@@ -122,4 +138,6 @@ static class ListenedState
     internal const int IsFast = 2;
     /// <summary>Its contacts pushed.</summary>
     internal const int Pushes = 4;
+    /// <summary>It is a hit, and was not over when the step ended.</summary>
+    internal const int GoesOn = 8;
 }

@@ -67,7 +67,7 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
             else if (bundle.IsMeasured)
                 bundle.Sum();
             if (point == SolverPoint.AfterSubsteps)
-                state |= bundle.Pushes();
+                state |= bundle.End(rows, HitSpeed);
         }
     }
 
@@ -122,6 +122,9 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
         manifold.ContactCount = ConstraintTypeIds.ContactCount(location.TypeId);
         return true;
     }
+
+    /// <summary>Sums up what a manifold that was placed pushes, whatever it does.</summary>
+    internal void Measure(in ListenedManifold manifold) => measured[manifold.Lane / Vector<float>.Count] = 1;
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     int Add(in ConstraintLocation location, int bundle)
