@@ -20,6 +20,7 @@ static class AccuracySuite
         .. TurntableCases.All,
         .. GoingRoundCases.All,
         .. DeckCases.All,
+        .. SlidingSpinCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,
