@@ -47,6 +47,9 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>What <see cref="PositionError"/> and <see cref="TargetVelocity"/> read besides.</summary>
     static virtual BodyAccess ErrorAccess => BodyAccess.None;
 
+    /// <summary>What <see cref="Prepare"/> and <see cref="PositionError"/> read besides poses: whoever asks only for these gathers no more.</summary>
+    static virtual BodyAccess ArmAccess => BodyAccess.None;
+
     /// <summary>Lever arms and axes for the current poses.</summary>
     static abstract void Prepare(in TBodies bodies, in TPrestep prestep, out TGeometry geometry);
 

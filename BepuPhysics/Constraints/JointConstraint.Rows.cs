@@ -13,7 +13,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 
     static bool IConstraint<TBodies, TPrestep, TRows>.HasError => MakesHubs && TJoint.Kind != RowKind.Servo;
 
-    static BodyAccess IConstraint<TBodies, TPrestep, TRows>.ErrorAccess => BodyAccess.Pose;
+    static BodyAccess IConstraint<TBodies, TPrestep, TRows>.ErrorAccess => BodyAccess.Pose | TJoint.ArmAccess;
 
     // The distance between points that are held together; of limits the greatest violation. A servo may be on its way.
     static Vector<float> IConstraint<TBodies, TPrestep, TRows>.Error(in TBodies bodies, in TPrestep prestep)

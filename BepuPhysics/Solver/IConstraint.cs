@@ -69,10 +69,11 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
         in TBodies bodies, in TPrestep prestep, in TImpulses impulses, out Vector<float> squareA, out Vector<float> squareB) =>
         squareA = squareB = Vector<float>.Zero;
 
+    // What errors, separations and rigid errors below are told by; of the last, velocities besides.
+    internal static virtual BodyAccess ErrorAccess => BodyAccess.None;
+
     // What a governor of substeps reads: how far the constraint is from being met, m; zero where it is met, and where it is not meant to be rigid.
     internal static virtual bool HasError => false;
-
-    internal static virtual BodyAccess ErrorAccess => BodyAccess.None;
 
     internal static virtual Vector<float> Error(in TBodies bodies, in TPrestep prestep) => Vector<float>.Zero;
 

@@ -85,7 +85,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override ConstraintSeparation Separation(ref TypeBatch batch, in SolverBodies bodies, Vector<int>* references, int index)
     {
         var bundle = index / Vector<float>.Count;
-        Gather(references, PlaceMask, bodies, BodyAccess.Pose, new Substep(0, 1), out _, out var slots);
+        Gather(references, PlaceMask, bodies, TConstraint.ErrorAccess, new Substep(0, 1), out _, out var slots);
         TConstraint.Separation(slots, ((TPrestep*)batch.Prestep.Memory)[bundle], out var linear, out var angular);
         return new() { Linear = linear[index % Vector<float>.Count], Angular = angular[index % Vector<float>.Count] };
     }
@@ -94,7 +94,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override void ReadRigidErrors(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int bundle, out JointErrorWide errors)
     {
         var references = (Vector<int>*)batch.BodyReferences.Memory + bundle * TBodies.Count;
-        Gather(references, PlaceMask, bodies, BodyAccess.Pose | BodyAccess.Velocity, substep, out _, out var slots);
+        Gather(references, PlaceMask, bodies, TConstraint.ErrorAccess | BodyAccess.Velocity, substep, out _, out var slots);
         TConstraint.RigidError(slots, substep, ((TPrestep*)batch.Prestep.Memory)[bundle], out errors);
     }
 

@@ -57,6 +57,9 @@ readonly struct WeldJoint : IPointJoint<TwoBodies, WeldWide, PointAndAngularRows
     const float EasierToTurn = 3.7f;
 
     /// <inheritdoc/>
+    public static BodyAccess ArmAccess => BodyAccess.InverseInertia;
+
+    /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void Prepare(in TwoBodies bodies, in WeldWide prestep, out PointAndAngularRows geometry)
     {
