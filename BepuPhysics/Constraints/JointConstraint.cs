@@ -120,9 +120,26 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
         if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
         return TJoint.Kind == RowKind.Servo ?
-            TJoint.Spring(prestep).ForSubstep(substep, substep.Servos, substep.RigidServos, isHub) :
-            TJoint.Spring(prestep).ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub);
+            TJoint.Spring(prestep).ForSubstep(substep, substep.Servos, substep.RigidServos, isHub, Coupling(prestep, isHub)) :
+            TJoint.Spring(prestep).ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub, Coupling(prestep, isHub));
     }
+
+    // How springs swing. A limit uses up its slack, and a servo has a speed of its own where that is limited: neither is a spring that is left to swing, and
+    // an explicit step of these would want more than all of an error in a substep. Joints that make no hubs are not counted, so many may be on a body.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Coupling(in TPrestep prestep, Vector<int> isHub)
+    {
+        var isImplicit = new Vector<float>(SpringSettingsWide.ImplicitCoupling);
+        if (TJoint.Kind == RowKind.Inequality)
+            return isImplicit;
+        var hub = new Vector<float>(SpringSettingsWide.HubCoupling);
+        var coupling = MakesHubs ? Wide.Select(isHub, hub, new Vector<float>(SpringSettingsWide.AloneCoupling)) : hub;
+        return TJoint.Kind == RowKind.Servo ? Wide.Select(HasLimitedSpeed(TJoint.Servo(prestep)), isImplicit, coupling) : coupling;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> HasLimitedSpeed(in ServoSettingsWide servo) =>
+        Vector.GreaterThan(servo.BaseSpeed, Vector<float>.Zero) | Vector.LessThan(servo.MaximumSpeed, new Vector<float>(float.MaxValue));
 
     // A motor corrects no position: relaxation has nothing to take back, and hubs bear as much of it as chains.
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -148,7 +165,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     static TRows LimitSpeed(in TRows error, in TRows wanted, in Substep substep, in ServoSettingsWide servo)
     {
         // Most have no such limits, and need none of their roots and divisions.
-        var isLimited = Vector.GreaterThan(servo.BaseSpeed, Vector<float>.Zero) | Vector.LessThan(servo.MaximumSpeed, new Vector<float>(float.MaxValue));
+        var isLimited = HasLimitedSpeed(servo);
         if (Vector.EqualsAll(isLimited, Vector<int>.Zero))
             return wanted;
         var errorLength = TRows.Length(error);

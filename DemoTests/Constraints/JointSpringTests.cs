@@ -46,7 +46,7 @@ public class JointSpringTests
         var type = JointTypes.All.Single(type => type.Id == typeId);
         for (int seed = 1; seed <= 2; ++seed)
         {
-            var errors = Swing(type, substeps, seed);
+            var errors = Swing(type, substeps, seed, Frequency, DampingRatio, 1.2);
             // The first extremum, the zero after it, and the next extremum on the other side.
             var sign = Math.Sign(errors[10]);
             var first = errors.Max(e => e * sign);
@@ -61,12 +61,27 @@ public class JointSpringTests
         }
     }
 
+    // A swing that nothing damps, for three periods.
+    [Theory, MemberData(nameof(Cases))]
+    public void It_goes_on_swinging_where_nothing_damps_it(int typeId, int substeps)
+    {
+        var type = JointTypes.All.Single(type => type.Id == typeId);
+        var errors = Swing(type, substeps, 1, 1, 0, 3.1);
+        var crossings = Enumerable.Range(3, errors.Count - 4).Where(i => errors[i] * errors[i + 1] <= 0 && errors[i] != 0)
+            .Select(i => i + errors[i] / (errors[i] - errors[i + 1])).ToArray();
+        var frequency = (crossings.Length - 1) / (2 * (crossings[^1] - crossings[0]) * TestWorld.Dt);
+        Assert.True(Math.Abs(frequency - 1) < 0.02, $"{type.Name}: {frequency} Hz");
+        var first = errors.Take(60).Max(Math.Abs);
+        var last = errors.Skip(errors.Count - 60).Max(Math.Abs);
+        Assert.True(Math.Abs(last / first - 1) < 0.02, $"{type.Name}: {last / first} of the swing after two periods");
+    }
+
     // The position error of one row after each step, from rest in the other rows and from zero in all.
-    static List<double> Swing(JointType type, int substeps, int seed)
+    static List<double> Swing(JointType type, int substeps, int seed, float frequency, float ratio, double periods)
     {
         var samples = new JointSamples(seed * 100 + type.Id);
         var column = RandomDescriptions.Joint(type.Description, samples);
-        new[] { Frequency * MathF.Tau, DampingRatio * 2 }.CopyTo(column, type.PlaceOf<SpringSettings>());
+        new[] { frequency * MathF.Tau, ratio * 2 }.CopyTo(column, type.PlaceOf<SpringSettings>());
         if (type.PlaceOf<ServoSettings>() >= 0)
             new[] { float.MaxValue, 0, float.MaxValue }.CopyTo(column, type.PlaceOf<ServoSettings>());
         // Balls, whose inertia is the same in all axes.
@@ -85,12 +100,12 @@ public class JointSpringTests
         var substep = new Substep(0, TestWorld.Dt);
         var jacobian = bench.Jacobian(bench.Rows(substep)[row]);
         var response = bench.Response(jacobian);
-        var speed = Amplitude * Frequency * 2 * Math.PI / jacobian.Zip(response, (a, b) => a * b).Sum();
+        var speed = Amplitude * frequency * 2 * Math.PI / jacobian.Zip(response, (a, b) => a * b).Sum();
         var handles = bench.Poses.Select((pose, i) => world.AddDynamic(ball, 1 + i, pose, new BodyVelocity(
             At(response, i * 6) * (float)speed, At(response, i * 6 + 3) * (float)speed))).ToArray();
         type.AddTo(world.Solver, handles, column);
         var errors = new List<double> { 0 };
-        for (int i = 0; i < 1.2 / Frequency / TestWorld.Dt; ++i)
+        for (int i = 0; i < periods / frequency / TestWorld.Dt; ++i)
         {
             world.Step();
             bench.Poses = [.. handles.Select(handle => world.Bodies[handle].Pose)];

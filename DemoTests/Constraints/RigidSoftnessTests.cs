@@ -42,10 +42,18 @@ public class RigidSoftnessTests
         frequency[0] = 30;
         var mixed = rigid with { AngularFrequency = new(frequency) };
         var mask = new Vector<int>(hubs);
+        var coupling = new Vector<float>(random.Next(3) switch
+        {
+            0 => SpringSettingsWide.AloneCoupling,
+            1 => SpringSettingsWide.HubCoupling,
+            _ => SpringSettingsWide.ImplicitCoupling,
+        });
         AssertSame(
-            rigid.ForSubstep(substep, substep.Joints, substep.RigidJoints, mask), mixed.ForSubstep(substep, substep.Joints, substep.RigidJoints, mask));
+            rigid.ForSubstep(substep, substep.Joints, substep.RigidJoints, mask, coupling),
+            mixed.ForSubstep(substep, substep.Joints, substep.RigidJoints, mask, coupling));
         AssertSame(
-            rigid.ForSubstep(substep, substep.Servos, substep.RigidServos, mask), mixed.ForSubstep(substep, substep.Servos, substep.RigidServos, mask));
+            rigid.ForSubstep(substep, substep.Servos, substep.RigidServos, mask, coupling),
+            mixed.ForSubstep(substep, substep.Servos, substep.RigidServos, mask, coupling));
     }
 
     static void AssertSame(in SoftnessWide expected, in SoftnessWide actual)
