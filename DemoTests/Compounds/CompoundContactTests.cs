@@ -131,7 +131,8 @@ public class CompoundContactTests
             var plane = workshop.Shapes.Add(new HalfSpace(workshop.NextVector(1)));
             var hills = workshop.AddHills();
             Compare(workshop, groundIsA ? plane : shape, groundIsA ? shape : plane, 2, isTurned, 100);
-            Compare(workshop, groundIsA ? hills : shape, groundIsA ? shape : hills, 4, isTurned, 40);
+            // Of two with many triangles all are compared with all.
+            Compare(workshop, groundIsA ? hills : shape, groundIsA ? shape : hills, 4, isTurned, type == Mesh.Id ? 12 : 40);
         }
     }
 

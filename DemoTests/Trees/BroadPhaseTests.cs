@@ -21,6 +21,8 @@ public class BroadPhaseTests
     public void EveryNumberOfWorkersFindsEachPairOnceAndKeepsTheSameTree(int activeCount, int staticCount)
     {
         byte[]? expectedTree = null;
+        // Boxes move alike whatever the threads.
+        var expectedPairs = new List<((int, int)[] Self, (int, int)[] Static)>();
         foreach (var threadCount in new[] { 0, 1, 2, 3, 8 })
         {
             using var dispatcher = threadCount > 0 ? new ThreadDispatcher(threadCount) : null;
@@ -29,9 +31,11 @@ public class BroadPhaseTests
             {
                 world.Step(step, dispatcher);
                 world.BroadPhase.Validate();
+                if (expectedPairs.Count == step)
+                    expectedPairs.Add((world.BruteForceSelf(), world.BruteForceStatic()));
                 var (self, still) = world.FindOverlaps(dispatcher);
-                Assert.Equal(world.BruteForceSelf(), self);
-                Assert.Equal(world.BruteForceStatic(), still);
+                Assert.Equal(expectedPairs[step].Self, self);
+                Assert.Equal(expectedPairs[step].Static, still);
             }
             var tree = TreeBytes.Of(world.BroadPhase.ActiveTree);
             expectedTree ??= tree;

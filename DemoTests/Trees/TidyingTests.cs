@@ -47,7 +47,7 @@ public class TidyingTests
         foreach (int threads in (ReadOnlySpan<int>)[2, 3, 5])
         {
             using var dispatcher = new ThreadDispatcher(threads);
-            Assert.Equal(expected, Run(dispatcher));
+            TreeBytes.AssertSame(expected, Run(dispatcher));
         }
     }
 
