@@ -118,7 +118,7 @@ public sealed class DeterminismTests(ITestOutputHelper output)
         "cloth-lattice" => SmallScenes.Lattice(width: 24),
         "shape-pile" => SmallScenes.Pile("shape-pile", columns: 4, layers: 8),
         "hull-pile" => SmallScenes.Pile("hull-pile", columns: 4, layers: 5),
-        "tori" => SmallScenes.Tori(18),
+        "tori" => SmallScenes.Tori(12),
         _ => SceneLibrary.Load(name, 1),
     };
 

@@ -27,7 +27,7 @@ public class SnapshotTests
         ["fast"] = () => SmallScenes.Fast(3),
         ["ragdolls"] = () => SceneLibrary.Load("ragdolls", 1),
         ["washer"] = () => SceneLibrary.Load("washer", 1),
-        ["tori"] = () => SmallScenes.Tori(18),
+        ["tori"] = () => SmallScenes.Tori(12),
     };
 
     public static TheoryData<string, int> Cases()
