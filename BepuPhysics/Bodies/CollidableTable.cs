@@ -72,10 +72,8 @@ struct CollidableTable<T>(T usual) where T : unmanaged, IEquatable<T>
     /// <summary>Forgets all values and gives the memory back.</summary>
     internal void Dispose(BufferPool pool)
     {
-        if (bodies.Allocated)
-            pool.Return(ref bodies);
-        if (statics.Allocated)
-            pool.Return(ref statics);
+        pool.ReturnIfTaken(ref bodies);
+        pool.ReturnIfTaken(ref statics);
     }
 
     /// <summary>Forgets memory that is gone already.</summary>

@@ -329,10 +329,8 @@ public sealed unsafe partial class BroadPhase : IDisposable
     {
         ActiveTree.Dispose(Pool);
         StaticTree.Dispose(Pool);
-        if (ActiveLeaves.Allocated)
-            Pool.Return(ref ActiveLeaves);
-        if (StaticLeaves.Allocated)
-            Pool.Return(ref StaticLeaves);
+        Pool.ReturnIfTaken(ref ActiveLeaves);
+        Pool.ReturnIfTaken(ref StaticLeaves);
         activeUpkeep = default;
         upkeep = default;
     }

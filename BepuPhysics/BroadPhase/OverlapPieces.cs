@@ -57,10 +57,8 @@ unsafe struct OverlapPieces
 
     public void Dispose(BufferPool pool)
     {
-        if (Pairs.Span.Allocated)
-            Pairs.Dispose(pool);
-        if (Order.Span.Allocated)
-            Order.Dispose(pool);
+        Pairs.DisposeIfTaken(pool);
+        Order.DisposeIfTaken(pool);
     }
 
     void Arrange(in Tree tree, int partCount, BufferPool pool)

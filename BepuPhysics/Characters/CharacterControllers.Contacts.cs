@@ -135,10 +135,8 @@ public sealed partial class CharacterControllers
 
     void ReturnStepMemory()
     {
-        if (steps.Allocated)
-            pool.Return(ref steps);
-        if (candidates.Allocated)
-            pool.Return(ref candidates);
+        pool.ReturnIfTaken(ref steps);
+        pool.ReturnIfTaken(ref candidates);
     }
 
     // The axes of walking on a surface: right and forwards.

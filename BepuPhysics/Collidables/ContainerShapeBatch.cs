@@ -83,8 +83,7 @@ abstract unsafe class ContainerShapeBatch<TContainer>(BufferPool source, int ini
             container.Open(0, all, list.Memory);
         }
         container.FindOverlaps(min, max, default, all, list.Memory, ref found, pool);
-        if (list.Allocated)
-            pool.Return(ref list);
+        pool.ReturnIfTaken(ref list);
     }
 
     void IContainerBatch.GetChild(int shapeIndex, int index, void* scratch, out ContainerChild child) =>

@@ -31,11 +31,8 @@ public struct HullData
     public void Dispose(BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (OriginalVertexMapping.Allocated)
-            pool.Return(ref OriginalVertexMapping);
-        if (FaceVertexIndices.Allocated)
-            pool.Return(ref FaceVertexIndices);
-        if (FaceStartIndices.Allocated)
-            pool.Return(ref FaceStartIndices);
+        pool.ReturnIfTaken(ref OriginalVertexMapping);
+        pool.ReturnIfTaken(ref FaceVertexIndices);
+        pool.ReturnIfTaken(ref FaceStartIndices);
     }
 }

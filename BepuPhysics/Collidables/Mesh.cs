@@ -297,8 +297,7 @@ public unsafe partial struct Mesh : IDisposableShape
     public void Dispose(BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (data.Allocated)
-            pool.Return(ref data);
+        pool.ReturnIfTaken(ref data);
         this = default;
     }
 

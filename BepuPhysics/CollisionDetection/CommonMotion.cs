@@ -67,8 +67,7 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
 
     internal void ReturnMemory()
     {
-        if (motions.Allocated)
-            pool.Return(ref motions);
+        pool.ReturnIfTaken(ref motions);
         companions.DisposeIfTaken(pool);
         triangles.DisposeIfTaken(pool);
         count = 0;

@@ -123,8 +123,7 @@ unsafe struct Crowd
     /// <summary>Ends a step.</summary>
     public void End(BufferPool pool)
     {
-        if (places.Allocated)
-            pool.Return(ref places);
+        pool.ReturnIfTaken(ref places);
     }
 
     // Counts the pairs that may meet of which one is dynamic and none is static.

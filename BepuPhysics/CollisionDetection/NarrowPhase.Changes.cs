@@ -122,8 +122,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         finally
         {
-            if (work.Targets.Allocated)
-                Pool.Return(ref work.Targets);
+            Pool.ReturnIfTaken(ref work.Targets);
             Simulation.Solver.EndDeferral();
         }
         work.Failure?.Throw();

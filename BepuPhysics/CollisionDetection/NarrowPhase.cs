@@ -148,8 +148,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Restitution.Dispose();
         FastPairs.Dispose();
         loadPath.Dispose();
-        if (pairOfConstraint.Allocated)
-            Pool.Return(ref pairOfConstraint);
+        Pool.ReturnIfTaken(ref pairOfConstraint);
     }
 
     // Of the pools of workers, which hold memory for no longer than a step.

@@ -240,8 +240,7 @@ sealed unsafe class SleepingIslands(Bodies bodies, Solver solver, CollisionEvent
         slots.Dispose(pool);
         if (ids.Allocated)
             ids.Dispose(pool);
-        if (islands.Allocated)
-            pool.Return(ref islands);
+        pool.ReturnIfTaken(ref islands);
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>

@@ -123,10 +123,8 @@ public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T
     /// <summary>Returns all memory to the pool. Calling it twice does no harm.</summary>
     public void Dispose()
     {
-        if (bodyData.Allocated)
-            pool!.Return(ref bodyData);
-        if (staticData.Allocated)
-            pool!.Return(ref staticData);
+        pool!.ReturnIfTaken(ref bodyData);
+        pool!.ReturnIfTaken(ref staticData);
         pool?.RemoveUser(this);
     }
 

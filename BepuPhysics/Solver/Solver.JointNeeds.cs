@@ -96,8 +96,7 @@ public sealed unsafe partial class Solver
 
     void DisposeNeeds()
     {
-        if (needs.Allocated)
-            pool.Return(ref needs);
+        pool.ReturnIfTaken(ref needs);
     }
 
     // Leaves the joints that go over from sweeps to all at once, or back, in their own order: structures come and go, and what they do to the order in memory

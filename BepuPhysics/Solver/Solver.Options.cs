@@ -107,12 +107,9 @@ public sealed unsafe partial class Solver
     {
         if (apart.Flags.Allocated)
             apart.Dispose(pool);
-        if (breakable.Span.Allocated)
-            breakable.Dispose(pool);
-        if (broken.Span.Allocated)
-            broken.Dispose(pool);
-        if (breakablePlaces.Allocated)
-            pool.Return(ref breakablePlaces);
+        breakable.DisposeIfTaken(pool);
+        broken.DisposeIfTaken(pool);
+        pool.ReturnIfTaken(ref breakablePlaces);
     }
 
     void AbandonOptions()

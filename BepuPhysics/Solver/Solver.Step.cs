@@ -162,16 +162,11 @@ public sealed unsafe partial class Solver
     {
         for (int i = 0; i < OptionalStages.Count; ++i)
             OptionalStages[i].EndStep();
-        if (work.Blocks.Span.Allocated)
-            work.Blocks.Dispose(pool);
-        if (work.BlocksOfBatch.Span.Allocated)
-            work.BlocksOfBatch.Dispose(pool);
-        if (work.Stages.Span.Allocated)
-            work.Stages.Dispose(pool);
-        if (work.Substeps.Span.Allocated)
-            work.Substeps.Dispose(pool);
-        if (work.Order.Span.Allocated)
-            work.Order.Dispose(pool);
+        work.Blocks.DisposeIfTaken(pool);
+        work.BlocksOfBatch.DisposeIfTaken(pool);
+        work.Stages.DisposeIfTaken(pool);
+        work.Substeps.DisposeIfTaken(pool);
+        work.Order.DisposeIfTaken(pool);
         work.Split.Dispose(pool);
         work.FreeBodies.Dispose(pool);
     }

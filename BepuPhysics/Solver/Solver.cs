@@ -274,10 +274,7 @@ public sealed unsafe partial class Solver
     {
         Clear();
         for (int i = 0; i < Sets.Length; ++i)
-        {
-            if (Sets[i].Batches.Span.Allocated)
-                Sets[i].Batches.Dispose(pool);
-        }
+            Sets[i].Batches.DisposeIfTaken(pool);
         pool.Return(ref Sets);
         pool.Return(ref Locations);
         Edges.Dispose(pool);

@@ -61,8 +61,7 @@ sealed unsafe class StateCopy(BufferPool memory)
     {
         if (bytes.Length < saved.Length)
         {
-            if (bytes.Allocated)
-                memory.Return(ref bytes);
+            memory.ReturnIfTaken(ref bytes);
             memory.TakeAtLeast(saved.Length, out bytes);
         }
         saved.CopyTo(bytes.AsSpan());
@@ -71,8 +70,7 @@ sealed unsafe class StateCopy(BufferPool memory)
 
     internal void Dispose()
     {
-        if (bytes.Allocated)
-            memory.Return(ref bytes);
+        memory.ReturnIfTaken(ref bytes);
         Length = 0;
     }
 
@@ -98,8 +96,7 @@ sealed unsafe class StateCopy(BufferPool memory)
         Value(ref count);
         if (Restores && count > rows.Length)
         {
-            if (rows.Allocated)
-                Pool.Return(ref rows);
+            Pool.ReturnIfTaken(ref rows);
             Pool.TakeAtLeast(count, out rows);
         }
         CopyRows(rows, count);

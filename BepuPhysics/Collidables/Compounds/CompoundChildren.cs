@@ -159,8 +159,7 @@ static unsafe class CompoundChildren
     public static void Dispose(ref Buffer<CompoundChild> children, BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (children.Allocated)
-            pool.Return(ref children);
+        pool.ReturnIfTaken(ref children);
         children = default;
     }
 

@@ -65,12 +65,8 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
     private protected override void OnMemoryReturned()
     {
         for (int i = 0; i < childNames.Length; ++i)
-        {
-            if (childNames[i].Allocated)
-                pool.Return(ref childNames[i]);
-        }
-        if (childNames.Allocated)
-            pool.Return(ref childNames);
+            pool.ReturnIfTaken(ref childNames[i]);
+        pool.ReturnIfTaken(ref childNames);
         childNames = default;
     }
 

@@ -117,8 +117,7 @@ public unsafe partial struct HeightField : IContainer, IDisposableShape
     public void Dispose(BufferPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        if (memory.Allocated)
-            pool.Return(ref memory);
+        pool.ReturnIfTaken(ref memory);
         memory = default;
     }
 

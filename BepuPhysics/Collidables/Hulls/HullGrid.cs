@@ -96,8 +96,7 @@ struct HullGrid
 
     public void Dispose(BufferPool pool)
     {
-        if (Points.Allocated)
-            pool.Return(ref Points);
+        pool.ReturnIfTaken(ref Points);
     }
 
     static void CheckFinite(ReadOnlySpan<Vector3> points)

@@ -231,8 +231,7 @@ static unsafe class MeshBuilder
 
     static void Return<T>(ref Buffer<T> buffer, BufferPool pool) where T : unmanaged
     {
-        if (buffer.Allocated)
-            pool.Return(ref buffer);
+        pool.ReturnIfTaken(ref buffer);
     }
 
     /// <summary>Refuses a scale that has no inverse.</summary>

@@ -85,8 +85,7 @@ unsafe ref struct MeshWeld
 
     public void Dispose()
     {
-        if (table.Allocated)
-            pool.Return(ref table);
+        pool.ReturnIfTaken(ref table);
         pool.Return(ref points);
     }
 }

@@ -266,8 +266,7 @@ unsafe struct ChildPairs(BufferPool pool)
     static void Return(ref OpenParent parent, BufferPool pool)
     {
         pool.Return(ref parent.Slots);
-        if (parent.Placed.Allocated)
-            pool.Return(ref parent.Placed);
+        pool.ReturnIfTaken(ref parent.Placed);
     }
 
     public void Dispose(BufferPool pool)

@@ -55,10 +55,7 @@ struct PairBatches
         if (!batches.Allocated)
             return;
         for (int i = First; i < End; ++i)
-        {
-            if (batches[i].Bundles.Allocated)
-                pool.Return(ref batches[i].Bundles);
-        }
+            pool.ReturnIfTaken(ref batches[i].Bundles);
         pool.Return(ref batches);
         this = default;
     }

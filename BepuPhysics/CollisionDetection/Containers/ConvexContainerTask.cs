@@ -64,8 +64,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 Add(start + i, entry.Pair, children.AsSpan(), false, ref found, pool);
             }
         }
-        if (list.Allocated)
-            pool.Return(ref list);
+        pool.ReturnIfTaken(ref list);
     }
 
     static bool IsOneList(Entry* entries, int count)

@@ -242,8 +242,7 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
 
     void Return<T>(ref Buffer<T> buffer) where T : unmanaged
     {
-        if (buffer.Allocated)
-            pool.Return(ref buffer);
+        pool.ReturnIfTaken(ref buffer);
         buffer = default;
     }
 }

@@ -204,8 +204,7 @@ struct AgreedPairs
     {
         pairs.DisposeIfTaken(pool);
         bodies.DisposeIfTaken(pool);
-        if (entries.Allocated)
-            pool.Return(ref entries);
+        pool.ReturnIfTaken(ref entries);
         this = default;
     }
 }

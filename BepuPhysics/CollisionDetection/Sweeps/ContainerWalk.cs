@@ -44,8 +44,7 @@ static unsafe class ContainerWalk
         finally
         {
             stack.Dispose(pool);
-            if (below.Allocated)
-                pool.Return(ref below);
+            pool.ReturnIfTaken(ref below);
         }
     }
 

@@ -112,8 +112,7 @@ static unsafe class SweepPairs
             finally
             {
                 children.Dispose(pool);
-                if (list.Allocated)
-                    pool.Return(ref list);
+                pool.ReturnIfTaken(ref list);
             }
         }
     }

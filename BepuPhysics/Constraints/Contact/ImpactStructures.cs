@@ -78,8 +78,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         if (IsEmpty)
             return;
         plan.PlaceMemory();
-        if (memory.Allocated)
-            pool.Return(ref memory);
+        pool.ReturnIfTaken(ref memory);
         pool.Take(plan.MemoryCount, out memory);
         memory.Clear(0, plan.MemoryCount);
     }
@@ -212,8 +211,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
     internal void Dispose()
     {
         plan.Dispose(pool);
-        if (memory.Allocated)
-            pool.Return(ref memory);
+        pool.ReturnIfTaken(ref memory);
         if (!places.Span.Allocated)
             return;
         places.Dispose(pool);

@@ -183,8 +183,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         var motions = new Motions(set.MotionStates, before, turnsBefore, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
         var byHandle = SortByHandle();
         graph.Build(found.Memory, used, set.Count, spoilt, motions, pool, byHandle);
-        if (byHandle.Allocated)
-            pool.Return(ref byHandle);
+        pool.ReturnIfTaken(ref byHandle);
         MakeRooms();
     }
 
@@ -330,22 +329,14 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             LetGo(block);
         hasBegun = false;
         // Last taken, first returned: in the next step each gets the block that it had, and touches no other.
-        if (columns.Allocated)
-            pool.Return(ref columns);
-        if (patches.Allocated)
-            pool.Return(ref patches);
-        if (supports.Allocated)
-            pool.Return(ref supports);
-        if (reached.Allocated)
-            pool.Return(ref reached);
-        if (spoilt.Allocated)
-            pool.Return(ref spoilt);
-        if (found.Allocated)
-            pool.Return(ref found);
-        if (turnsBefore.Allocated)
-            pool.Return(ref turnsBefore);
-        if (before.Allocated)
-            pool.Return(ref before);
+        pool.ReturnIfTaken(ref columns);
+        pool.ReturnIfTaken(ref patches);
+        pool.ReturnIfTaken(ref supports);
+        pool.ReturnIfTaken(ref reached);
+        pool.ReturnIfTaken(ref spoilt);
+        pool.ReturnIfTaken(ref found);
+        pool.ReturnIfTaken(ref turnsBefore);
+        pool.ReturnIfTaken(ref before);
     }
 
     // The sign of the zero tells the next step that they were held.
