@@ -1,4 +1,3 @@
-using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 
@@ -21,13 +20,12 @@ unsafe struct WorldProximity<THandler> : IBroadPhaseSweepTester, ISweepFilter wh
         if (!nearest.Exists)
             return;
         ref readonly var found = ref nearest.Found;
-        var distance = (float)found.Distance;
         var proximity = new Proximity
         {
             Collidable = collidable,
             ChildIndex = nearest.Child,
             Overlaps = found.Overlaps,
-            Distance = distance < found.Distance ? MathF.BitIncrement(distance) : distance,
+            Distance = Rounded.Up(found.Distance),
         };
         if (!found.Overlaps)
         {

@@ -1,4 +1,3 @@
-using System;
 using System.Numerics;
 using BepuUtilities;
 
@@ -21,11 +20,6 @@ public unsafe partial struct Tree
         }
     }
 
-    // The greatest float that is not above the difference. That of two floats is exact in double precision, or is off by far less than a float can tell.
-    static float Below(float value, float shift)
-    {
-        var difference = (double)value - shift;
-        var rounded = (float)difference;
-        return rounded > difference ? MathHelper.Max(MathF.BitDecrement(rounded), -float.MaxValue) : rounded;
-    }
+    // The difference of two floats is exact in double precision, or is off by far less than a float can tell. What has no end has none.
+    static float Below(float value, float shift) => MathHelper.Max(Rounded.Down((double)value - shift), -float.MaxValue);
 }

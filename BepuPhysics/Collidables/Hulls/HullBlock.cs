@@ -56,7 +56,7 @@ static unsafe class HullBlock
         var isJoined = hull->FaceStarts[face + 1] - hull->FaceStarts[face] > 3;
         for (int i = 0; isJoined && (long)hull->VertexCount * hull->FaceCount <= AffordableCount && i < hull->VertexCount; ++i)
             offset = Math.Max(offset, Along(rounded, hull->GetPoint(i)));
-        GatherScatter.Get(ref plane.Offset, lane) = RoundUp(offset);
+        GatherScatter.Get(ref plane.Offset, lane) = Rounded.Up(offset);
     }
 
     /// <summary>Fills the last bundles and writes what is known of the whole, once vertices and planes are written.</summary>
@@ -77,7 +77,7 @@ static unsafe class HullBlock
             hull->Max = Exact.Max(point, hull->Max);
             squaredRadius = Math.Max(squaredRadius, (double)point.X * point.X + (double)point.Y * point.Y + (double)point.Z * point.Z);
         }
-        hull->OuterRadius = RoundUp(Math.Sqrt(squaredRadius));
+        hull->OuterRadius = Rounded.Up(Math.Sqrt(squaredRadius));
         hull->InnerRadius = float.MaxValue;
         for (int i = 0; i < hull->FaceCount; ++i)
         {
@@ -88,11 +88,4 @@ static unsafe class HullBlock
 
     static double Along(in Vector3 normal, in Vector3 point) =>
         (double)normal.X * point.X + (double)normal.Y * point.Y + (double)normal.Z * point.Z;
-
-    /// <summary>Least float that is not below a number.</summary>
-    static float RoundUp(double value)
-    {
-        var rounded = (float)value;
-        return rounded < value ? MathF.BitIncrement(rounded) : rounded;
-    }
 }

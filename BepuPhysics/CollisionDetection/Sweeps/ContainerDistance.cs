@@ -1,4 +1,3 @@
-using System;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
 using BepuUtilities.Memory;
@@ -28,14 +27,7 @@ ref struct ContainerDistance<TFilter>(in SweepMotion motion, ref ImpactBody a, r
             ContainerWalk.Visit<TContainer, GapTest, ContainerDistance<TFilter>>(container, ref this, shapes, pool);
     }
 
-    public readonly float Maximum
-    {
-        get
-        {
-            var maximum = (float)Math.Min(nearest.Maximum, float.MaxValue);
-            return maximum < nearest.Maximum ? MathF.BitIncrement(maximum) : maximum;
-        }
-    }
+    public readonly float Maximum => Rounded.Up(nearest.Maximum);
 
     public readonly bool IsDone => nearest.Found.Overlaps;
 

@@ -74,14 +74,7 @@ struct SweepHit
     public readonly double LatestT(in SweepMotion motion) => Exists ? T : Math.Min(motion.MaximumT, float.MaxValue);
 
     /// <summary>The time as a float, which is not later.</summary>
-    public readonly float EarliestT
-    {
-        get
-        {
-            var t = (float)T;
-            return t > T ? MathF.BitDecrement(t) : t;
-        }
-    }
+    public readonly float EarliestT => Rounded.Down(T);
 
     /// <summary>Tests two parts, and takes their impact if it is the first.</summary>
     /// <param name="motion">How the bodies move.</param>
