@@ -32,8 +32,12 @@ sealed unsafe partial class LoadPathStage
 
     bool HasFloors => hasFloorsIn.AsSpan(0, BodyBlockCount).Contains(true);
 
-    // Whether a kinematic body moves, or did in the last step. Before the first substep its displacement is still that of the last step.
-    bool IsFloor(int body)
+    // Of a kinematic body, whose velocity was copied.
+    bool IsFloor(int body) =>
+        before[body].Linear != default || before[body].Angular != default || turnsBefore[body].Linear != default || turnsBefore[body].Angular != default;
+
+    // How a kinematic body moves, and did in the last step. Before the first substep its displacement is still that of the last step.
+    void FindMotion(int body)
     {
         ref var set = ref bodies.Awake;
         ref var motion = ref set.MotionStates[body];
@@ -55,7 +59,6 @@ sealed unsafe partial class LoadPathStage
             if (Exact.Length(last - turn.Linear) > Rounding * Exact.Length(turn.Linear))
                 turn.Angular = last;
         }
-        return velocity != default || earlier != default || turn.Linear != default || turn.Angular != default;
     }
 
     // Of what rests on the ground none, and so are its bits as if there were no floors.

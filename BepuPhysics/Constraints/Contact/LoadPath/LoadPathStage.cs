@@ -137,8 +137,10 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         for (int i = FirstOf(block, BodyBlockCount, set.Count); i < end; ++i)
         {
             before[i].Linear = set.MotionStates[i].Velocity.Linear;
-            if (set.LocalInertias[i].InverseMass == 0)
-                hasFloors |= IsFloor(i);
+            if (set.LocalInertias[i].InverseMass != 0)
+                continue;
+            FindMotion(i);
+            hasFloors |= IsFloor(i);
         }
         hasFloorsIn[block] = hasFloors;
     }
