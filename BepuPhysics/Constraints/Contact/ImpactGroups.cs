@@ -80,7 +80,7 @@ struct ImpactGroups(BufferPool pool)
         for (int i = 0; i < pairs.Count; ++i)
         {
             ref var pair = ref pairs[i];
-            var (islandA, islandB) = (structures.IslandOf(pair.A), pair.B >= 0 ? structures.IslandOf(pair.B) : -1);
+            var (islandA, islandB) = structures.IslandsOf(pair);
             pair.IsInStructure = islandA >= 0 || islandB >= 0;
             LinkStructure(islandA, i);
             LinkStructure(islandB, i);

@@ -42,13 +42,13 @@ sealed unsafe partial class ImpactStructures
     internal BodyVelocity ChangeOf(int part) => Read(Memory(parts[part].Island).Bodies[part].Velocity);
 
     /// <summary>Makes the equations of a structure, and takes its joints' part out of the velocities. Once in a substep, until it leaves.</summary>
-    /// <param name="island">The structure.</param>
+    /// <param name="island">The structure, or -1: then nothing.</param>
     /// <param name="substep">The substep.</param>
     /// <param name="pairs">Pairs that may bounce.</param>
     /// <param name="groups">Their groups.</param>
     internal void Enter(int island, in Substep substep, ReadOnlySpan<BouncingPair> pairs, in ImpactGroups groups)
     {
-        if (isEntered[island])
+        if (island < 0 || isEntered[island])
             return;
         ReadBodies(island);
         ReadJoints(island, substep);
@@ -64,10 +64,10 @@ sealed unsafe partial class ImpactStructures
         FindGains(island, equations, pairs, groups);
     }
 
-    /// <summary>Puts back what the joints have yet to take.</summary>
+    /// <summary>Puts back what the joints have yet to take; nothing where there is no structure, -1.</summary>
     internal void Leave(int island)
     {
-        if (!isEntered[island])
+        if (island < 0 || !isEntered[island])
             return;
         isEntered[island] = false;
         var (first, end) = PartsOf(island);

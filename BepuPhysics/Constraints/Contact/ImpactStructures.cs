@@ -57,7 +57,10 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
     internal int Count => isEntered.Count;
 
     /// <summary>The structure of a body of the active set, or -1.</summary>
-    internal int IslandOf(int body) => places[body] >= 0 ? parts[places[body]].Island : Alone;
+    int IslandOf(int body) => places[body] >= 0 ? parts[places[body]].Island : Alone;
+
+    /// <summary>Those of the bodies of a pair, or -1.</summary>
+    internal (int A, int B) IslandsOf(in BouncingPair pair) => (IslandOf(pair.A), pair.B >= 0 ? IslandOf(pair.B) : Alone);
 
     /// <summary>Finds those of the bodies of some pairs.</summary>
     internal void Find(ref QuickList<BouncingPair> pairs)

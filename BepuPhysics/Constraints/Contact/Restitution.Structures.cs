@@ -11,8 +11,11 @@ sealed unsafe partial class Restitution
             for (int i = 0; i < owner.groups.CountOf(group) && !queue.IsEmpty; ++i)
             {
                 ref var pair = ref Pairs[owner.groups.Pair(group, i)];
-                if (pair.IsInStructure)
-                    Enter(pair, substep);
+                if (!pair.IsInStructure)
+                    continue;
+                var (a, b) = owner.structures.IslandsOf(pair);
+                owner.structures.Enter(a, substep, Pairs, owner.groups);
+                owner.structures.Enter(b, substep, Pairs, owner.groups);
             }
             // Their speeds are others now; and in the first substep nobody knew who is in joints.
             for (int i = 0; i < owner.groups.CountOf(group); ++i)
@@ -22,26 +25,16 @@ sealed unsafe partial class Restitution
             }
         }
 
-        readonly void Enter(in BouncingPair pair, in Substep substep)
-        {
-            if (owner.structures.IslandOf(pair.A) is >= 0 and var islandA)
-                owner.structures.Enter(islandA, substep, Pairs, owner.groups);
-            if (pair.B >= 0 && owner.structures.IslandOf(pair.B) is >= 0 and var islandB)
-                owner.structures.Enter(islandB, substep, Pairs, owner.groups);
-        }
-
         readonly void LeaveStructures(int group)
         {
-            var structures = owner.structures;
             for (int i = 0; i < owner.groups.CountOf(group); ++i)
             {
                 ref var pair = ref Pairs[owner.groups.Pair(group, i)];
                 if (!pair.IsInStructure)
                     continue;
-                if (structures.IslandOf(pair.A) is >= 0 and var islandA)
-                    structures.Leave(islandA);
-                if (pair.B >= 0 && structures.IslandOf(pair.B) is >= 0 and var islandB)
-                    structures.Leave(islandB);
+                var (a, b) = owner.structures.IslandsOf(pair);
+                owner.structures.Leave(a);
+                owner.structures.Leave(b);
             }
         }
 
