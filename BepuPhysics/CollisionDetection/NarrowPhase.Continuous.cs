@@ -237,7 +237,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 Exact.Cross(velocityB.Angular, contact.Offset - manifold.OffsetB);
             // What parts at that time was farther away on its way, as far as a line tells, and is not to be pushed by what the line makes of it.
             var closing = MathHelper.Max(0, -Exact.Dot(velocity, manifold.Normal));
-            manifold.AddDepth(i, -closing * tested.ImpactTime, manifold.Normal);
+            manifold.AddDepth(i, -closing * tested.ImpactTime);
             all += closing * tested.ImpactTime;
         }
         manifold.OffsetB -= manifold.Normal * (all / MathHelper.Max(1, manifold.Count));

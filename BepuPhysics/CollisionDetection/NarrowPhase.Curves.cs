@@ -44,7 +44,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (int i = 0; i < led.Count; ++i)
         {
             ConvexContactManifold.GetConvexContactReference(ref led, i).Offset += shift;
-            led.AddDepth(i, -below, normal);
+            led.AddDepth(i, -below);
         }
         return ref led;
     }

@@ -73,16 +73,15 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
         }
     }
 
-    /// <summary>Changes the depth of a contact whose place on one of the bodies is right: it stays halfway between the surfaces, if these are near.</summary>
+    /// <summary>Changes the depth of a contact whose place on A is right: it stays halfway between the surfaces, if these are near.</summary>
     /// <param name="index">Which contact.</param>
     /// <param name="change">What is added to its depth, m.</param>
-    /// <param name="normal">The normal, towards that body.</param>
-    internal void AddDepth(int index, float change, in Vector3 normal)
+    internal void AddDepth(int index, float change)
     {
         ref var contact = ref GetConvexContactReference(ref this, index);
         contact.Depth += change;
         if (!IsFar(contact, GreatestGap))
-            contact.Offset += normal * (0.5f * change);
+            contact.Offset += Normal * (0.5f * change);
     }
 
     /// <summary>Gap between the surfaces, m: zero where any contact touches, the mean of all contacts where none does.</summary>

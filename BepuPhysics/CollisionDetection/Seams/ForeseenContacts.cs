@@ -176,7 +176,7 @@ static class ForeseenContacts
         result.Manifold = foresight.Manifold;
         var moved = Exact.Dot(foresight.Rise, foresight.Manifold.Normal) - approach * foresight.Time;
         for (int i = 0; i < result.Manifold.Count; ++i)
-            result.Manifold.AddDepth(i, moved, result.Manifold.Normal);
+            result.Manifold.AddDepth(i, moved);
         result.MoveToParent(offsetB);
         child.Depth = result.Manifold.GreatestDepth;
         child.IsTurned = true;
