@@ -29,7 +29,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (Vector.LessThanAll(turnSquared, new Vector<float>(SlightPart * least * least)))
             return false;
         if (TJoint.HoldsPoints)
-            turnsFar |= IsRigid(prestep) & JointTurn.IsFar(impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, limit);
+            turnsFar |= IsCorrectedAtOnce(prestep) & JointTurn.IsFar(impulse, offsetA, inverseInertiaA, offsetB, inverseInertiaB, limit);
         var force = impulse * new Vector<float>(substep.InverseDt);
         var tensionA = GeometricStiffness.Tension(force, offsetA, inverseInertiaA, substep);
         var tensionB = GeometricStiffness.Tension(-force, offsetB, inverseInertiaB, substep);
@@ -66,7 +66,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             var motor = TJoint.Motor(prestep);
             return Vector.GreaterThanOrEqual(motor.MaximumForce, unlimited) & Vector.GreaterThanOrEqual(motor.Damping, unlimited);
         }
-        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
+        var isRigid = HasRigidSpring(prestep);
         return TJoint.Kind == RowKind.Servo ? isRigid & Vector.GreaterThanOrEqual(TJoint.Servo(prestep).MaximumForce, unlimited) : isRigid;
     }
 
@@ -80,15 +80,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         squareB = offsetB.LengthSquared();
     }
 
-    // Springs and speeds that a game asked for are what it gets.
+    // Whether an error may be corrected otherwise than a game asked for: springs and speeds that it chose are what it gets.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> IsRigid(in TPrestep prestep)
+    static Vector<int> IsCorrectedAtOnce(in TPrestep prestep)
     {
-        var isRigid = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
+        var isRigid = HasRigidSpring(prestep);
         if (TJoint.Kind == RowKind.Servo)
             isRigid &= Vector.Equals(TJoint.Servo(prestep).MaximumSpeed, new Vector<float>(float.MaxValue));
         return isRigid;
     }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> HasRigidSpring(in TPrestep prestep) => Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
 
     // A limit corrects only what is beyond it.
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -99,7 +102,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             error = TRows.Min(error, default);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
         var turnSquared = TurnSquared(bodies, geometry, inverseMass, error);
-        return IsRigid(prestep) & JointTurn.IsFar(turnSquared, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
+        return IsCorrectedAtOnce(prestep) & JointTurn.IsFar(turnSquared, TJoint.Kind == RowKind.Servo ? substep.Servos : substep.Joints);
     }
 
     // Square of the greatest angle by which correcting all of C turns a body: what it does to rotations is M^-1 J^T K^-1 C.
