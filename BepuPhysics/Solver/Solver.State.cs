@@ -39,14 +39,12 @@ public sealed unsafe partial class Solver
     /// <summary>Moves the places of the world that descriptions of constraints hold to where they are seen from a new origin.</summary>
     internal void ShiftOrigin(Vector3 shift)
     {
-        for (int i = 0; i < Sets.Length; ++i)
+        foreach (ref var set in Sets.AsSpan())
         {
-            ref var batches = ref Sets[i].Batches;
-            for (int j = 0; j < batches.Count; ++j)
+            foreach (ref var batch in set.Batches.AsSpan())
             {
-                ref var types = ref batches[j].TypeBatches;
-                for (int k = 0; k < types.Count; ++k)
-                    Processor(types[k].TypeId).ShiftOrigin(ref types[k], shift);
+                foreach (ref var typeBatch in batch.TypeBatches.AsSpan())
+                    Processor(typeBatch.TypeId).ShiftOrigin(ref typeBatch, shift);
             }
         }
     }
