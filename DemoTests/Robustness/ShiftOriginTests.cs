@@ -9,7 +9,10 @@ using BepuPhysics.Constraints;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Memory;
+using Demos.Accuracy;
+using Demos.References;
 using DemoTests.Quality;
+using DemoTests.Scenes;
 using DemoTests.Support;
 using DemoTests.Trees;
 using Xunit;
@@ -74,7 +77,7 @@ public class ShiftOriginTests(ITestOutputHelper output)
 
         public ConstraintHandle Grip { get; }
 
-        public DoubleVector Origin { get; private set; }
+        public Double3 Origin { get; private set; }
 
         public int Count => bodies.Count;
 
@@ -124,7 +127,8 @@ public class ShiftOriginTests(ITestOutputHelper output)
             Origin += shift;
         }
 
-        public DoubleVector Place(int body) => Simulation.Bodies[bodies[body]].Pose.Position + Origin;
+        // Floats could not hold it.
+        public Double3 Place(int body) => Simulation.Bodies[bodies[body]].Pose.Position + Origin;
 
         public double ImpulseOn(BodyHandle body)
         {
@@ -149,17 +153,6 @@ public class ShiftOriginTests(ITestOutputHelper output)
         }
     }
 
-    /// <summary>A place that floats could not hold.</summary>
-    readonly record struct DoubleVector(double X, double Y, double Z)
-    {
-        public static implicit operator DoubleVector(Vector3 v) => new(v.X, v.Y, v.Z);
-
-        public static DoubleVector operator +(DoubleVector a, DoubleVector b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
-
-        public double DistanceTo(DoubleVector other) =>
-            Math.Sqrt((X - other.X) * (X - other.X) + (Y - other.Y) * (Y - other.Y) + (Z - other.Z) * (Z - other.Z));
-    }
-
     [Theory, InlineData(1), InlineData(3)]
     public void All_goes_on_as_without(int threads)
     {
@@ -176,7 +169,7 @@ public class ShiftOriginTests(ITestOutputHelper output)
             Assert.Equal(still.Simulation.Bodies.ActiveSet.Count, shifted.Simulation.Bodies.ActiveSet.Count);
             double most = 0;
             for (int i = 0; i < still.Count; ++i)
-                most = Math.Max(most, still.Place(i).DistanceTo(shifted.Place(i)));
+                most = Math.Max(most, (still.Place(i) - shifted.Place(i)).Length);
             output.WriteLine($"{shift}: {most:e2} m");
             // Who swings and who is carried adds up what its places are rounded by.
             Assert.InRange(most, 0, 20 * Rounding);
@@ -204,26 +197,24 @@ public class ShiftOriginTests(ITestOutputHelper output)
         }
     }
 
+    static TestWorld WithoutGravity() => new(new AccuracySettings { Gravity = default });
+
     /// <summary>Far away a body that moves by less than its position can tell has moved once the origin comes near.</summary>
     [Theory, InlineData(0.01f), InlineData(-0.003f)]
     public void Nothing_that_a_body_has_moved_is_lost(float speed)
     {
-        using var pool = new BufferPool();
-        using var simulation = Simulation.Create(
-            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), SolveDescription.Default);
+        using var world = WithoutGravity();
         var far = new Vector3(1e6f, -3e5f, 2e6f);
-        var body = simulation.Bodies.Add(BodyDescription.CreateDynamic(
-            far, new BodyVelocity(new Vector3(speed)), new Sphere(1).ComputeInertia(1), simulation.Shapes.Add(new Sphere(1)), -1));
-        for (int i = 0; i < 60; ++i)
-            simulation.Timestep(1 / 60f);
-        Assert.Equal(far.X, simulation.Bodies[body].Pose.Position.X);
-        simulation.ShiftOrigin(far);
+        var body = world.Bodies[world.AddDynamic(new Sphere(1), 1, far, new BodyVelocity(new Vector3(speed)))];
+        world.Step(60);
+        Assert.Equal(far.X, body.Pose.Position.X);
+        world.Simulation.ShiftOrigin(far);
         // There and back: what rounding takes on the way is kept as well.
-        simulation.ShiftOrigin(-far);
-        simulation.ShiftOrigin(far);
-        Assert.InRange((simulation.Bodies[body].Pose.Position - new Vector3(speed)).Length(), 0, 1e-5 * Math.Abs(speed));
-        simulation.Timestep(1 / 60f);
-        Assert.InRange((simulation.Bodies[body].Pose.Position - new Vector3(speed) * (61f / 60)).Length(), 0, 1e-5 * Math.Abs(speed));
+        world.Simulation.ShiftOrigin(-far);
+        world.Simulation.ShiftOrigin(far);
+        Assert.InRange((body.Pose.Position - new Vector3(speed)).Length(), 0, 1e-5 * Math.Abs(speed));
+        world.Step();
+        Assert.InRange((body.Pose.Position - new Vector3(speed) * (61f / 60)).Length(), 0, 1e-5 * Math.Abs(speed));
     }
 
     [Fact]
@@ -275,23 +266,20 @@ public class ShiftOriginTests(ITestOutputHelper output)
     [Fact]
     public void A_world_that_follows_its_player_is_exact_far_away()
     {
-        using var pool = new BufferPool();
-        using var simulation = Simulation.Create(
-            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(Vector3.Zero), SolveDescription.Default);
-        var rocket = simulation.Bodies.Add(BodyDescription.CreateDynamic(
-            Vector3.Zero, new BodyVelocity(new Vector3(900, 0, 0.01f)), new Sphere(1).ComputeInertia(1), simulation.Shapes.Add(new Sphere(1)), -1));
-        var world = new DocSamples.LargeWorld(simulation);
+        using var world = WithoutGravity();
+        var rocket = world.Bodies[world.AddDynamic(new Sphere(1), 1, Vector3.Zero, new BodyVelocity(new Vector3(900, 0, 0.01f)))];
+        var follower = new DocSamples.LargeWorld(world.Simulation);
         const int steps = 6000;
         for (int i = 0; i < steps; ++i)
         {
-            simulation.Timestep(1 / 60f);
-            world.Follow(simulation.Bodies[rocket].Pose.Position);
+            world.Step();
+            follower.Follow(rocket.Pose.Position);
         }
-        var place = simulation.Bodies[rocket].Pose.Position;
+        var place = rocket.Pose.Position;
         // Float seconds are a sixtieth to seven digits; the ways of substeps are rounded, too, by half of 1e-6 m in a step.
         var time = steps * (double)(1 / 60f);
-        Assert.Equal(900 * time, world.X + place.X, steps * 5e-7);
-        Assert.Equal(0.01f * time, world.Z + place.Z, 1e-6);
+        Assert.Equal(900 * time, follower.X + place.X, steps * 5e-7);
+        Assert.Equal(0.01f * time, follower.Z + place.Z, 1e-6);
     }
 
     [Fact]
