@@ -141,21 +141,28 @@ run_scenes() {
     settle
 }
 
-# The invariants that inner loops rely on: they vanish from release builds, so nothing else ever asks them.
-build_with_checks() { dotnet build DemoTests -c Release -p:Validate=true; }
+# The invariants that inner loops rely on: they vanish from release builds, so nothing else ever asks them. They are in the two libraries, which take the
+# place of those without in a copy of the tests and of the runner beside them.
+checks=artifacts/bin/DemoTests/release_checks
+build_with_checks() {
+    rm -rf "$checks"
+    dotnet build BepuPhysics -c Release -p:Validate=true --no-restore || return 1
+    cp -r artifacts/bin/DemoTests/release "$checks" && cp artifacts/bin/BepuPhysics/release_checks/* "$checks"
+}
 
-# What adds, removes, moves and calls in all orders; a fault of an inner loop shows here or in a scene.
+# What adds, removes, moves and calls in all orders; a fault of an inner loop shows here or in a scene. Joints of all types in one tree meet the same
+# invariants as hundreds of trees of one type.
 test_with_checks() {
     local filter="" name
     for name in DemoTests.Utilities DemoTests.Trees DemoTests.Constraints ScrambleTests UnrelatedBodyTests HistoryTests FallbackTests RandomCalls; do
         filter="${filter:+$filter|}FullyQualifiedName~$name"
     done
-    dotnet test DemoTests -c Release -p:Validate=true --no-build --blame-hang-timeout 5m --blame-hang-dump-type none --filter "$filter"
+    dotnet test DemoTests -c Release -p:Validate=true --no-build --blame-hang-timeout 5m --blame-hang-dump-type none --filter "($filter)&FullyQualifiedName!~It_gains_no_energy"
 }
 
 # The analysers have read the same sources in the first build.
 run_debug_build() {
-    dotnet run -c Debug --project Demos --property:RunAnalyzers=false --property:EnforceCodeStyleInBuild=false \
+    dotnet run -c Debug --project Demos --no-restore --property:RunAnalyzers=false --property:EnforceCodeStyleInBuild=false \
         --property:GenerateDocumentationFile=false -- "$@"
 }
 
@@ -163,7 +170,7 @@ run_debug_build() {
 run_scenes_with_checks() {
     local name
     for name in $(awk '{ print $1 }' "$work/list"); do
-        begin "scene $name with checks" dotnet artifacts/bin/Demos/release_checks/Demos.dll run "$name" --steps 20
+        begin "scene $name with checks" dotnet "$checks/Demos.dll" run "$name" --steps 20
     done
 }
 
@@ -173,15 +180,15 @@ run_benchmarks() { dotnet artifacts/bin/Benchmarks/release/Benchmarks.dll smoke;
 step "build" build || finish
 step "pack" pack
 run_tests
-run_scenes
-if step "build with checks" build_with_checks; then
-    step "tests with checks" test_with_checks
-    run_scenes_with_checks
-fi
-# Without optimization too, as somebody who looks for a fault would.
-begin "scene in a debug build" run_debug_build run pile --steps 5
-begin "benchmarks, once each" run_benchmarks
+# From here on what uses one processor goes beside the rest.
+begin "build with checks" build_with_checks
 # White space; style and order are held by the build and by StyleTests.
 begin "format" dotnet format whitespace --verify-no-changes --no-restore
+begin "benchmarks, once each" run_benchmarks
+# Without optimization too, as somebody who looks for a fault would.
+begin "scene in a debug build" run_debug_build run pile --steps 5
+run_scenes
+step "tests with checks" test_with_checks
+run_scenes_with_checks
 settle
 finish
