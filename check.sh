@@ -157,7 +157,8 @@ test_with_checks() {
     for name in DemoTests.Utilities DemoTests.Trees DemoTests.Constraints ScrambleTests UnrelatedBodyTests HistoryTests FallbackTests RandomCalls; do
         filter="${filter:+$filter|}FullyQualifiedName~$name"
     done
-    dotnet test DemoTests -c Release -p:Validate=true --no-build --blame-hang-timeout 5m --blame-hang-dump-type none --filter "($filter)&FullyQualifiedName!~It_gains_no_energy"
+    dotnet test DemoTests -c Release -p:Validate=true --no-build --blame-hang-timeout 5m --blame-hang-dump-type none \
+        --filter "($filter)&FullyQualifiedName!~It_gains_no_energy"
 }
 
 # The analysers have read the same sources in the first build.
