@@ -3,7 +3,9 @@ using System.Collections.Generic;
 
 namespace Demos.References;
 
-/// <summary>A flat rigid body that slides and turns on a plane, and presses evenly on it: Coulomb's law in each point of its surface, in double precision.</summary>
+/// <summary>
+/// A flat rigid body that slides and turns on a plane, and presses evenly on it: Coulomb's law in each point of its surface, in double precision.
+/// </summary>
 sealed class EvenFriction
 {
     const double TimeStep = 5e-4;

@@ -60,9 +60,9 @@ public sealed unsafe partial class CollisionEvents
     public ReadOnlySpan<ContactEvent> Ended => AsSpan(ended);
     /// <summary>Pairs that met faster than <see cref="HitSpeed"/> and pushed; sensors never do.</summary>
     /// <remarks>
-    /// A hit is told of once. Where a step ends in the midst of it, with more than a twentieth of the speed of approach left, that is in the next one, with what both
-    /// have pushed, and the place and speed at which the two met. With a
-    /// <see cref="HitSpeed"/> of zero whatever pushes while it approaches is a hit, in each step.
+    /// A hit is told of once. Where a step ends in the midst of it, with more than a twentieth of the speed of approach left, that is in the next one, with
+    /// what both have pushed, and the place and speed at which the two met. With a <see cref="HitSpeed"/> of zero whatever pushes while it approaches is a
+    /// hit, in each step.
     /// </remarks>
     public ReadOnlySpan<ContactEvent> Hits => AsSpan(hits);
     /// <summary>Pairs that touch and did in the step before.</summary>

@@ -16,7 +16,9 @@ public struct ContactEvent
     public Vector3 Normal;
     /// <summary>Depth of the strongest contact when collisions were detected, m; negative where the surfaces were apart.</summary>
     public float Depth;
-    /// <summary>Sum of what all contacts pushed along their normals in the step, bounces included, N s; of hits in the step before, too, if they began in it.</summary>
+    /// <summary>
+    /// Sum of what all contacts pushed along their normals in the step, bounces included, N s; of hits in the step before, too, if they began in it.
+    /// </summary>
     public float Impulse;
     /// <summary>What friction pushed A with in the step, bounces included, N s; B was pushed the other way.</summary>
     public Vector3 FrictionImpulse;
