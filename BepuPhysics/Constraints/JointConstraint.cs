@@ -119,9 +119,12 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (TBodies.Count > 1) isHub |= BodySlots.At(ref bodies, 1).HubMask;
         if (TBodies.Count > 2) isHub |= BodySlots.At(ref bodies, 2).HubMask;
         if (TBodies.Count > 3) isHub |= BodySlots.At(ref bodies, 3).HubMask;
+        var spring = TJoint.Spring(prestep);
+        // How springs swing is not asked where there are none.
+        var coupling = spring.AreRigid ? Vector<float>.Zero : Coupling(prestep, isHub);
         return TJoint.Kind == RowKind.Servo ?
-            TJoint.Spring(prestep).ForSubstep(substep, substep.Servos, substep.RigidServos, isHub, Coupling(prestep, isHub)) :
-            TJoint.Spring(prestep).ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub, Coupling(prestep, isHub));
+            spring.ForSubstep(substep, substep.Servos, substep.RigidServos, isHub, coupling) :
+            spring.ForSubstep(substep, substep.Joints, substep.RigidJoints, isHub, coupling);
     }
 
     // How springs swing. A limit uses up its slack, and a servo has a speed of its own where that is limited: neither is a spring that is left to swing, and

@@ -82,6 +82,13 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     public readonly SoftnessWide ForSubstep(in Substep substep, in SubstepStiffness limits) =>
         ForSubstep(substep, new Vector<float>(limits.RigidFrequencyDt), new Vector<float>(limits.GreatestFrequencyDt), swings: false, Vector<float>.Zero);
 
+    /// <summary>Whether a game gave none of the lanes a frequency.</summary>
+    internal readonly bool AreRigid
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => Vector.EqualsAll(AngularFrequency, Vector<float>.Zero);
+    }
+
     /// <summary>Coefficients of a spring that swings as its damping ratio says, or of its relaxation, where some lanes have limits of their own.</summary>
     /// <param name="substep">The substep, and what its present sweep is for.</param>
     /// <param name="limits">How stiff the kind of constraint may be in it.</param>
@@ -92,7 +99,7 @@ public struct SpringSettingsWide : IWide<SpringSettings>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal readonly SoftnessWide ForSubstep(
         in Substep substep, in SubstepStiffness limits, in RigidSoftness rigid, Vector<int> hubMask, Vector<float> coupling) =>
-        Vector.EqualsAll(AngularFrequency, Vector<float>.Zero) ? rigid.Widen(hubMask) : ForSubstep(
+        AreRigid ? rigid.Widen(hubMask) : ForSubstep(
             substep,
             Least(limits.RigidFrequencyDt, substep.Hubs.RigidFrequencyDt, hubMask),
             Least(limits.GreatestFrequencyDt, substep.Hubs.GreatestFrequencyDt, hubMask),
