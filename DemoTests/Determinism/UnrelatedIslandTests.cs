@@ -19,28 +19,41 @@ public class UnrelatedIslandTests
         const int seeds = 6;
         for (int seed = block * seeds; seed < (block + 1) * seeds; ++seed)
         {
-            var alone = Run(seed, false);
-            var beside = Run(seed, true);
-            for (int step = 0; step < Steps; ++step)
+            var solve = (seed % 3) switch { 0 => SolveDescription.Default, 1 => SolveDescription.Accurate, _ => new SolveDescription(1, 2) };
+            solve.DirectJoints = (seed % 5) switch { 0 => DirectJointsMode.Always, 1 or 2 => DirectJointsMode.WhereNeeded, _ => DirectJointsMode.Off };
+            Compare(seed, solve);
+        }
+    }
+
+    /// <summary>
+    /// A bounce hides an overlap from the substeps, so contacts touch in some of them and not in others. Where the friction of a support acts was read again in
+    /// each of them only if the block of its island had others to do.
+    /// </summary>
+    [Fact]
+    public void What_is_hit_is_read_in_each_substep() =>
+        Compare(53, new SolveDescription(1, 4) { RelaxationIterationCount = 1, DirectJoints = DirectJointsMode.WhereNeeded });
+
+    static void Compare(int seed, in SolveDescription solve)
+    {
+        var alone = Run(seed, solve, false);
+        var beside = Run(seed, solve, true);
+        for (int step = 0; step < Steps; ++step)
+        {
+            for (int body = 0; body < alone[step].Length; ++body)
             {
-                for (int body = 0; body < alone[step].Length; ++body)
-                {
-                    var (expected, actual) = (alone[step][body], beside[step][body]);
-                    Assert.True(
-                        expected.Pose.Position.Equals(actual.Pose.Position) && expected.Pose.Orientation.Equals(actual.Pose.Orientation) &&
-                        expected.Velocity.Linear.Equals(actual.Velocity.Linear) && expected.Velocity.Angular.Equals(actual.Velocity.Angular),
-                        $"Seed {seed}, body {body} differs after step {step}: {expected.Pose.Position} became {actual.Pose.Position}.");
-                }
+                var (expected, actual) = (alone[step][body], beside[step][body]);
+                Assert.True(
+                    expected.Pose.Position.Equals(actual.Pose.Position) && expected.Pose.Orientation.Equals(actual.Pose.Orientation) &&
+                    expected.Velocity.Linear.Equals(actual.Velocity.Linear) && expected.Velocity.Angular.Equals(actual.Velocity.Angular),
+                    $"Seed {seed}, body {body} differs after step {step}: {expected.Pose.Position} became {actual.Pose.Position}.");
             }
         }
     }
 
-    static List<MotionState[]> Run(int seed, bool hasOther)
+    static List<MotionState[]> Run(int seed, in SolveDescription solve, bool hasOther)
     {
         var pool = new BufferPool();
         using var dispatcher = seed % 2 == 0 ? new ThreadDispatcher(2) : null;
-        var solve = (seed % 3) switch { 0 => SolveDescription.Default, 1 => SolveDescription.Accurate, _ => new SolveDescription(1, 2) };
-        solve.DirectJoints = (seed % 5) switch { 0 => DirectJointsMode.Always, 1 or 2 => DirectJointsMode.WhereNeeded, _ => DirectJointsMode.Off };
         var gravity = new Vector3(0, (seed % 4) switch { 0 => -1.6f, 1 => -30, 2 => -9.81f, _ => 0 }, 0);
         var simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(gravity), solve);
         var sleepThreshold = seed % 2 == 0 ? 0.01f : -1;

@@ -6,7 +6,7 @@ namespace BepuPhysics.Constraints.Contact;
 // What is done with an island that has something to hand down.
 sealed unsafe partial class LoadPathStage
 {
-    void Transfer(int island, ref Room room, int block, float dt)
+    void Transfer(int island, int block, float dt)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
@@ -17,12 +17,14 @@ sealed unsafe partial class LoadPathStage
             return;
         var firstSupport = first.FirstSupport;
         var floor = MotionOf(first, dt);
-        var supports = ReadSupports(island, ref room);
+        var supports = ReadSupports(island, block);
         for (int i = end - 1; i >= start; --i)
         {
             ref var node = ref graph.Nodes[i];
             if (node.HasLoad && !node.Leans)
                 HandDown(ref node, SupportsOf(node, supports, firstSupport), floor);
+            else if (node.HasLoad)
+                Keep(SupportsOf(node, supports, firstSupport));
         }
         // Of tens of milliseconds for some hundreds of bricks, that is for who asks for it.
         var mayTip = Mode == LoadPathMode.Always && SupportGraph.MayTip(end - start);
@@ -36,7 +38,7 @@ sealed unsafe partial class LoadPathStage
             Shorten(start, end, supports, floor);
         }
         if (first.IsRelaxed || isColumn || tips)
-            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + room.Start, supports.Length), block, isColumn, floor);
+            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + rooms[block], supports.Length), block, isColumn, floor);
         Apply(start, end, supports, floor);
     }
 
@@ -92,13 +94,11 @@ sealed unsafe partial class LoadPathStage
         return bottoms == 1;
     }
 
-    Span<LoadSupport> ReadSupports(int island, ref Room room)
+    // In each substep: what a bounce hides of an overlap, depths do not say in that substep, and friction acts where contacts touch.
+    Span<LoadSupport> ReadSupports(int island, int block)
     {
         var first = FirstSupport(island);
-        var read = new Span<LoadSupport>(supports.Memory + room.Start, EndOfSupports(island) - first);
-        if (room.Island == island)
-            return read;
-        room.Island = island;
+        var read = new Span<LoadSupport>(supports.Memory + rooms[block], EndOfSupports(island) - first);
         for (int i = 0; i < read.Length; ++i)
             read[i] = new LoadSupport(graph.Links[first + i]);
         return read;
@@ -155,6 +155,13 @@ sealed unsafe partial class LoadPathStage
             lower.Angular -= angular - Exact.Cross(support.ToLower, linear);
             lower.HasLoad = true;
         }
+    }
+
+    // What leans hands nothing down: what bears it stays as the sweeps have it.
+    static void Keep(Span<LoadSupport> supports)
+    {
+        foreach (ref var support in supports)
+            support.Read();
     }
 
     // As far as it lowers the kinetic energy of the island, to who moves along with its floor, and no farther than all of it. Both ends obey what bounds

@@ -46,7 +46,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     Buffer<PatchRelaxation> patches;
     // The same for columns; not there if none sways.
     Buffer<ColumnBlock> columns;
-    readonly Room[] rooms = new Room[MaximumBlocks];
+    // Where each block reads the supports of an island.
+    readonly int[] rooms = new int[MaximumBlocks];
     // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
     readonly bool[] holdsLone = new bool[MaximumBlocks];
@@ -119,7 +120,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                    Transfer(island, ref rooms[block], block, substep.Dt);
+                    Transfer(island, block, substep.Dt);
                 break;
             case SolverPoint.AfterSubsteps:
                 if (HasFloors || hasTipped.AsSpan(0, blockCount).Contains(true))
@@ -207,14 +208,6 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         return byHandle;
     }
 
-    // Where a block reads the supports of its islands, one after the other.
-    struct Room
-    {
-        public int Start;
-        // The island whose supports are there; negative for none.
-        public int Island;
-    }
-
     void MakeRooms()
     {
         int count = 0;
@@ -223,7 +216,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             int largest = 0;
             for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
                 largest = Math.Max(largest, EndOfSupports(island) - FirstSupport(island));
-            rooms[block] = new() { Start = count, Island = -1 };
+            rooms[block] = count;
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
