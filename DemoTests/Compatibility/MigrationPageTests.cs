@@ -38,6 +38,7 @@ public partial class MigrationPageTests
         ["rays of a"] = "SmallNamesTests.Batched_rays_hit_what_single_ones_hit",
         ["default(SpringSettings)"] = "MigrationTests.Springs_without_a_frequency_are_rigid",
         ["a frequency above"] = "MigrationTests.Frequencies_are_capped",
+        ["springs below critical damping"] = "SpringStepTests.It_swings_and_hangs_as_its_settings_say",
         ["AngularMotor."] = "MotorSceneTests.An_angular_motor_turns_A_against_B",
         ["bounces"] = "SurfaceCallbacksTests.Surfaces_bounce_pair_by_pair",
         ["friction of a patch"] = "SlopeTests.Case",
