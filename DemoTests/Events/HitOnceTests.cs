@@ -16,17 +16,6 @@ namespace DemoTests.Events;
 /// </summary>
 public class HitOnceTests(ITestOutputHelper output)
 {
-    const float Gravity = 9.81f;
-    const float Mass = 2;
-
-    public enum Falling
-    {
-        Ball,
-        FlatBox,
-        BoxOnEdge,
-        BallOnMesh,
-    }
-
     [Theory]
     [InlineData(Falling.Ball)]
     [InlineData(Falling.FlatBox)]
@@ -49,22 +38,22 @@ public class HitOnceTests(ITestOutputHelper output)
             {
                 var before = world.Velocity;
                 world.Simulation.Timestep(dt);
-                pushed += Mass * (world.Velocity - before + Gravity * dt);
+                pushed += FallingWorld.Mass * (world.Velocity - before + FallingWorld.Gravity * dt);
                 later += hasBegun ? 1 : 0;
                 hasBegun |= world.Simulation.Events.Began.Length > 0;
-                hit = world.OnlyHit();
+                hit = OnlyHit(world);
             }
             Assert.NotNull(hit);
             var told = hit.Value;
             worst.Momentum = Math.Max(worst.Momentum, Math.Abs(told.Impulse / pushed - 1));
             // What leaves again has been pushed by more; a twentieth may be left, and an edge turns as it is hit.
-            Assert.InRange(told.Impulse, .9f * Mass * told.ApproachSpeed, 1.2f * Mass * told.ApproachSpeed);
+            Assert.InRange(told.Impulse, .9f * FallingWorld.Mass * told.ApproachSpeed, 1.2f * FallingWorld.Mass * told.ApproachSpeed);
             Assert.Equal(1, told.Normal.Y, 1e-3);
             // The rebound is slower than a hit, so nothing follows.
             for (int i = 0; i < 3; ++i)
             {
                 world.Simulation.Timestep(dt);
-                Assert.Null(world.OnlyHit());
+                Assert.Null(OnlyHit(world));
             }
         }
         output.WriteLine($"wrong by {worst.Momentum:e1} of the momentum, told a step later {later} times of 40");
@@ -106,121 +95,82 @@ public class HitOnceTests(ITestOutputHelper output)
     [Fact]
     public void Who_is_removed_in_the_midst_of_a_hit_has_hit()
     {
-        using var world = FallingWorld.InTheMidstOfAHit(out var dt);
+        using var world = InTheMidstOfAHit(out var dt);
         world.Simulation.Bodies.Remove(world.Body);
         world.Simulation.Timestep(dt);
-        var hit = world.OnlyHit();
+        var hit = OnlyHit(world);
         Assert.NotNull(hit);
         Assert.Equal(world.Body, hit.Value.Pair.A.BodyHandle);
         Assert.InRange(hit.Value.Impulse, 1e-3f, float.MaxValue);
         Assert.Equal(0, world.Simulation.Events.Contacts(hit.Value).Length);
         Assert.Equal(1, world.Simulation.Events.Ended.Length);
         world.Simulation.Timestep(dt);
-        Assert.Null(world.OnlyHit());
+        Assert.Null(OnlyHit(world));
     }
 
     [Fact]
     public void Who_is_listened_to_no_more_is_not_told_of()
     {
-        using var world = FallingWorld.InTheMidstOfAHit(out var dt);
+        using var world = InTheMidstOfAHit(out var dt);
         world.Simulation.Events.Listen(world.Body, EventMask.Begin);
         for (int i = 0; i < 3; ++i)
         {
             world.Simulation.Timestep(dt);
-            Assert.Null(world.OnlyHit());
+            Assert.Null(OnlyHit(world));
         }
     }
 
     [Fact]
     public void Who_is_put_to_sleep_in_the_midst_of_a_hit_has_hit()
     {
-        using var world = FallingWorld.InTheMidstOfAHit(out var dt);
+        using var world = InTheMidstOfAHit(out var dt);
         var body = world.Simulation.Bodies[world.Body];
         body.Awake = false;
         world.Simulation.Timestep(dt);
-        Assert.NotNull(world.OnlyHit());
+        Assert.NotNull(OnlyHit(world));
         world.Simulation.Timestep(dt);
-        Assert.Null(world.OnlyHit());
+        Assert.Null(OnlyHit(world));
     }
 
     [Fact]
     public void A_world_that_is_restored_in_the_midst_of_a_hit_tells_the_same()
     {
-        using var world = FallingWorld.InTheMidstOfAHit(out var dt);
+        using var world = InTheMidstOfAHit(out var dt);
         using var snapshot = new SimulationSnapshot(world.Simulation.BufferPool);
         world.Simulation.Save(snapshot);
         world.Simulation.Timestep(dt);
-        var told = world.OnlyHit();
+        var told = OnlyHit(world);
         Assert.NotNull(told);
         world.Simulation.Timestep(dt);
         world.Simulation.Restore(snapshot);
         world.Simulation.Timestep(dt);
-        var again = world.OnlyHit();
+        var again = OnlyHit(world);
         Assert.NotNull(again);
         Assert.Equal(told.Value.Impulse, again.Value.Impulse);
         Assert.Equal(told.Value.ApproachSpeed, again.Value.ApproachSpeed);
         Assert.Equal(told.Value.Position, again.Value.Position);
     }
 
-    sealed class FallingWorld : IDisposable
+    // A step in which a ball begins to touch, and is not told of as a hit yet.
+    static FallingWorld InTheMidstOfAHit(out float dt)
     {
-        readonly BufferPool pool = new();
-
-        internal Simulation Simulation { get; }
-        internal BodyHandle Body { get; }
-
-        internal FallingWorld(Falling falling, float height)
+        dt = 1 / 60f;
+        for (int i = 0; i < 100; ++i)
         {
-            Simulation = Simulation.Create(
-                pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(new Vector3(0, -Gravity, 0)), SolveDescription.Default);
-            if (falling == Falling.BallOnMesh)
-            {
-                pool.Take<Triangle>(2, out var triangles);
-                triangles[0] = new(new(-50, 0, -50), new(50, 0, -50), new(50, 0, 50));
-                triangles[1] = new(new(-50, 0, -50), new(50, 0, 50), new(-50, 0, 50));
-                Simulation.Statics.Add(new(Vector3.Zero, Simulation.Shapes.Add(new Mesh(triangles, Vector3.One, pool))));
-            }
-            else
-            {
-                Simulation.Statics.Add(new(new Vector3(0, -.5f, 0), Simulation.Shapes.Add(new Box(100, 1, 100))));
-            }
-            var turn = falling == Falling.BoxOnEdge ? Quaternion.CreateFromAxisAngle(Vector3.UnitZ, MathF.PI / 4) : Quaternion.Identity;
-            var pose = new RigidPose(new Vector3(0, height + .25f, 0), turn);
-            Body = falling is Falling.Ball or Falling.BallOnMesh
-                ? Simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(pose, Mass, Simulation.Shapes, new Sphere(.25f)))
-                : Simulation.Bodies.Add(BodyDescription.CreateConvexDynamic(pose, Mass, Simulation.Shapes, new Box(.5f, .5f, .5f)));
-            Simulation.Events.Listen(Body, EventMask.Begin | EventMask.End | EventMask.Hit);
+            var world = new FallingWorld(Falling.Ball, 2 + .01f * i);
+            while (world.Simulation.Events.Began.Length == 0)
+                world.Simulation.Timestep(dt);
+            if (world.Simulation.Events.Hits.Length == 0)
+                return world;
+            world.Dispose();
         }
+        throw new InvalidOperationException("All hits of a hundred falls were told of in the step in which they began.");
+    }
 
-        internal float Velocity => Simulation.Bodies[Body].Velocity.Linear.Y;
-
-        // A step in which a ball begins to touch, and is not told of as a hit yet.
-        internal static FallingWorld InTheMidstOfAHit(out float dt)
-        {
-            dt = 1 / 60f;
-            for (int i = 0; i < 100; ++i)
-            {
-                var world = new FallingWorld(Falling.Ball, 2 + .01f * i);
-                while (world.Simulation.Events.Began.Length == 0)
-                    world.Simulation.Timestep(dt);
-                if (world.Simulation.Events.Hits.Length == 0)
-                    return world;
-                world.Dispose();
-            }
-            throw new InvalidOperationException("All hits of a hundred falls were told of in the step in which they began.");
-        }
-
-        internal ContactEvent? OnlyHit()
-        {
-            var hits = Simulation.Events.Hits;
-            Assert.InRange(hits.Length, 0, 1);
-            return hits.Length == 0 ? null : hits[0];
-        }
-
-        public void Dispose()
-        {
-            Simulation.Dispose();
-            pool.Dispose();
-        }
+    static ContactEvent? OnlyHit(FallingWorld world)
+    {
+        var hits = world.Simulation.Events.Hits;
+        Assert.InRange(hits.Length, 0, 1);
+        return hits.Length == 0 ? null : hits[0];
     }
 }

@@ -183,11 +183,11 @@ static unsafe class MeshBuilder
         }
         finally
         {
-            Return(ref indices, pool);
-            Return(ref order, pool);
-            Return(ref edges, pool);
-            Return(ref normals, pool);
-            Return(ref nodes.Span, pool);
+            pool.ReturnIfTaken(ref indices);
+            pool.ReturnIfTaken(ref order);
+            pool.ReturnIfTaken(ref edges);
+            pool.ReturnIfTaken(ref normals);
+            pool.ReturnIfTaken(ref nodes.Span);
         }
     }
 
@@ -227,11 +227,6 @@ static unsafe class MeshBuilder
             numbers[point] = ++count;
         }
         return numbers[point] - 1;
-    }
-
-    static void Return<T>(ref Buffer<T> buffer, BufferPool pool) where T : unmanaged
-    {
-        pool.ReturnIfTaken(ref buffer);
     }
 
     /// <summary>Refuses a scale that has no inverse.</summary>

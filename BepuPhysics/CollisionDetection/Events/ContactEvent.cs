@@ -20,7 +20,7 @@ public struct ContactEvent
     /// Sum of what all contacts pushed along their normals in the step, bounces included, N s; of hits in the step before, too, if they began in it.
     /// </summary>
     public float Impulse;
-    /// <summary>What friction pushed A with in the step, bounces included, N s; B was pushed the other way.</summary>
+    /// <summary>What friction pushed A with in the same time, bounces included, N s; B was pushed the other way.</summary>
     public Vector3 FrictionImpulse;
     /// <summary>
     /// Greatest speed at which surfaces approached along the normal before the step pushed them, with what gravity gives until they meet, m/s; negative where

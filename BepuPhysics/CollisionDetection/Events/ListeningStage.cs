@@ -203,11 +203,11 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
     internal void Release()
     {
         bundles.DisposeIfTaken(pool);
-        Return(ref states);
-        Return(ref centers);
-        Return(ref firstBundles);
-        Return(ref ours);
-        Return(ref measured);
+        pool.ReturnIfTaken(ref states);
+        pool.ReturnIfTaken(ref centers);
+        pool.ReturnIfTaken(ref firstBundles);
+        pool.ReturnIfTaken(ref ours);
+        pool.ReturnIfTaken(ref measured);
         Abandon();
     }
 
@@ -238,11 +238,5 @@ sealed unsafe class ListeningStage(Solver solver, Bodies bodies, BufferPool pool
     {
         if (buffer.Length < count)
             pool.ResizeToAtLeast(ref buffer, count, 0);
-    }
-
-    void Return<T>(ref Buffer<T> buffer) where T : unmanaged
-    {
-        pool.ReturnIfTaken(ref buffer);
-        buffer = default;
     }
 }

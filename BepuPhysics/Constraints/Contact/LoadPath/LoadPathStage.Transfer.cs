@@ -21,10 +21,14 @@ sealed unsafe partial class LoadPathStage
         for (int i = end - 1; i >= start; --i)
         {
             ref var node = ref graph.Nodes[i];
-            if (node.HasLoad && !node.Leans)
-                HandDown(ref node, SupportsOf(node, supports, firstSupport), floor);
-            else if (node.HasLoad)
-                Keep(SupportsOf(node, supports, firstSupport));
+            if (!node.HasLoad)
+                continue;
+            var carrying = SupportsOf(node, supports, firstSupport);
+            foreach (ref var support in carrying)
+                support.Read();
+            // What leans hands nothing down: what bears it stays as the sweeps have it.
+            if (!node.Leans)
+                HandDown(ref node, carrying, floor);
         }
         // Of tens of milliseconds for some hundreds of bricks, that is for who asks for it.
         var mayTip = Mode == LoadPathMode.Always && SupportGraph.MayTip(end - start);
@@ -112,7 +116,7 @@ sealed unsafe partial class LoadPathStage
         for (int i = start; i < end; ++i)
         {
             ref var node = ref graph.Nodes[i];
-            var isRead = node.HasLoad && !node.Leans;
+            var isRead = node.HasLoad;
             node.HasLoad = true;
             for (int j = node.FirstSupport - firstSupport; j < node.FirstSupport - firstSupport + node.SupportCount; ++j)
             {
@@ -139,8 +143,6 @@ sealed unsafe partial class LoadPathStage
         ref var set = ref bodies.Awake;
         ref var motion = ref set.MotionStates[node.Body];
         ref var inertia = ref set.WorldInertias[node.Body];
-        foreach (ref var support in supports)
-            support.Read();
         LoadTransfer.Find(supports, (motion.Velocity.Linear - floor.At(motion.Pose.Position - node.Lag)) * (1 / inertia.InverseMass) + node.Linear,
             Symmetric3x3.Invert(inertia.InverseInertiaTensor) * (motion.Velocity.Angular - floor.Angular) + node.Angular, node.Radius);
         foreach (ref var support in supports)
@@ -155,13 +157,6 @@ sealed unsafe partial class LoadPathStage
             lower.Angular -= angular - Exact.Cross(support.ToLower, linear);
             lower.HasLoad = true;
         }
-    }
-
-    // What leans hands nothing down: what bears it stays as the sweeps have it.
-    static void Keep(Span<LoadSupport> supports)
-    {
-        foreach (ref var support in supports)
-            support.Read();
     }
 
     // As far as it lowers the kinetic energy of the island, to who moves along with its floor, and no farther than all of it. Both ends obey what bounds
