@@ -50,7 +50,7 @@ public class WorldLawTests(ITestOutputHelper output)
     public void Order_of_adding_means_nothing(string scene) => AssertAlike(scene, new() { IsReversed = true }, new(), 1e-3);
 
     [Theory, MemberData(nameof(Scenes))]
-    public void Floor_that_rests_may_be_a_body(string scene) => AssertAlike(scene, new() { HasKinematicFloors = true }, new(), 1e-4);
+    public void Floor_that_rests_may_be_a_body(string scene) => AssertAlike(scene, new() { HasKinematicFloors = true }, new(), 1e-3);
 
     // A power of two changes no rounding: any difference is a number somewhere that should have been relative.
     [Theory, MemberData(nameof(Scenes))]

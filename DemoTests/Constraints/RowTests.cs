@@ -250,9 +250,12 @@ public class RowTests
         var rows = bench.Rows(substep);
         var velocities = bench.Velocities;
         double[] impulses = [.. rows.Select(row => (double)row.Impulse)];
+        double[] pressedVelocities = [], pressedImpulses = [];
         for (int start = 0; start < rows.Length;)
         {
             var limit = bench.Processor.LimitOf(start);
+            if (limit == RowLimit.Friction)
+                (pressedVelocities, pressedImpulses) = ([.. velocities], [.. impulses]);
             var count = limit == RowLimit.Friction ? 2 : IsContact(typeId) ? 1 : rows.Length;
             var block = rows[start..(start + count)];
             var first = start;
@@ -278,6 +281,8 @@ public class RowTests
             for (int i = 0; i < velocities.Length; ++i)
                 velocities[i] += response[i];
         }
+        if (IsContact(typeId))
+            SlidingReference.Slide(bench, typeId, rows, pressedVelocities, pressedImpulses, velocities, impulses);
         return (velocities, impulses);
     }
 
@@ -333,7 +338,7 @@ public class RowTests
         return x;
     }
 
-    static double Dot(double[] a, double[] b) => a.Zip(b, (x, y) => x * y).Sum();
+    internal static double Dot(double[] a, double[] b) => a.Zip(b, (x, y) => x * y).Sum();
 
     internal static void AssertClose(double[] expected, double[] actual, string what)
     {

@@ -116,16 +116,17 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
             if (anyHeld && prestep.Material.TurnsAlong != Vector<int>.Zero)
                 TurnTogether(bodies, substep, prestep.Normal, prestep.Material.TurnsAlong, ref rubbedA, ref rubbedB);
         }
-        SolveFriction(ref bodies, prestep.Normal, rubbedA, rubbedB, coefficient * load, ref impulses.Friction);
+        var maximum = coefficient * load;
+        var moment = Vector<float>.Zero;
         if (TContacts.Count > 1)
         {
-            var moment = Vector<float>.Zero;
             for (int i = 0; i < TContacts.Count; ++i)
                 moment += impulses.Normals[i] * (prestep.Contacts[i].OffsetA - center).Length();
-            SolveTwist(ref bodies, prestep.Normal, coefficient * moment, ref impulses.Twist);
+            moment *= coefficient;
         }
-        else
-            SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
+        if (MaySlide(ref prestep, impulses, maximum, moment) == Vector<int>.Zero ||
+            !Slide(ref bodies, substep.InverseDt, ref prestep, ref impulses, center, rubbedA, rubbedB, load, maximum, moment))
+            Hold(ref bodies, ref prestep, ref impulses, center, rubbedA, rubbedB, load, maximum, moment);
         if (MayRestAlone && rests != Vector<int>.Zero)
             LeaveAtRest(rests, before, ref BodySlots.At(ref bodies, 0), ref impulses);
     }
