@@ -56,6 +56,9 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the slack.</summary>
     static abstract void PositionError(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows error);
 
+    /// <summary>Turns the rows, whose error is that of where <see cref="Prepare"/> has put them, to where they act.</summary>
+    static virtual void LeanRows(in TBodies bodies, in TPrestep prestep, ref TGeometry geometry) { }
+
     /// <summary>J v that a motor is to bring about; asked for only where <see cref="Kind"/> is <see cref="RowKind.Motor"/>.</summary>
     static virtual void TargetVelocity(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows velocity) => velocity = default;
 

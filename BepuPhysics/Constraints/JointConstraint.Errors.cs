@@ -50,6 +50,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             MoveBack(ref BodySlots.At(ref before, slot), new Vector<float>(0.5f * substep.Dt));
         TJoint.Prepare(before, prestep, out var geometry);
         TJoint.PositionError(before, prestep, geometry, out var error);
+        TJoint.LeanRows(before, prestep, ref geometry);
         TJoint.RelativeVelocity(geometry, before, out var velocity);
         Vector<float> linearGap = Vector<float>.Zero, linearAlong = Vector<float>.Zero;
         Vector<float> angularGap = Vector<float>.Zero, angularAlong = Vector<float>.Zero;

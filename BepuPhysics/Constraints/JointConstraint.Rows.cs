@@ -75,6 +75,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         Aim(bodies, substep, prestep, geometry, error, out var target, out var softness, out var isHard);
         if (IsLimited && substep.IsRelaxation)
             softness = default;

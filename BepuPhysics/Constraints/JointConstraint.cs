@@ -51,6 +51,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (substep.WarmStartScale != 1)
             impulses *= new Vector<float>(substep.WarmStartScale);
         TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.ApplyImpulse(geometry, ref bodies, impulses);
     }
 
@@ -76,6 +77,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             return;
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
         var softness = Softness(ref bodies, substep, prestep);

@@ -137,6 +137,7 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
     public override double[] RelativeVelocity(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         return Read(ref velocity, RowCount, lane);
     }
@@ -150,12 +151,14 @@ sealed class JointProbe<TDescription, TWide, TBodies, TGeometry, TRows, TMass, T
     public override void ApplyImpulse()
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.ApplyImpulse(geometry, ref bodies, impulses);
     }
 
     public override double[,] InverseEffectiveMass(int lane)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
+        TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.InverseEffectiveMass(geometry, bodies, out var mass);
         return RowMatrices.Dense(mass, lane);
     }

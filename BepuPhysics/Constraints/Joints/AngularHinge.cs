@@ -61,5 +61,10 @@ readonly struct AngularHingeJoint : IJacobianJoint<TwoBodies, AngularHingeWide, 
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void LeanRows(in TwoBodies bodies, in AngularHingeWide prestep, ref AngularTangentRows geometry) =>
+        WheelTangents.Lean(bodies, prestep.LocalHingeAxisB, Vector3Wide.Zero, ref geometry.TangentX, ref geometry.TangentY);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in AngularHingeWide prestep) => prestep.SpringSettings;
 }

@@ -79,5 +79,10 @@ readonly struct HingeJoint : IPointJoint<TwoBodies, HingeWide, PointAndTangentRo
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void LeanRows(in TwoBodies bodies, in HingeWide prestep, ref PointAndTangentRows geometry) =>
+        WheelTangents.Lean(bodies, prestep.LocalHingeAxisB, geometry.OffsetB, ref geometry.TangentX, ref geometry.TangentY);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static SpringSettingsWide Spring(in HingeWide prestep) => prestep.SpringSettings;
 }
