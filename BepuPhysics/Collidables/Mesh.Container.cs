@@ -201,8 +201,13 @@ public unsafe partial struct Mesh : IContainer
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
     {
-        GetCenteredChild(index, out *(Triangle*)scratch, out var center);
-        child = new() { TypeId = Triangle.TypeId, Shape = scratch, Pose = new(center) };
+        Unsafe.SkipInit(out child);
+        // Field by field: what is made elsewhere first is copied as a whole, and waits for its parts.
+        GetCenteredChild(index, out *(Triangle*)scratch, out child.Pose.Position);
+        child.Pose.Orientation = Quaternion.Identity;
+        child.TypeId = Triangle.TypeId;
+        child.Shape = scratch;
+        child.Name = default;
         GetCone(index, out child.Cone);
     }
 }

@@ -169,7 +169,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void CompleteChildren(int workerIndex, int pairId, Vector3 offsetB, Span<ChildResult> results)
     {
         ref var worker = ref workers[workerIndex];
-        var tested = worker.TestedPairs.Take(pairId, worker.Pool);
+        worker.TestedPairs.Take(pairId, worker.Pool, out var tested);
         if (tested.IsSensor)
         {
             NoteSensed(workerIndex, tested.Pair, results);

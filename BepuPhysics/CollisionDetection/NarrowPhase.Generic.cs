@@ -241,7 +241,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     void OnPairCompleted<TManifold>(int workerIndex, int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
     {
         ref var worker = ref workers[workerIndex];
-        Complete(workerIndex, worker.TestedPairs.Take(pairId, worker.Pool), ref manifold);
+        worker.TestedPairs.Take(pairId, worker.Pool, out var tested);
+        Complete(workerIndex, tested, ref manifold);
     }
 
     void Complete<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>

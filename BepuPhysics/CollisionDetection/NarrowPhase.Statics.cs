@@ -373,8 +373,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             OrientationB = poseB.Orientation,
         };
         var dt = workers[0].Batcher.Dt;
-        var motion = new ChildMotion(VelocityOf(pair.Tested.Pair.A), VelocityOf(pair.Tested.Pair.B), default, shapes.OffsetB, dt);
-        child.Placed.Write(shapes, motion, moverIsB: false, pair.Tested.SpeculativeMargin);
+        child.Placed.Motion.Write(VelocityOf(pair.Tested.Pair.A), VelocityOf(pair.Tested.Pair.B), default, shapes.OffsetB, dt);
+        child.Placed.Write(shapes, moverIsB: false, pair.Tested.SpeculativeMargin);
     }
 
     void HandOn(ref Worker worker, int place)

@@ -29,8 +29,13 @@ public static class Lanes
         where TScalar : unmanaged where TWide : unmanaged, IWide<TScalar>
     {
         CheckShape<TScalar, TWide>(lane);
-        Unsafe.SkipInit(out TScalar result);
         ref var from = ref Unsafe.Add(ref Unsafe.As<TWide, float>(ref source), lane);
+        // What lives in one register is put together there: read as a whole from where it was written by its parts, it would wait for these.
+        if (typeof(TScalar) == typeof(Vector3))
+            return Unsafe.BitCast<Vector3, TScalar>(new(from, Row(ref from, 1), Row(ref from, 2)));
+        if (typeof(TScalar) == typeof(Quaternion))
+            return Unsafe.BitCast<Quaternion, TScalar>(new(from, Row(ref from, 1), Row(ref from, 2), Row(ref from, 3)));
+        Unsafe.SkipInit(out TScalar result);
         ref var to = ref Unsafe.As<TScalar, float>(ref result);
         for (int i = 0; i < Unsafe.SizeOf<TScalar>() / sizeof(float); ++i)
             Unsafe.Add(ref to, i) = Unsafe.Add(ref from, i * Vector<float>.Count);
@@ -62,6 +67,9 @@ public static class Lanes
         for (int i = 0; i < Unsafe.SizeOf<TWide>() / Unsafe.SizeOf<Vector<float>>(); ++i)
             Unsafe.Add(ref to, i * Vector<float>.Count) = Unsafe.Add(ref from, i * Vector<float>.Count);
     }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static float Row(ref float first, int row) => Unsafe.Add(ref first, row * Vector<float>.Count);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void CheckShape<TScalar, TWide>(int lane)

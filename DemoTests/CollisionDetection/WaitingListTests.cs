@@ -20,7 +20,8 @@ public class WaitingListTests
         for (int i = 0; i < 10; ++i)
         {
             Assert.Equal(0, list.Add(i, pool));
-            Assert.Equal(i, list.Take(0, pool));
+            list.Take(0, pool, out var taken);
+            Assert.Equal(i, taken);
             Assert.Equal(64ul, pool.GetTotalTakenByteCount());
         }
         list.Dispose(pool);
@@ -51,7 +52,8 @@ public class WaitingListTests
             var index = random.Next(waiting.Count);
             var (taken, item) = waiting[index];
             Assert.Equal(item, list[taken]);
-            Assert.Equal(item, list.Take(taken, pool));
+            list.Take(taken, pool, out var found);
+            Assert.Equal(item, found);
             waiting.RemoveAt(index);
         }
         list.Dispose(pool);

@@ -134,8 +134,9 @@ unsafe struct ChildPairs(BufferPool pool)
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
         {
-            var motion = new ChildMotion(target.Motion.A, target.Motion.B, shapes.OffsetA, target.OffsetB, target.Dt);
-            target.Placed[target.SlotCount].Write(shapes, motion, target.MoverIsB, target.SpeculativeMargin);
+            ref var placed = ref target.Placed[target.SlotCount];
+            placed.Motion.Write(target.Motion.A, target.Motion.B, shapes.OffsetA, target.OffsetB, target.Dt);
+            placed.Write(shapes, target.MoverIsB, target.SpeculativeMargin);
         }
         ++target.WaitCount;
         return new(parent, target.SlotCount++);
@@ -146,7 +147,11 @@ unsafe struct ChildPairs(BufferPool pool)
     public int Wait(WaitingChild child, BufferPool pool) => waiting.Add(child, pool);
 
     /// <summary>Takes a child that was tested.</summary>
-    public WaitingChild Take(int id, BufferPool pool) => waiting.Take(id, pool);
+    public WaitingChild Take(int id, BufferPool pool)
+    {
+        waiting.Take(id, pool, out var child);
+        return child;
+    }
 
     /// <summary>The slot of a child that waits.</summary>
     public readonly ref ChildResult Slot(int id) => ref id < 0 ? ref Lone(id).Child : ref Slot(waiting[id]);

@@ -148,7 +148,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             CompleteLone(id);
             return;
         }
-        AddToTask(task, taskIndex, flipped, children, new(pair.SpeculativeMargin, id, flipped, history));
+        AddToTask(task, taskIndex, flipped, children, pair.SpeculativeMargin, id, history);
     }
 
     void CompleteWithoutChildren(in ParentPair pair)
@@ -169,7 +169,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             CompleteChild(slot);
             return;
         }
-        AddToTask(task, taskIndex, flipped, children, new(pair.SpeculativeMargin, Children->Wait(slot, Pool), flipped, history));
+        AddToTask(task, taskIndex, flipped, children, pair.SpeculativeMargin, Children->Wait(slot, Pool), history);
     }
 
     CollisionTask FindTask(in ChildShapes children, out int taskIndex, out bool flipped)
@@ -182,8 +182,14 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    void AddToTask(CollisionTask task, int taskIndex, bool flipped, in ChildShapes children, in PairInput input)
+    void AddToTask(CollisionTask task, int taskIndex, bool flipped, in ChildShapes children, float margin, int id, int history)
     {
+        // Field by field: what is made elsewhere first is copied as a whole, and waits for its parts.
+        Unsafe.SkipInit(out PairInput input);
+        input.SpeculativeMargin = margin;
+        input.PairId = id;
+        input.FlipMask = flipped ? -1 : 0;
+        input.History = history;
         ref var batches = ref Children->Batches;
         if (!batches.Has(taskIndex))
             batches.Take(task, taskIndex, registry.TaskCount, Pool);

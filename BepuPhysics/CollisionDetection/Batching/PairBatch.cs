@@ -19,14 +19,14 @@ struct PairBatch
 }
 
 /// <summary>What is written to a lane for a pair, besides its shapes and poses.</summary>
-readonly struct PairInput(float speculativeMargin, int pairId, bool flipped, int history)
+struct PairInput(float speculativeMargin, int pairId, bool flipped, int history)
 {
-    public readonly float SpeculativeMargin = speculativeMargin;
-    public readonly int PairId = pairId;
+    public float SpeculativeMargin = speculativeMargin;
+    public int PairId = pairId;
     /// <summary>All bits set where the caller's A is B here, because the task has the types in the other order.</summary>
-    public readonly int FlipMask = flipped ? -1 : 0;
+    public int FlipMask = flipped ? -1 : 0;
     /// <summary>Reference to the pair's history (<see cref="PairHistory.GetReference"/>); <see cref="NoHistory"/> where it has none.</summary>
-    public readonly int History = history;
+    public int History = history;
 
     /// <summary>Reference that no history has.</summary>
     public const int NoHistory = -1;

@@ -47,11 +47,11 @@ struct WaitingList<T>(int initialCapacity) where T : unmanaged
     }
 
     /// <summary>Takes an item out.</summary>
-    public T Take(int id, BufferPool pool)
+    // Not as a value: that would be copied twice, the second time at once and by other parts than the first.
+    public void Take(int id, BufferPool pool, out T item)
     {
-        var item = items[id];
+        item = items[id];
         Free(id, pool);
-        return item;
     }
 
     /// <summary>Takes an item out that is not asked for any more.</summary>

@@ -143,7 +143,8 @@ struct SearchSimplex
         var a = A.Point - vertex.Point;
         var b = B.Point - vertex.Point;
         var c = C.Point - vertex.Point;
-        var closest = q;
+        // Row by row: copied as a whole, it would wait for its rows.
+        var closest = new Vector3Wide(q.X, q.Y, q.Z);
         var distance = q.LengthSquared();
         var squaredA = a.LengthSquared();
         var squaredB = b.LengthSquared();

@@ -103,7 +103,7 @@ static class ChildAgreement
     const int MaximumLeaderCount = 32;
 
     /// <summary>Brings the children of a set in order.</summary>
-    public static unsafe void Begin(SeamView view)
+    public static unsafe void Begin(in SeamView view)
     {
         ref var set = ref view.Set;
         set.Count = SeamMemory.Sort(view.Ranked, set.Results);
@@ -116,7 +116,7 @@ static class ChildAgreement
     /// <param name="tests">What the last round has found, and room for the tests of the next.</param>
     /// <param name="view">The children that touch, in their order.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void Advance(ref DirectedTests tests, SeamView view, BufferPool pool)
+    public static void Advance(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
         switch (set.Stage)
@@ -148,7 +148,7 @@ static class ChildAgreement
         }
     }
 
-    static void FindNext(ref DirectedTests tests, SeamView view, BufferPool pool)
+    static void FindNext(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
         var ranked = view.Ranked;
@@ -171,7 +171,7 @@ static class ChildAgreement
             Prepare(ref tests, view, pool);
     }
 
-    static void Prepare(ref DirectedTests tests, SeamView view, BufferPool pool)
+    static void Prepare(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
         if (view.Placed(view.Ranked[set.Index]).AreKnown)
@@ -185,7 +185,7 @@ static class ChildAgreement
 
     // Whether those that might yield to it may yield to a leader with its normal as well, as that is offered to all that it might be offered to. Children of
     // one pair have agreed when those of several do.
-    static bool HasLeader(SeamView view, int index)
+    static bool HasLeader(in SeamView view, int index)
     {
         ref var child = ref view.Ranked[index];
         for (int i = view.Set.LastLeader; i >= 0; i = view.Ranked[i].PreviousLeader)
@@ -196,7 +196,7 @@ static class ChildAgreement
         return false;
     }
 
-    static bool HasOneNormal(SeamView view, in RankedChild a, in RankedChild b) =>
+    static bool HasOneNormal(in SeamView view, in RankedChild a, in RankedChild b) =>
         HasOneNormal(view.Result(a).Manifold.Normal, view.Result(b).Manifold.Normal);
 
     /// <summary>Whether two normals are nearer to each other than those of one surface may be.</summary>
@@ -207,7 +207,7 @@ static class ChildAgreement
 
     // Whether the normal of a leader is offered to a child: by the leader itself, or by another child with its normal. A body is moved as a whole, but what one
     // leg stands on says nothing of what another meets that stands on nothing.
-    static bool IsOffered(in RankedChild child, in RankedChild leader, SeamView view)
+    static bool IsOffered(in RankedChild child, in RankedChild leader, in SeamView view)
     {
         if (MayOffer(leader, child) && SharesChild(child, leader, view))
             return true;
@@ -224,7 +224,7 @@ static class ChildAgreement
     // Children of one pair have agreed when those of several do.
     static bool MayOffer(in RankedChild leader, in RankedChild child) => child.Pair == 0 || child.Pair != leader.Pair;
 
-    static bool SharesChild(in RankedChild a, in RankedChild b, SeamView view)
+    static bool SharesChild(in RankedChild a, in RankedChild b, in SeamView view)
     {
         ref readonly var idsA = ref view.Result(a).Children;
         ref readonly var idsB = ref view.Result(b).Children;
@@ -232,11 +232,11 @@ static class ChildAgreement
     }
 
     // Triangles of one body are one thing: what its side is stopped by is what its bottom, which has an edge with it, lies on.
-    static bool AreOfSurface(in RankedChild a, in RankedChild b, SeamView view) =>
+    static bool AreOfSurface(in RankedChild a, in RankedChild b, in SeamView view) =>
         view.Placed(a).TypeA == Triangle.Id && view.Placed(b).TypeA == Triangle.Id;
 
     // Whether one child, in the order of children, may yield to another at all.
-    static bool MayYield(in RankedChild child, in RankedChild other, SeamView view)
+    static bool MayYield(in RankedChild child, in RankedChild other, in SeamView view)
     {
         if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group)
             return false;
@@ -247,10 +247,10 @@ static class ChildAgreement
     }
 
     // Depth by which a child may be deeper than what it yields to.
-    static float ToleranceOf(in RankedChild child, SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
+    static float ToleranceOf(in RankedChild child, in SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
 
     // Measures a child along its normal, when that is asked for.
-    static float OverlapOf(ref RankedChild child, SeamView view)
+    static float OverlapOf(ref RankedChild child, in SeamView view)
     {
         if (child.Overlap == RankedChild.Unknown)
         {
@@ -262,7 +262,7 @@ static class ChildAgreement
 
     // Depths that are the same to within the tolerance are in no order: what would yield to one of those that come next, which would not yield to it, does
     // so. A step of a search may find a wall that is not there as deep as the floor, and a little deeper by rounding. Two tests for each rival.
-    static void AddRivals(ref DirectedTests tests, SeamView view, BufferPool pool)
+    static void AddRivals(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         var ranked = view.Ranked;
         var index = view.Set.Index;
@@ -283,7 +283,7 @@ static class ChildAgreement
         }
     }
 
-    static bool YieldsToRival(in DirectedTests tests, SeamView view)
+    static bool YieldsToRival(in DirectedTests tests, in SeamView view)
     {
         var last = view.Set.Tests;
         for (int i = last.First; i < last.End; i += 2)
@@ -303,7 +303,7 @@ static class ChildAgreement
         HasEqualNormal(test.Normal, rival.Face) && !HasEqualNormal(rival.Normal, test.Face) && Exact.Dot(test.Normal, rival.Normal) > NearNormal;
 
     // Lets all that come later yield to a child. Whether its rivals do is known.
-    static void Accept(ref DirectedTests tests, SeamView view, BufferPool pool)
+    static void Accept(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
         view.Ranked[set.Index].PreviousLeader = set.LastLeader;
@@ -313,7 +313,7 @@ static class ChildAgreement
         set.Stage = SeamStage.Followers;
     }
 
-    static void AddFollowers(ref DirectedTests tests, SeamView view, BufferPool pool)
+    static void AddFollowers(ref DirectedTests tests, in SeamView view, BufferPool pool)
     {
         var index = view.Set.Index;
         // Of two tests of a rival the second says whether it follows.
@@ -338,21 +338,21 @@ static class ChildAgreement
     }
 
     // Whether it is known without a test that a child is too deep along the normal of a leader: a floor has no way out to its sides. A triangle hardly ever is.
-    static bool CannotFollow(SeamView view, int follower, int leader, float tolerance)
+    static bool CannotFollow(in SeamView view, int follower, int leader, float tolerance)
     {
         ref var placed = ref view.Placed(view.Ranked[follower]);
         return placed.TypeA != Triangle.Id && placed.TypeB != Triangle.Id &&
             placed.AreDeeper(view.Result(view.Ranked[leader]).Manifold.Normal, OverlapOf(ref view.Ranked[leader], view) + tolerance);
     }
 
-    static void AddFollower(ref DirectedTests tests, SeamView view, int follower, int leader, float tolerance, BufferPool pool, bool findsFace = false)
+    static void AddFollower(ref DirectedTests tests, in SeamView view, int follower, int leader, float tolerance, BufferPool pool, bool findsFace = false)
     {
         ref var placed = ref view.Placed(view.Ranked[follower]);
         var normal = view.Result(view.Ranked[leader]).Manifold.Normal;
         tests.Add(placed, normal, OverlapOf(ref view.Ranked[leader], view) + tolerance, placed.SpeculativeMargin, follower, pool, findsFace);
     }
 
-    static void Follow(SeamView view, in DirectedPair test)
+    static void Follow(in SeamView view, in DirectedPair test)
     {
         if (!test.IsWithinDepth)
             return;

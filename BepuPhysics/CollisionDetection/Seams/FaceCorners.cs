@@ -33,7 +33,7 @@ static unsafe class FaceCorners
     /// <param name="view">The children that touch, in their order.</param>
     /// <param name="number">Number of the set.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void AddPlane(ref DirectedTests tests, SeamView view, int number, BufferPool pool)
+    public static void AddPlane(ref DirectedTests tests, in SeamView view, int number, BufferPool pool)
     {
         if (!IsOneFloor(view))
             return;
@@ -56,7 +56,7 @@ static unsafe class FaceCorners
     /// <param name="view">The children that touch, in their order.</param>
     /// <param name="plane">The contacts with the plane.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void AddBalls(ref DirectedTests tests, SeamView view, in DirectedPair plane, BufferPool pool)
+    public static void AddBalls(ref DirectedTests tests, in SeamView view, in DirectedPair plane, BufferPool pool)
     {
         if (plane.Manifold.Count < LeastCount)
             return;
@@ -80,7 +80,7 @@ static unsafe class FaceCorners
     /// <param name="tests">What was found: all corners of the first child, then those of the next.</param>
     /// <param name="view">The children that touch, in their order.</param>
     /// <param name="plane">The contacts with the plane.</param>
-    public static void Take(in DirectedTests tests, SeamView view, in DirectedPair plane)
+    public static void Take(in DirectedTests tests, in SeamView view, in DirectedPair plane)
     {
         if (view.Set.Tests.Count == 0)
             return;
@@ -128,7 +128,7 @@ static unsafe class FaceCorners
     }
 
     // Where all have one normal they were not brought in order yet.
-    static void Sort(SeamView view)
+    static void Sort(in SeamView view)
     {
         if (view.Set.Index >= 0)
             return;
@@ -137,7 +137,7 @@ static unsafe class FaceCorners
     }
 
     // A convex shape with many corners on several others that move alike, none of which is fixed, all with one normal.
-    static bool IsOneFloor(SeamView view)
+    static bool IsOneFloor(in SeamView view)
     {
         var ranked = view.Ranked;
         if (ranked.Length < 2)
@@ -169,7 +169,7 @@ static unsafe class FaceCorners
     }
 
     // The first child that has contacts; any where none has.
-    static ref RankedChild First(SeamView view)
+    static ref RankedChild First(in SeamView view)
     {
         var first = 0;
         while (first + 1 < view.Ranked.Length && view.Result(view.Ranked[first]).Manifold.Count == 0)
@@ -177,7 +177,7 @@ static unsafe class FaceCorners
         return ref view.Ranked[first];
     }
 
-    static ConvexContact Deepest(SeamView view)
+    static ConvexContact Deepest(in SeamView view)
     {
         var deepest = new ConvexContact { Depth = float.MinValue };
         foreach (ref var child in view.Ranked)

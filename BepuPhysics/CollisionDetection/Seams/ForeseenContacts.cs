@@ -13,12 +13,14 @@ struct ChildMotion
     /// <summary>Angle by which A turns relative to B, rad, along its axis.</summary>
     public Vector3 Turn;
 
+    /// <summary>Writes how two children move.</summary>
     /// <param name="a">Velocity of the body of A.</param>
     /// <param name="b">Velocity of the body of B.</param>
     /// <param name="offsetA">Centre of A less that of its body.</param>
     /// <param name="offsetB">Centre of the body of B less that of the body of A.</param>
     /// <param name="dt">Length of the step, s.</param>
-    public ChildMotion(in BodyVelocity a, in BodyVelocity b, in Vector3 offsetA, in Vector3 offsetB, float dt)
+    // In place: what is made elsewhere first is copied as a whole, and waits for its parts.
+    public void Write(in BodyVelocity a, in BodyVelocity b, in Vector3 offsetA, in Vector3 offsetB, float dt)
     {
         Way = (a.Linear - b.Linear + Exact.Cross(a.Angular, offsetA) - Exact.Cross(b.Angular, offsetA - offsetB)) * dt;
         Turn = (a.Angular - b.Angular) * dt;
@@ -68,7 +70,7 @@ static class ForeseenContacts
 
     /// <summary>Prepares to follow a child on its way, if its contacts would stop it within the step before it is there.</summary>
     /// <returns>Whether it is to be followed.</returns>
-    public static bool Begin(SeamView view)
+    public static bool Begin(in SeamView view)
     {
         ref var child = ref view.Ranked[view.Set.Index];
         ref var placed = ref view.Placed(child);
@@ -91,7 +93,7 @@ static class ForeseenContacts
     }
 
     // What the contacts of those that were accepted leave of its way, and of its depth. The deepest counts last, and whole.
-    static void Predict(SeamView view, in RankedChild child, out Vector3 way, out Vector3 rise)
+    static void Predict(in SeamView view, in RankedChild child, out Vector3 way, out Vector3 rise)
     {
         way = view.Placed(child).Motion.Way;
         rise = default;
@@ -124,7 +126,7 @@ static class ForeseenContacts
     /// <param name="owner">Number of their set.</param>
     /// <param name="registry">The tasks that test pairs.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void Advance(ref MovedTests tests, SeamView view, int owner, CollisionTaskRegistry registry, BufferPool pool)
+    public static void Advance(ref MovedTests tests, in SeamView view, int owner, CollisionTaskRegistry registry, BufferPool pool)
     {
         ref var set = ref view.Set;
         ref var foresight = ref set.Foresight;
@@ -157,7 +159,7 @@ static class ForeseenContacts
     }
 
     // What is grazed and carries nothing yet would be no more than passed: the contact stays as it is then.
-    static bool HasLeaderAlong(SeamView view, in Vector3 normal)
+    static bool HasLeaderAlong(in SeamView view, in Vector3 normal)
     {
         for (int i = view.Set.LastLeader; i >= 0; i = view.Ranked[i].PreviousLeader)
         {

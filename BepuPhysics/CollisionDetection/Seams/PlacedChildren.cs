@@ -76,10 +76,9 @@ unsafe struct PlacedChildren
     /// <summary>Whether shapes of a type have an axis that they may roll about: that of their y, or any.</summary>
     public static bool IsRound(int typeId) => typeId == Sphere.Id || typeId == Capsule.Id || typeId == Cylinder.Id;
 
-    /// <summary>Keeps what a task has said of two children.</summary>
-    public void Write(in ChildShapes children, in ChildMotion motion, bool moverIsB, float speculativeMargin)
+    /// <summary>Keeps what a task has said of two children; how they move is written beside it.</summary>
+    public void Write(in ChildShapes children, bool moverIsB, float speculativeMargin)
     {
-        Motion = motion;
         SpeculativeMargin = speculativeMargin;
         MoverIsB = moverIsB;
         TypeA = Keep(children.TypeA, children.ShapeA, ref ShapeA);

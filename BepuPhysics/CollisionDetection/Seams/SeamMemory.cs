@@ -42,15 +42,18 @@ struct SeamMemory
     public unsafe void Add(ChildResult* results, PlacedChildren* placed, int count, int owner, bool leavesToNeighbours, BufferPool pool)
     {
         Touching.EnsureCapacity(SetCapacity * 4, pool);
-        var set = new SeamSet
-        {
-            Owner = owner,
-            Results = results,
-            Placed = placed,
-            First = Touching.Count,
-            Index = -1,
-            LeavesToNeighbours = leavesToNeighbours,
-        };
+        Sets.EnsureCapacity(SetCapacity, pool);
+        // Where it stays, and without what nobody reads before it is written.
+        ref var set = ref Sets.Allocate(pool);
+        set.Owner = owner;
+        set.Results = results;
+        set.Placed = placed;
+        set.First = Touching.Count;
+        set.Index = -1;
+        set.LeaderCount = set.LastLeader = 0;
+        set.Tests = default;
+        set.HasForeseen = set.IsOnPlane = false;
+        set.LeavesToNeighbours = leavesToNeighbours;
         var hasTriangle = false;
         for (int i = 0; i < count; ++i)
         {
@@ -61,7 +64,6 @@ struct SeamMemory
         }
         set.Count = Touching.Count - set.First;
         set.Stage = set.Count == 0 ? SeamStage.Done : hasTriangle ? SeamStage.DirectionsOfB : SeamStage.Order;
-        Add(set, pool);
     }
 
     /// <summary>Adds a set.</summary>

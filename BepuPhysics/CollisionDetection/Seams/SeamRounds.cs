@@ -65,7 +65,7 @@ static class SeamRounds
         }
     }
 
-    static void Advance(ref SeamMemory memory, SeamView view, BufferPool pool)
+    static void Advance(ref SeamMemory memory, in SeamView view, BufferPool pool)
     {
         ref var set = ref view.Set;
         switch (set.Stage)

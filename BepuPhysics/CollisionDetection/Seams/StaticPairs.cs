@@ -226,18 +226,19 @@ struct StaticPairs
         Results.Count += PatchSet.Capacity - patchCount;
         foreach (ref var result in results)
             Results.AddUnsafely(result);
-        Pairs.Add(new()
-        {
-            Tested = tested,
-            Material = material,
-            FirstResult = Results.Count - results.Length + patchCount,
-            PatchCount = patchCount,
-            ResultCount = results.Length - patchCount,
-            FirstChild = Children.Count,
-            ChildCount = children.Length,
-            IsOfChildren = true,
-            IsOfGame = isOfGame,
-        }, pool);
+        // Field by field, as above.
+        ref var pair = ref Pairs.Allocate(pool);
+        pair.Tested = tested;
+        pair.Material = material;
+        pair.FirstResult = Results.Count - results.Length + patchCount;
+        pair.PatchCount = patchCount;
+        pair.ResultCount = results.Length - patchCount;
+        pair.FirstChild = Children.Count;
+        pair.ChildCount = children.Length;
+        pair.IsOfChildren = true;
+        pair.IsOfGame = isOfGame;
+        pair.IsTouching = pair.IsTurning = false;
+        pair.Group = pair.Slot = 0;
         foreach (ref var child in children)
             Children.Add(child, pool);
     }

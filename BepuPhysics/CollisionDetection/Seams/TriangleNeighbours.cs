@@ -27,7 +27,7 @@ static class TriangleNeighbours
     /// <param name="view">The children.</param>
     /// <param name="isA">Whether the triangles are those of A.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void AddDirections(ref DirectedTests tests, SeamView view, bool isA, BufferPool pool)
+    public static void AddDirections(ref DirectedTests tests, in SeamView view, bool isA, BufferPool pool)
     {
         for (int i = 0; i < view.Ranked.Length; ++i)
         {
@@ -42,14 +42,14 @@ static class TriangleNeighbours
     /// <param name="tests">What was found, in the order of children.</param>
     /// <param name="view">The children.</param>
     /// <param name="isA">Whether the triangles are those of A.</param>
-    public static void Take(in DirectedTests tests, SeamView view, bool isA)
+    public static void Take(in DirectedTests tests, in SeamView view, bool isA)
     {
         var last = view.Set.Tests;
         for (int i = last.First; i < last.End; ++i)
             Take(tests[i], view, isA);
     }
 
-    static void Take(in DirectedPair test, SeamView view, bool isA)
+    static void Take(in DirectedPair test, in SeamView view, bool isA)
     {
         ref var child = ref view.Ranked[test.Owner];
         // What is a triangle too may have gone through the neighbour, and be seen by nobody else.
@@ -65,7 +65,7 @@ static class TriangleNeighbours
     /// Each of several may take what is in it for one of the others' then: where none is left, all are as they were found.
     /// </remarks>
     /// <param name="view">The children that touch.</param>
-    public static void Settle(SeamView view)
+    public static void Settle(in SeamView view)
     {
         var count = 0;
         foreach (ref var child in view.Ranked)
@@ -80,7 +80,7 @@ static class TriangleNeighbours
     }
 
     // What has no depth yet may be the neighbours' that are not near enough.
-    static bool IsOfNobody(SeamView view, int count)
+    static bool IsOfNobody(in SeamView view, int count)
     {
         var deepest = 0f;
         foreach (ref var child in view.Ranked)
