@@ -118,6 +118,10 @@ readonly struct OutlineSides
         public Vector128<float> Spare;
         /// <summary>How far the shape reaches to each side of its centre across each, m.</summary>
         public Vector128<float> Reach;
+        /// <summary>How far the shape's centre is above the triangle, m.</summary>
+        public Vector128<float> Height;
+        /// <summary>Of what is round, its unit axis and the way to its end, m, out of each edge, and then along the normal.</summary>
+        public Vector128<float> Axis, End;
         /// <summary>What counts as near, m.</summary>
         public Vector128<float> Near;
         /// <summary>Those that may be a neighbour's.</summary>
@@ -176,12 +180,17 @@ readonly struct OutlineSides
         if ((isApart.ExtractMostSignificantBits() & Edges) != 0)
             return OutlineSide.IsApart;
         reach += ball;
-        var isBeyond = isBeside & Vector128.GreaterThan(height, near) &
-            (Vector128.GreaterThan(spare, margin * rise + near * lengths) | Vector128.GreaterThan(beside, reach + near));
+        var isOutside = Vector128.GreaterThan(spare, margin * rise + near * lengths) | Vector128.GreaterThan(beside, reach + near);
+        if (!isBox)
+        {
+            (beyond.Axis, beyond.End) = (unit.Dot(axis), unit.Dot(y));
+            isOutside |= Vector128.GreaterThan(beside, Vector128.Abs(beyond.End) + near);
+        }
+        var isBeyond = isBeside & Vector128.GreaterThan(height, near) & isOutside;
         if ((isBeyond.ExtractMostSignificantBits() & Edges) == 0)
             return OutlineSide.Unknown;
         (beyond.Edges, beyond.Beside, beyond.Rise, beyond.Spare) = (edges, beside, rise, spare);
-        (beyond.Reach, beyond.Near, beyond.Lanes) = (reach, near, isBeyond);
+        (beyond.Reach, beyond.Height, beyond.Near, beyond.Lanes) = (reach, height, near, isBeyond);
         return OutlineSide.IsBeyondEdge;
     }
 
@@ -218,20 +227,62 @@ readonly struct OutlineSides
         var (beside, near) = (beyond.Beside, beyond.Near);
         // Both sides times the cosine.
         var along = beyond.Rise * cosines + beside * sines;
-        var isOf = isBound & beyond.Lanes & Vector128.GreaterThan(cosines, Vector128.Create(LeastCosine)) & (
+        var isOf =
             Vector128.GreaterThan(beyond.Spare * cosines, margin * along + near * (beside + beyond.Rise)) |
-            Vector128.GreaterThan((beside - beyond.Reach) * cosines, margin * sines + near));
+            Vector128.GreaterThan((beside - beyond.Reach) * cosines, margin * sines + near);
         // At an obtuse angle what is beyond the edge may be nearest to the other side, unless it is not beyond that.
         ref readonly var edges = ref beyond.Edges;
         var (turnNext, turnPrevious) = (edges.Dot(Following(edges)), edges.Dot(Preceding(edges)));
         var isWithin = Vector128.LessThan(beside + beyond.Reach, -near);
         isOf &= Vector128.LessThanOrEqual(turnNext, Vector128<float>.Zero) | Following(isWithin);
         isOf &= Vector128.LessThanOrEqual(turnPrevious, Vector128<float>.Zero) | Preceding(isWithin);
-        // The normals of the other neighbours are not beyond the edge.
         var lengths = Vector128.Sqrt(edges.Dot(edges));
+        if (!isBox && cone.FreeMask == 0 && Greatest(-cosines)[0] < -LeastCosine)
+            isOf |= RollsBeyond(beyond, sines / cosines, turnNext / (lengths * Following(lengths)), turnPrevious);
+        isOf &= isBound & beyond.Lanes & Vector128.GreaterThan(cosines, Vector128.Create(LeastCosine));
+        // The normals of the other neighbours are not beyond the edge.
         isOf &= Vector128.LessThanOrEqual(cosines * Following(sines) * turnNext, sines * Following(cosines) * lengths * Following(lengths));
         isOf &= Vector128.LessThanOrEqual(cosines * Preceding(sines) * turnPrevious, sines * Preceding(cosines) * lengths * Preceding(lengths));
         return (isOf.ExtractMostSignificantBits() & Edges) != 0;
+    }
+
+    // Whether what is round touches nothing of the triangle, and what of it faces the triangle is beyond an edge, along whichever direction the neighbours leave:
+    // n + a o + b u, with u along the edge. A point p of the shape that is farthest back along it is beyond the edge if (p - e) (o - a n) > 0. The centre is by
+    // x - a h, and a is the tangent of the neighbour's angle at most. From the centre to p it is the way to the end of the axis, to either side, and the way
+    // down on the disc there. That has R (d c) (c q) / |d - (d c) c| along q = o - a n, with the unit axis c, as d and q are perpendicular: nothing, if the axis
+    // lies in the triangle's plane or along the edge. Tangents are bounded by those at the edges over the sine of half the least angle, and a fifth.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    Vector128<float> RollsBeyond(in Beyond beyond, Vector128<float> tangents, Vector128<float> cosines, Vector128<float> turnPrevious)
+    {
+        const float greatestObtuse = 0.5f, room = 1.2f, greatestLean = 0.9f;
+        var steepest = Greatest(tangents);
+        var sharpest = Greatest(-cosines);
+        var spread = steepest * Vector128.Create(room) * Vector128.Sqrt(Vector128.Create(2f) / (Vector128<float>.One - sharpest));
+        var (axisUp, endUp) = (Vector128.Abs(Vector128.Create(beyond.Axis[3])), Vector128.Abs(Vector128.Create(beyond.End[3])));
+        var lean = axisUp + spread;
+        var isKnown = Vector128.LessThanOrEqual(Greatest(cosines), Vector128.Create(greatestObtuse)) & Vector128.LessThan(lean, Vector128.Create(greatestLean));
+        var down = roundRadius * lean / Vector128.Sqrt(Vector128<float>.One - lean * lean);
+        var low = Vector128.Abs(beyond.End) + spread * endUp + down * (Vector128.Abs(beyond.Axis) + spread * axisUp);
+        // At an obtuse angle the bound at the edge is not always one.
+        var isAcute = Vector128.LessThanOrEqual(cosines, Vector128<float>.Zero) & Vector128.LessThanOrEqual(turnPrevious, Vector128<float>.Zero);
+        var bound = Vector128.ConditionalSelect(isAcute, tangents, spread);
+        var (beside, height, near) = (beyond.Beside, beyond.Height, beyond.Near);
+        var isBeyond = Vector128.GreaterThan(beside - bound * height, low + near);
+        // From the edge to the centre all of the shape is farther than the edge.
+        var squared = beside * beside + height * height;
+        var end = beside * beyond.End + height * Vector128.Create(beyond.End[3]);
+        var across = beside * beyond.Axis + height * Vector128.Create(beyond.Axis[3]);
+        var reach = Vector128.Abs(end) + roundRadius * Vector128.Sqrt(BoxMath.Max(squared - across * across, Vector128<float>.Zero));
+        var isApart = Vector128.GreaterThan(squared - reach, (ball + near) * Vector128.Sqrt(squared));
+        return isKnown & isBeyond & isApart;
+    }
+
+    // Of the lanes of edges, in all.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector128<float> Greatest(Vector128<float> lanes)
+    {
+        var greatest = BoxMath.Max(BoxMath.Max(lanes, Following(lanes)), Preceding(lanes));
+        return Vector128.Create(greatest[0]);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
