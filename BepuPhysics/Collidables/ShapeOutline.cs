@@ -26,29 +26,31 @@ struct ShapeOutline
     public readonly bool IsKnown => IsBox || IsRound;
 
     /// <summary>A shape in its own frame, with a margin around it; nothing is known of one that is neither box nor round.</summary>
-    public static unsafe ShapeOutline Of(int typeId, void* shape, in Vector3 center, in Quaternion orientation, float margin)
+    // In place: what is made elsewhere first is copied as a whole, and waits for its parts.
+    public unsafe void Write(int typeId, void* shape, in Vector3 center, in Quaternion orientation, float margin)
     {
-        var result = new ShapeOutline { Center = center, Radius = margin, Margin = margin };
+        this = default;
+        Center = center;
+        Radius = Margin = margin;
         switch (typeId)
         {
             case Box.Id:
                 var box = (Box*)shape;
                 var axes = Matrix3x3.FromQuaternion(orientation);
-                result.SetBox(axes, new(box->HalfWidth, box->HalfHeight, box->HalfLength));
+                SetBox(axes, new(box->HalfWidth, box->HalfHeight, box->HalfLength));
                 break;
             case Sphere.Id:
-                result.Radius += ((Sphere*)shape)->Radius;
-                result.IsRound = result.IsBall = true;
+                Radius += ((Sphere*)shape)->Radius;
+                IsRound = IsBall = true;
                 break;
             case Capsule.Id:
-                result.Radius += ((Capsule*)shape)->Radius;
-                result.SetRound(Exact.Rotate(Vector3.UnitY, orientation), ((Capsule*)shape)->HalfLength, 0);
+                Radius += ((Capsule*)shape)->Radius;
+                SetRound(Exact.Rotate(Vector3.UnitY, orientation), ((Capsule*)shape)->HalfLength, 0);
                 break;
             case Cylinder.Id:
-                result.SetRound(Exact.Rotate(Vector3.UnitY, orientation), ((Cylinder*)shape)->HalfLength, ((Cylinder*)shape)->Radius);
+                SetRound(Exact.Rotate(Vector3.UnitY, orientation), ((Cylinder*)shape)->HalfLength, ((Cylinder*)shape)->Radius);
                 break;
         }
-        return result;
     }
 
     /// <summary>Makes it a box.</summary>

@@ -228,8 +228,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (; i < results.Length; i = SkipForgotten(results, i + 1))
         {
             ref var result = ref results[i];
-            if (tested.MayHaveRims)
-                result.Manifold = AtRims(tested.Pair, result.Manifold, ref moved);
+            if (tested.MayHaveRims && rimTime > 0)
+            {
+                // Mostly they stay where they are: copied onto themselves, they would wait for their parts.
+                ref readonly var atRims = ref AtRims(tested.Pair, result.Manifold, ref moved);
+                if (!Unsafe.AreSame(in atRims, in result.Manifold))
+                    result.Manifold = atRims;
+            }
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
             var frictionCenter = worker.Statics.FindFrictionCenter(tested.Pair, result.Children);

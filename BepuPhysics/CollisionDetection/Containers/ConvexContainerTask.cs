@@ -59,7 +59,9 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 children.Count = 0;
                 if (TContainer.IsList)
                     List(entry, shapes, ref list, ref listed, pool);
-                var outline = TContainer.TakesOutlines ? Outline(entry.A, ref boxes, i) : default;
+                var outline = default(ShapeOutline);
+                if (TContainer.TakesOutlines)
+                    Outline(entry.A, ref boxes, i, ref outline);
                 entry.B.FindOverlaps(Read(ref boxes.Min, i), Read(ref boxes.Max, i), outline, shapes, list.Memory, ref children, pool);
                 Add(start + i, entry.Pair, children.AsSpan(), false, ref found, pool);
             }
@@ -134,7 +136,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
                 question.Container = Unsafe.AsPointer(ref entry.B);
                 question.Min = Read(ref boxes.Min, i);
                 question.Max = Read(ref boxes.Max, i);
-                question.Outline = Outline(entry.A, ref boxes, i);
+                Outline(entry.A, ref boxes, i, ref question.Outline);
                 question.LeavesToNeighbours = leavesToNeighbours;
             }
         }
@@ -171,11 +173,11 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             found[first].Touches = true;
     }
 
-    static ShapeOutline Outline(TConvex convex, ref Boxes boxes, int lane)
+    static void Outline(TConvex convex, ref Boxes boxes, int lane, ref ShapeOutline outline)
     {
         ref var motion = ref boxes.Motion;
         var center = Read(ref motion.Position, lane);
-        var outline = ShapeOutline.Of(
+        outline.Write(
             TConvex.TypeId, &convex, center, Lanes.Read<Quaternion, QuaternionWide>(ref motion.Orientation, lane), motion.Margin[lane]);
         if (!outline.IsKnown)
         {
@@ -184,7 +186,6 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
             outline.Center = center + middle;
             outline.SetBox(Matrix3x3.Identity, greatest - middle);
         }
-        return outline;
     }
 
     // A triangle has no middle: that of one which is a floor would be inside of whatever lies on it there.

@@ -59,7 +59,9 @@ struct SeamMemory
         {
             if (results[i].Manifold.Count == 0)
                 continue;
-            Touching.Add(new() { Slot = i }, pool);
+            ref var child = ref Touching.Allocate(pool);
+            child = default;
+            child.Slot = i;
             hasTriangle |= placed[i].TypeA == Triangle.Id || placed[i].TypeB == Triangle.Id;
         }
         set.Count = Touching.Count - set.First;

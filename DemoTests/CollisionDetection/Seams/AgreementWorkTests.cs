@@ -70,7 +70,7 @@ public sealed unsafe class AgreementWorkTests : IDisposable
                 OffsetB = offset,
                 OrientationA = Quaternion.Identity,
                 OrientationB = Quaternion.Identity,
-            }, default, moverIsB: false, Margin);
+            }, moverIsB: false, Margin);
             // The first is none, and the deepest.
             var isSuspect = i > 0 && i * 7 % 10 * 10 < percent;
             suspectCount += isSuspect ? 1 : 0;

@@ -188,7 +188,7 @@ public sealed unsafe class ShapeReachTests : IDisposable
             OrientationA = Quaternion.Identity,
             OrientationB = Quaternion.Identity,
             ConeB = cone,
-        }, default, moverIsB: false, .1f);
+        }, moverIsB: false, .1f);
 
     void Agree(ref SeamMemory memory, ChildResult[] results, PlacedChildren[] placed)
     {
