@@ -179,6 +179,32 @@ public sealed class BeyondEdgeTests() : ShapesTest(67)
         Assert.InRange(tested, 1, all * 98 / 100);
     }
 
+    /// <summary>A wheel that rolls on gentle hills stands on one triangle, mostly, and is near those around it only where that one is.</summary>
+    [Fact]
+    public void A_wheel_is_not_tested_with_triangles_that_it_only_straddles_an_edge_of()
+    {
+        var sample = Hills(.02f);
+        var mesh = new Mesh(sample.Vertices, sample.Indices, new(3, 1, 3), pool);
+        var wheel = shapes.Add(new Cylinder(.4f, .18f));
+        var placed = new Placed[2000];
+        for (int i = 0; i < placed.Length; ++i)
+        {
+            mesh.GetLocalChild(random.Next(mesh.ChildCount), out var triangle);
+            var up = Vector3.Normalize(Vector3.Cross(triangle.C - triangle.A, triangle.B - triangle.A));
+            var (b, c) = (random.NextSingle(), random.NextSingle());
+            var place = triangle.A + b * (triangle.B - triangle.A) + (1 - b) * c * (triangle.C - triangle.A);
+            var across = Vector3.Normalize(Vector3.Cross(up, new(Offset(), 0, Offset())));
+            var orientation = Quaternion.Normalize(new(across.Z, 0, -across.X, 1 + across.Y));
+            placed[i] = new(wheel, new(place + up * .4f, orientation), .2f);
+        }
+        var surface = shapes.Add(mesh);
+        var tested = Test(surface, placed, false, out var results).Count;
+        shapes.RemoveAndDispose(surface, pool);
+        Assert.All(results, result => Assert.True(result.Count > 0));
+        // 1.57; it is 2.21 where those are tested whose edge is below the wheel.
+        Assert.InRange(tested / (float)placed.Length, 1, 1.7f);
+    }
+
     private protected override void RemoveShapes()
     {
         if (shapes[ConvexHull.Id] is { } hulls)
