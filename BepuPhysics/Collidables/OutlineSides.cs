@@ -20,7 +20,8 @@ enum OutlineSide
 /// <remarks>
 /// A shape is apart from a triangle if it is beyond one of the planes that stand on its edges, or in front of its own. That is looked at along four
 /// directions at once, those of AB, BC and CA and the normal. Next each edge is looked at along a direction that leans from the edge towards the shape's
-/// middle: what rolls over one triangle is high above the next where it is over that. And a box is apart from what is beyond one of its faces.
+/// middle: what rolls over one triangle is high above the next where it is over that. And a box is apart from what is beyond one of its faces. Of what is
+/// round it is enough that whatever faces the triangle is beyond the edge, if it does not touch the triangle.
 /// What is behind a triangle is not left out: it may have been pressed through.
 /// <para>
 /// Nothing is touched at an edge from beyond the neighbour's normal there (TriangleNeighbours). With n the triangle's normal, o out of the edge, and an angle
@@ -246,11 +247,12 @@ readonly struct OutlineSides
         return (isOf.ExtractMostSignificantBits() & Edges) != 0;
     }
 
-    // Whether what is round touches nothing of the triangle, and what of it faces the triangle is beyond an edge, along whichever direction the neighbours leave:
-    // n + a o + b u, with u along the edge. A point p of the shape that is farthest back along it is beyond the edge if (p - e) (o - a n) > 0. The centre is by
-    // x - a h, and a is the tangent of the neighbour's angle at most. From the centre to p it is the way to the end of the axis, to either side, and the way
-    // down on the disc there. That has R (d c) (c q) / |d - (d c) c| along q = o - a n, with the unit axis c, as d and q are perpendicular: nothing, if the axis
-    // lies in the triangle's plane or along the edge. Tangents are bounded by those at the edges over the sine of half the least angle, and a fifth.
+    // Whether what is round touches nothing of the triangle, and what of it faces the triangle is beyond an edge, along whichever direction the
+    // neighbours leave: d = n + a o + b u, with u along the edge. A point p of the shape that is farthest back along it is beyond the edge if
+    // (p - e) (o - a n) > 0. The centre is by x - a h, and a is the tangent of the neighbour's angle at most. From the centre to p it is the way to the
+    // end of the axis, to either side, and the way down on the disc there. That has R (d c) (c q) / |d - (d c) c| along q = o - a n, with the unit axis
+    // c, as d and q are perpendicular: nothing, if the axis lies in the triangle's plane or along the edge. Tangents are bounded by those at the edges
+    // over the sine of half the least angle, and a fifth.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     Vector128<float> RollsBeyond(in Beyond beyond, Vector128<float> tangents, Vector128<float> cosines, Vector128<float> turnPrevious)
     {
@@ -260,7 +262,8 @@ readonly struct OutlineSides
         var spread = steepest * Vector128.Create(room) * Vector128.Sqrt(Vector128.Create(2f) / (Vector128<float>.One - sharpest));
         var (axisUp, endUp) = (Vector128.Abs(Vector128.Create(beyond.Axis[3])), Vector128.Abs(Vector128.Create(beyond.End[3])));
         var lean = axisUp + spread;
-        var isKnown = Vector128.LessThanOrEqual(Greatest(cosines), Vector128.Create(greatestObtuse)) & Vector128.LessThan(lean, Vector128.Create(greatestLean));
+        var isKnown = Vector128.LessThanOrEqual(Greatest(cosines), Vector128.Create(greatestObtuse)) &
+            Vector128.LessThan(lean, Vector128.Create(greatestLean));
         var down = roundRadius * lean / Vector128.Sqrt(Vector128<float>.One - lean * lean);
         var low = Vector128.Abs(beyond.End) + spread * endUp + down * (Vector128.Abs(beyond.Axis) + spread * axisUp);
         // At an obtuse angle the bound at the edge is not always one.
