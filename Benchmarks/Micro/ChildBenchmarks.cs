@@ -74,7 +74,7 @@ public unsafe class ChildBenchmarks : IDisposable
                 OrientationB = Quaternion.Identity,
                 ConeB = Of == Kind.Boxes ? default : new TriangleCone { Cosines = Vector3.One },
             };
-            placed[i].Write(shapes, default, moverIsB: false, Margin);
+            placed[i].Write(shapes, moverIsB: false, Margin);
             // The first is none, and the deepest. What the others are a little less deep along leans by two degrees, anywhere.
             var isSuspect = i > 0 && random.Next(100) < SuspectPercent;
             var (sine, cosine) = MathF.SinCos(random.NextSingle() * MathF.Tau);
