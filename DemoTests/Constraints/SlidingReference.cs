@@ -42,14 +42,14 @@ static class SlidingReference
         var (x, y) = (friction[0].A.Linear, friction[1].A.Linear);
         // The row along x has the arm crossed with x: its part along n is - arm . y, and that along y is arm . n; the row along y has arm . x along n.
         var center = (X: (double)Vector3.Dot(friction[1].A.Angular, normal), Y: -(double)Vector3.Dot(friction[0].A.Angular, normal));
-        // Of the contacts along x, y and n from the centre of A; those of a patch are all but in one plane.
+        // Of the contacts, along x and y from the centre of A.
         double[][] arms = [.. Enumerable.Range(0, contacts).Select(i => Vector(bench, i * ContactPrestepLayout.FloatsPerContact))
-            .Select(arm => new double[] { Vector3.Dot(arm, x), Vector3.Dot(arm, y), Vector3.Dot(arm, normal) })];
-        double[] middle = [.. Enumerable.Range(0, 3).Select(k => Mean(arms.Select(arm => arm[k])))];
+            .Select(arm => new double[] { Vector3.Dot(arm, x), Vector3.Dot(arm, y) })];
+        double[] middle = [.. Enumerable.Range(0, 2).Select(k => Mean(arms.Select(arm => arm[k])))];
         if (joins)
         {
             double height = Vector3.Dot(friction[0].A.Angular, y), ahead = height * friction[0].FrictionCoefficient / Math.Max(Length(start[0], start[1]), maximum);
-            middle = [start[0] * ahead, start[1] * ahead, height];
+            middle = [start[0] * ahead, start[1] * ahead];
         }
         double[][] ways = [.. arms.Select(arm => arm.Zip(middle, (a, m) => a - m).ToArray())];
         var length = contacts == 1 ? 0 : Elongation(ways, normals);
@@ -101,9 +101,9 @@ static class SlidingReference
     static double Elongation(double[][] ways, double[] weights)
     {
         double sum = 0, squares = 0;
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < 2; ++k)
         {
-            for (int l = 0; l < 3; ++l)
+            for (int l = 0; l < 2; ++l)
             {
                 var moment = ways.Zip(weights, (way, weight) => weight * way[k] * way[l]).Sum();
                 squares += moment * moment;

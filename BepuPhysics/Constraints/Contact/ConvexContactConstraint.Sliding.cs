@@ -59,34 +59,40 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         }
         var spin = Vector3Wide.Dot(turn, n);
         var greatestTumble = new Vector<float>(GreatestTumble * inverseDt);
-        var joins = JoinsFriction(ref prestep);
         var slides = MaySlide(ref prestep, impulses, maximum, moment) &
             Vector.LessThan((turn - n * spin).LengthSquared(), greatestTumble * greatestTumble);
-        var middle = MiddleOfPressure(ref prestep, impulses, center, joins, load, maximum);
-        var length = Elongation(ref prestep, impulses, middle, joins, load);
-        var lever = EvenLever(ref prestep, impulses, middle, length, joins, load);
+        // Most that is at its bounds creeps, and needs no more than this.
+        var inverseMass = a.InverseMass;
+        if (TBodies.Count > 1)
+            inverseMass += BodySlots.At(ref bodies, 1).InverseMass;
+        var stopped = maximum * inverseMass;
+        var rim = Vector<float>.Zero;
+        for (int i = 0; i < TContacts.Count; ++i)
+            rim = Wide.Max(rim, (prestep.Contacts[i].OffsetA - center).LengthSquared());
+        slides &= Vector.GreaterThan(velocity.LengthSquared() + spin * spin * rim, stopped * stopped);
+        if (slides == Vector<int>.Zero)
+            return false;
 
-        var off = middle - center;
-        var slip = AlongSurface(velocity + Vector3Wide.Cross(n, off) * spin, n);
-        var (sliding, turning) = (slip.Length(), Wide.Abs(spin) * lever);
+        Vector3Wide.BuildOrthonormalBasis(n, out var x, out var y);
+        var joins = JoinsFriction(ref prestep);
+        var face = Face(ref prestep, impulses, center, x, y, joins, load, maximum);
+        var slip = new Vector2Wide(Vector3Wide.Dot(velocity, x) - spin * face.Middle.Y, Vector3Wide.Dot(velocity, y) + spin * face.Middle.X);
+        var (sliding, turning) = (slip.Length(), Wide.Abs(spin) * face.Lever);
         var inverse = Vector<float>.One / Wide.Max(Wide.Max(sliding, turning), new Vector<float>(LeastMotion));
         (sliding, turning) = (sliding * inverse, turning * inverse);
-        var early = new Vector<float>(2 / 3f) + length * new Vector<float>(0.15f);
-        var friction = slip * (-maximum * inverse * early / NormOfFour(sliding * early, turning));
-        var couple = -maximum * lever * lever * spin * inverse / NormOfFour(sliding * new Vector<float>(3 / 2f), turning);
-        var twist = couple + Vector3Wide.Dot(n, Vector3Wide.Cross(off, friction));
+        var early = new Vector<float>(2 / 3f) + face.Elongation * new Vector<float>(0.15f);
+        var along = -maximum * inverse * early / NormOfFour(sliding * early, turning);
+        var couple = -maximum * face.Lever * face.Lever * spin * inverse / NormOfFour(sliding * new Vector<float>(3 / 2f), turning);
+        var twist = couple + (face.Middle.X * slip.Y - face.Middle.Y * slip.X) * along;
+        var friction = (x * slip.X + y * slip.Y) * along;
 
         var angularA = Vector3Wide.Cross(armA, friction) + n * twist;
-        var inverseMass = a.InverseMass;
-        var response = Vector3Wide.Dot(angularA, a.InverseInertia * angularA);
-        var angularB = Vector3Wide.Cross(armB, friction) + n * twist;
+        var response = friction.LengthSquared() * inverseMass + Vector3Wide.Dot(angularA, a.InverseInertia * angularA);
         if (TBodies.Count > 1)
         {
-            ref var b = ref BodySlots.At(ref bodies, 1);
-            inverseMass += b.InverseMass;
-            response += Vector3Wide.Dot(angularB, b.InverseInertia * angularB);
+            var angularB = Vector3Wide.Cross(armB, friction) + n * twist;
+            response += Vector3Wide.Dot(angularB, BodySlots.At(ref bodies, 1).InverseInertia * angularB);
         }
-        response += friction.LengthSquared() * inverseMass;
         var power = -(Vector3Wide.Dot(friction, velocity) + twist * spin);
         var slowing = Wide.Select(joins, new Vector<float>(GreatestSlowing * PartOfWhole), new Vector<float>(GreatestSlowing));
         slides &= Vector.GreaterThan(power, Vector<float>.Zero) & Vector.LessThan(response, power * slowing);
@@ -95,7 +101,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         // All of it from half of that slowing on, so that a rounding does not decide between two laws.
         var share = Wide.Min(Vector<float>.One, new Vector<float>(2) - (response + response) / (power * slowing));
 
-        var before = bodies;
+        var (linearA, turnedA) = (a.Linear, a.Angular);
+        var (linearB, turnedB) = TBodies.Count > 1 ? (BodySlots.At(ref bodies, 1).Linear, BodySlots.At(ref bodies, 1).Angular) : default;
         var (frictionBefore, twistBefore) = (impulses.Friction, impulses.Twist);
         Hold(ref bodies, ref prestep, ref impulses, center, armA, armB, load, maximum, moment);
         friction = impulses.Friction + (friction - impulses.Friction) * share;
@@ -104,15 +111,13 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         impulses.Twist = Wide.Select(slides, twist, impulses.Twist);
         friction -= frictionBefore;
         twist -= twistBefore;
-        ref var beforeA = ref BodySlots.At(ref before, 0);
-        a.Linear = Vector3Wide.Select(slides, beforeA.Linear + friction * a.InverseMass, a.Linear);
-        a.Angular = Vector3Wide.Select(slides, beforeA.Angular + a.InverseInertia * (Vector3Wide.Cross(armA, friction) + n * twist), a.Angular);
+        a.Linear = Vector3Wide.Select(slides, linearA + friction * a.InverseMass, a.Linear);
+        a.Angular = Vector3Wide.Select(slides, turnedA + a.InverseInertia * (Vector3Wide.Cross(armA, friction) + n * twist), a.Angular);
         if (TBodies.Count > 1)
         {
             ref var b = ref BodySlots.At(ref bodies, 1);
-            ref var beforeB = ref BodySlots.At(ref before, 1);
-            b.Linear = Vector3Wide.Select(slides, beforeB.Linear - friction * b.InverseMass, b.Linear);
-            b.Angular = Vector3Wide.Select(slides, beforeB.Angular - b.InverseInertia * (Vector3Wide.Cross(armB, friction) + n * twist), b.Angular);
+            b.Linear = Vector3Wide.Select(slides, linearB - friction * b.InverseMass, b.Linear);
+            b.Angular = Vector3Wide.Select(slides, turnedB - b.InverseInertia * (Vector3Wide.Cross(armB, friction) + n * twist), b.Angular);
         }
         return true;
     }
@@ -130,79 +135,86 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             SolveLoneTwist(ref bodies, ref prestep, center, load, ref impulses.Twist);
     }
 
-    // The mean of the contacts by their loads. Parts of a patch do not know the loads of the others; but what nothing else pushes is not turned over by its
-    // friction, so that the pressure is ahead of the foot of its centre by friction over load times the height, which is the same for all parts.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector3Wide MiddleOfPressure(
-        ref ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses, in Vector3Wide center, Vector<int> joins,
-        Vector<float> load, Vector<float> maximum)
+    // A face that presses evenly, seen along two tangents from the centre where friction acts.
+    struct PressedFace
     {
-        var source = impulses;
-        var sum = prestep.Contacts[0].OffsetA * source.Normals[0];
-        for (int i = 1; i < TContacts.Count; ++i)
-            sum += prestep.Contacts[i].OffsetA * source.Normals[i];
-        var pressed = Vector.GreaterThan(load, Vector<float>.Zero);
-        var middle = Vector3Wide.Select(pressed, sum * (Vector<float>.One / Wide.Select(pressed, load, Vector<float>.One)), center);
-        if (joins == Vector<int>.Zero)
-            return middle;
-        var height = Vector3Wide.Dot(center, prestep.Normal);
-        var greatest = Wide.Max(impulses.Friction.Length(), maximum);
-        var ahead = Wide.Select(Vector.GreaterThan(greatest, Vector<float>.Zero), height * Coefficient(ref prestep) / greatest, Vector<float>.Zero);
-        return Vector3Wide.Select(joins, prestep.Normal * height + impulses.Friction * ahead, middle);
+        /// <summary>The middle of the pressure.</summary>
+        public Vector2Wide Middle;
+        /// <summary>
+        /// From 0 of what is round to 1 of a line: of the moments of second order the difference of the principal ones over their sum, squared.
+        /// </summary>
+        public Vector<float> Elongation;
+        /// <summary>Mean distance of its points from the middle, m.</summary>
+        public Vector<float> Lever;
     }
 
-    // From 0 of what is round to 1 of a line: of the moments of second order the difference of the principal ones over their sum, squared.
+    // The middle is the mean of the contacts by their loads. Parts of a patch do not know the loads of the others; but what nothing else pushes is not turned
+    // over by its friction, so that the pressure is ahead of the foot of its centre by friction over load times the height, which is the same for all parts.
+    //
+    // Contacts are the corners of the face. The mean distance of its points is half of theirs for a line, .46 for a triangle. Four are those of a square (.54),
+    // or of the rim of a disc (2/3): that is not known, and .6 is within a tenth of both.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> Elongation(
-        ref ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses, in Vector3Wide middle, Vector<int> joins,
-        Vector<float> load)
-    {
-        // One that is a part of a patch knows nothing of the others.
-        if (TContacts.Count == 1)
-            return Vector<float>.Zero;
-        var source = impulses;
-        // Shares of the load: squares of impulses of what is small would be nothing.
-        var inverse = Wide.Select(Vector.GreaterThan(load, Vector<float>.Zero), Vector<float>.One / load, Vector<float>.Zero);
-        var (sum, squares) = (Vector<float>.Zero, Vector<float>.Zero);
-        for (int i = 0; i < TContacts.Count; ++i)
-        {
-            var arm = prestep.Contacts[i].OffsetA - middle;
-            var weight = source.Normals[i] * inverse;
-            var moment = weight * arm.LengthSquared();
-            sum += moment;
-            squares += moment * moment;
-            for (int j = 0; j < i; ++j)
-            {
-                var product = Vector3Wide.Dot(arm, prestep.Contacts[j].OffsetA - middle);
-                squares += (weight + weight) * (source.Normals[j] * inverse) * product * product;
-            }
-        }
-        sum *= sum;
-        var ratio = Wide.Select(Vector.GreaterThan(sum, Vector<float>.Zero), squares / sum, new Vector<float>(0.5f));
-        var length = Wide.Clamp(ratio + ratio - Vector<float>.One, Vector<float>.Zero, Vector<float>.One);
-        // Three of the corners of a square have a ninth.
-        if (TContacts.Count == 3)
-            length = Wide.Select(joins, Wide.Max(length * new Vector<float>(9 / 8f) - new Vector<float>(1 / 8f), Vector<float>.Zero), length);
-        return length;
-    }
-
-    // The mean distance from the middle of the points of the surface of which the contacts are corners: half of that of the corners for a line, .46 for a
-    // triangle. Four are those of a square (.54), or of the rim of a disc (2/3): that is not known, and .6 is within a tenth of both.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<float> EvenLever(
-        ref ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses, in Vector3Wide middle,
-        Vector<float> length, Vector<int> joins, Vector<float> load)
+    static PressedFace Face(
+        ref ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses, in Vector3Wide center, in Vector3Wide x,
+        in Vector3Wide y, Vector<int> joins, Vector<float> load, Vector<float> maximum)
     {
         const float line = 0.5f, triangle = 0.46f, squareOrDisc = 0.6f;
         var source = impulses;
-        var distances = Vector<float>.Zero;
+        Unsafe.SkipInit(out TNormals alongX);
+        Unsafe.SkipInit(out TNormals alongY);
+        // Shares of the load: squares of the impulses of what is small would be nothing.
+        var inverse = Wide.Select(Vector.GreaterThan(load, Vector<float>.Zero), Vector<float>.One / load, Vector<float>.Zero);
+        PressedFace face;
+        face.Middle = default;
         for (int i = 0; i < TContacts.Count; ++i)
-            distances += source.Normals[i] * (prestep.Contacts[i].OffsetA - middle).Length();
+        {
+            var arm = prestep.Contacts[i].OffsetA - center;
+            alongX[i] = Vector3Wide.Dot(arm, x);
+            alongY[i] = Vector3Wide.Dot(arm, y);
+            face.Middle.X += alongX[i] * source.Normals[i];
+            face.Middle.Y += alongY[i] * source.Normals[i];
+        }
+        face.Middle *= inverse;
+        if (joins != Vector<int>.Zero)
+        {
+            var greatest = Wide.Max(impulses.Friction.Length(), maximum);
+            var height = Vector3Wide.Dot(center, prestep.Normal);
+            var ahead = Wide.Select(Vector.GreaterThan(greatest, Vector<float>.Zero), height * Coefficient(ref prestep) / greatest, Vector<float>.Zero);
+            var way = impulses.Friction * ahead - center;
+            face.Middle.X = Wide.Select(joins, Vector3Wide.Dot(way, x), face.Middle.X);
+            face.Middle.Y = Wide.Select(joins, Vector3Wide.Dot(way, y), face.Middle.Y);
+        }
+        var distance = Vector<float>.Zero;
+        var (xx, yy, xy) = (Vector<float>.Zero, Vector<float>.Zero, Vector<float>.Zero);
+        for (int i = 0; i < TContacts.Count; ++i)
+        {
+            var (wayX, wayY) = (alongX[i] - face.Middle.X, alongY[i] - face.Middle.Y);
+            var weight = source.Normals[i] * inverse;
+            var (squareX, squareY) = (wayX * wayX, wayY * wayY);
+            distance += weight * Vector.SquareRoot(squareX + squareY);
+            xx += weight * squareX;
+            yy += weight * squareY;
+            xy += weight * (wayX * wayY);
+        }
+        face.Elongation = Vector<float>.Zero;
         var round = new Vector<float>(squareOrDisc);
+        // A contact that is alone is a part, and knows nothing of the others.
+        if (TContacts.Count > 1)
+        {
+            var (sum, difference) = (xx + yy, xx - yy);
+            sum *= sum;
+            face.Elongation = Wide.Select(
+                Vector.GreaterThan(sum, Vector<float>.Zero), (difference * difference + new Vector<float>(4) * (xy * xy)) / sum, Vector<float>.Zero);
+        }
         if (TContacts.Count == 3)
+        {
+            // Three corners of a square have a ninth.
+            var part = Wide.Max(face.Elongation * new Vector<float>(9 / 8f) - new Vector<float>(1 / 8f), Vector<float>.Zero);
+            face.Elongation = Wide.Select(joins, part, face.Elongation);
             round = Wide.Select(joins, round, new Vector<float>(triangle));
-        var share = round + (new Vector<float>(line) - round) * length;
-        return Wide.Select(Vector.GreaterThan(load, Vector<float>.Zero), share * distances / load, Vector<float>.Zero);
+        }
+        face.Lever = (round + (new Vector<float>(line) - round) * face.Elongation) * distance;
+        return face;
     }
 
     // (a^4 + b^4)^(1/4)

@@ -118,7 +118,7 @@ public class TurntableTests(ITestOutputHelper output)
                 Assert.InRange(velocityError, 0, steps * Friction * Gravity * StepLength);
                 Assert.InRange(spinError, 0, steps * Friction * Gravity / .15f * StepLength);
                 Assert.InRange(away, 0, .01f);
-                Assert.InRange(turned, -.06f, .06f);
+                Assert.InRange(turned, -.15f, .15f);
             }
         }
     }
