@@ -13,11 +13,7 @@ static class SlidingReference
     const double GreatestTumble = .25;
 
     /// <summary>What a sweep without it made of the friction of a contact is made to what slides.</summary>
-    /// <param name="rows">All rows of the contact.</param>
-    /// <param name="startVelocities">Velocities after the normal rows.</param>
-    /// <param name="startImpulses">Impulses after the normal rows.</param>
-    /// <param name="velocities">Velocities after the sweep.</param>
-    /// <param name="impulses">Impulses after the sweep.</param>
+    // Velocities and impulses at the start are those after the normal rows.
     public static void Slide(
         RowBench bench, int typeId, ConstraintRow[] rows, double[] startVelocities, double[] startImpulses, double[] velocities, double[] impulses)
     {
