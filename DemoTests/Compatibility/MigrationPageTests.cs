@@ -42,6 +42,7 @@ public partial class MigrationPageTests
         ["AngularMotor."] = "MotorSceneTests.An_angular_motor_turns_A_against_B",
         ["bounces"] = "SurfaceCallbacksTests.Surfaces_bounce_pair_by_pair",
         ["friction of a patch"] = "SlopeTests.Case",
+        ["friction of what slides and spins"] = "SlidingSpinTests.Case",
         ["Simulation.Deterministic"] = "MigrationTests.Switches_that_are_kept_for_callers_do_nothing",
         ["AllowSubsteps"] = "FreeBodyTests.A_throw_is_a_parabola",
         ["Simulation.Clear, Dispose"] = "MigrationTests.Shared_shapes_are_left_alone",

@@ -10,7 +10,7 @@ namespace DemoTests.Constraints;
 /// <summary>Friction of a patch that slides and turns, in double precision and by the rows: along x and y of the surface, and about its normal.</summary>
 static class SlidingReference
 {
-    const double GreatestTumble = .25;
+    const double GreatestTumble = .05;
 
     /// <summary>What a sweep without it made of the friction of a contact is made to what slides.</summary>
     // Velocities and impulses at the start are those after the normal rows.
@@ -22,7 +22,8 @@ static class SlidingReference
         var start = startImpulses[contacts..];
         var normals = startImpulses[..contacts];
         var load = normals.Sum();
-        if (load <= 0 || (contacts == 1 && !joins))
+        var isHeld = float.IsNegative(bench.Prestep(ContactPrestepLayout.Spring(contacts)));
+        if (load <= 0 || isHeld || (contacts == 1 && !joins))
             return;
         var maximum = friction[0].FrictionCoefficient * load;
         var bound = contacts > 1 ? friction[0].FrictionCoefficient * normals.Zip(rows, (impulse, row) => impulse * row.Lever).Sum() : 0;
@@ -44,7 +45,8 @@ static class SlidingReference
         double[] middle = [.. Enumerable.Range(0, 2).Select(k => Mean(arms.Select(arm => arm[k])))];
         if (joins)
         {
-            double height = Vector3.Dot(friction[0].A.Angular, y), ahead = height * friction[0].FrictionCoefficient / Math.Max(Length(start[0], start[1]), maximum);
+            double height = Vector3.Dot(friction[0].A.Angular, y);
+            double ahead = height * friction[0].FrictionCoefficient / Math.Max(Length(start[0], start[1]), maximum);
             middle = [start[0] * ahead, start[1] * ahead];
         }
         double[][] ways = [.. arms.Select(arm => arm.Zip(middle, (a, m) => a - m).ToArray())];

@@ -25,7 +25,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
     // A part of a patch does not know what the others bear. A whole one has four contacts as a rule, and each bears as much.
     static float PartOfWhole => TContacts.Count / 4f;
     // Greatest turn in a substep, rad, about what is not the normal: what tumbles by more has no face on which it slides.
-    const float GreatestTumble = 0.25f;
+    const float GreatestTumble = 0.05f;
     // Motion, m/s, that is none.
     const float LeastMotion = 1e-30f;
 
@@ -59,7 +59,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         }
         var spin = Vector3Wide.Dot(turn, n);
         var greatestTumble = new Vector<float>(GreatestTumble * inverseDt);
-        var slides = MaySlide(ref prestep, impulses, maximum, moment) &
+        var slides = MaySlide(ref prestep, impulses, maximum, moment) & ~prestep.Material.IsHeld &
             Vector.LessThan((turn - n * spin).LengthSquared(), greatestTumble * greatestTumble);
         // Most that is at its bounds creeps, and needs no more than this.
         var inverseMass = a.InverseMass;

@@ -126,6 +126,8 @@ unsafe partial struct SupportGraph
             ref var link = ref found[support.Found];
             if (link.Upper != support.Upper || link.Lower != support.Lower || link.CarryingCount != support.CarryingCount ||
                 link.Slides != support.Slides || link.Leans != support.Leans || link.Moves != support.Moves || link.Sways != support.Sways ||
+                // By which it may come to sway.
+                (link.Moves && link.IsWhole != support.IsWhole) ||
                 (link.Leans && IsSpoilt(link, spoilt) != support.IsSpoilt))
             {
                 return false;
