@@ -125,10 +125,10 @@ public class DirectNeedTests(ITestOutputHelper output)
     [Fact]
     public void Ragdolls_at_rest_stay_there()
     {
-        var fastest = Enumerable.Range(1, 7).Select(RestOfDolls).Order().ToArray();
+        var fastest = Enumerable.Range(1, 15).Select(RestOfDolls).Order().ToArray();
         output.WriteLine(string.Join(", ", fastest));
         // A gap of 9 mm goes at .86 of it over half a second, which is .15 m/s; parts between several gaps move by the sum.
-        Assert.InRange(fastest[3], 0, .4f);
+        Assert.InRange(fastest[7], 0, .4f);
         Assert.InRange(fastest[^1], 0, 1.5f);
     }
 
