@@ -51,6 +51,9 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     public SimulationProfiler Profiler { get; } = new();
     /// <summary>Memory of the simulation.</summary>
     public BufferPool BufferPool { get; }
+    /// <summary>What moves along with kinematic bodies.</summary>
+    internal CommonMotion CommonMotion => commonMotion;
+
     /// <summary>Order of the stages of a step.</summary>
     public ITimestepper Timestepper { get; }
 

@@ -17,7 +17,7 @@ namespace BepuPhysics.CollisionDetection;
 // nothing) this goes over those whose bounds overlap, from one to the next, until there are no more. If none of them may meet
 // anything that does not move along (a static, something asleep, another kinematic body), all of them have their margins by their motion relative to it.
 // Otherwise they keep those that they have, which is as it is on the ground.
-sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
+sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
 {
     // Differences below this part of a speed are rounding.
     const float Rounding = 1f / (1 << 18);
@@ -59,6 +59,8 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
                 kinematics.Add((ulong)motions[i].Body.Slot << 32 | (uint)i, pool);
         }
         kinematics.AsSpan().Sort();
+        if (kinematics.Count > 0)
+            MakeRoomForWitnesses();
         for (int i = 0; i < kinematics.Count; ++i)
             Apply((int)(uint)kinematics[i]);
         kinematics.Dispose(pool);
@@ -70,13 +72,15 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
         pool.ReturnIfTaken(ref motions);
         companions.DisposeIfTaken(pool);
         triangles.DisposeIfTaken(pool);
+        ForgetWitnesses();
         count = 0;
     }
 
     internal void Abandon()
     {
         motions = default;
-        companions = triangles = default;
+        companions = triangles = foundBy = default;
+        witnesses = default;
         count = 0;
     }
 
@@ -122,11 +126,17 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
         var start = companions.Count;
         motions[body].Surroundings = PredictedSurroundings.Sought;
         companions.Add(body, pool);
+        foundBy.Count = 0;
+        NoteFound(start, start);
+        FollowWitnesses(ref near, start);
         for (int i = start; i < companions.Count && near.AllMoveAlong; ++i)
         {
             near.Self = companions[i];
             Find(ref near);
+            NoteFound(start, i);
         }
+        if (!near.AllMoveAlong)
+            Remember(near, start);
         for (int i = start; i < companions.Count; ++i)
             motions[companions[i]].Surroundings = near.AllMoveAlong ? PredictedSurroundings.MoveAlong : PredictedSurroundings.Others;
         return near.AllMoveAlong;
@@ -134,9 +144,14 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
 
     void Find(ref Near near)
     {
-        simulation.BroadPhase.GetActiveBoundsPointers(Awake.Collidables[near.Self].BroadPhaseIndex, out var min, out var max);
-        near.Bounds = new(*min, *max);
+        near.Bounds = BoundsOf(near.Self);
         simulation.BroadPhase.FindOverlapping(near.Bounds, ref near);
+    }
+
+    BoundingBox BoundsOf(int body)
+    {
+        simulation.BroadPhase.GetActiveBoundsPointers(Awake.Collidables[body].BroadPhaseIndex, out var min, out var max);
+        return new(*min, *max);
     }
 
     bool MayMeet(int body, CollidableReference other)
@@ -206,9 +221,12 @@ sealed unsafe class CommonMotion(Simulation simulation, BufferPool pool)
         public int Kinematic;
         public int Self;
         public bool AllMoveAlong;
+        // The last that was met; of a body the one that does not move along, if there is any.
+        public CollidableReference Met;
 
         public bool LoopBody(CollidableReference other)
         {
+            Met = other;
             var isKinematic = Self == Kinematic;
             // Kinematic bodies are stopped by nothing, and whose way they are in says so himself.
             if (isKinematic && other.Mobility != CollidableMobility.Dynamic)

@@ -200,47 +200,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return false;
     }
 
-    // Which of the body's contact constraints are with something that does not give way, and what becomes of them.
-    void ListOldPatches(ref StaticPairs statics, int first, int end, BufferPool pool)
-    {
-        var a = Waiting(first).Tested.Pair.A;
-        ref var location = ref Simulation.Bodies.Locations[a.Slot];
-        if (location.SetIndex != 0)
-            return;
-        var solver = Simulation.Solver;
-        var list = Simulation.Bodies.Awake.Constraints[location.Index];
-        var edge = list.First;
-        for (int i = 0; i < list.Count; ++i, edge = solver.Edges.Next(edge))
-        {
-            var slot = solver.Edges.ConstraintSlot(edge);
-            if (solver.Locations[slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
-                continue;
-            var pair = pairOfConstraint[slot];
-            if (pair.A.Packed != a.Packed || pair.B.Mobility == CollidableMobility.Dynamic)
-                continue;
-            var handle = solver.ReferenceOf(edge).ConnectingConstraintHandle;
-            if (!TryFind(handle, out var cacheIndex, out var children))
-                continue;
-            var old = new OldPatch { Constraint = handle, CacheIndex = cacheIndex, Children = children, Pair = StaticPairs.Nothing };
-            old.ContactCount = ConstraintTypeIds.ContactCount(solver.Locations[slot].TypeId);
-            var rows = new ContactRows(solver, Simulation.Bodies, handle, old.ContactCount);
-            for (int j = 0; j < old.ContactCount; ++j)
-                old.Arms[j] = rows.Arm(j);
-            foreach (ref var manifold in Pairs.ManifoldsOf(cacheIndex))
-            {
-                if (manifold.HasConstraint && manifold.Constraint == handle)
-                    old.Features = manifold.Features;
-            }
-            for (int j = first; j < end; ++j)
-            {
-                if (Waiting(j).Tested.Pair.B.Packed == pair.B.Packed)
-                    old.Pair = j;
-            }
-            old.IsWritten = old.Pair < 0 && Pairs.IsSeen(cacheIndex);
-            statics.Old.Add(old, pool);
-        }
-    }
-
     void AddToAgreement(ref StaticPairs statics, ref AgreeingBody body, BufferPool pool)
     {
         var (first, end) = (body.First, body.End);

@@ -53,6 +53,12 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         simulation.Solver.OptionalStages.Add(loadPath);
     }
 
+    /// <summary>See <see cref="LoadPathStage.MostWalked"/>.</summary>
+    internal int MostWalkedFromFloors
+    {
+        set => loadPath.MostWalked = value;
+    }
+
     /// <summary>Number of pairs that have contacts.</summary>
     public int PairCount { get; private set; }
 

@@ -38,6 +38,9 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Changes whenever a joint of the active set comes, goes or has a body that moves in memory.</summary>
+    internal int JointVersion => jointVersion;
+
     /// <summary>Number of structures that are solved at once, equal ones that are solved side by side as one.</summary>
     internal int DirectIslandCount => directStage.IslandCount;
 

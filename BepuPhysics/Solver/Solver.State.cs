@@ -31,9 +31,9 @@ public sealed unsafe partial class Solver
         copy.Value(ref chosenMode);
         if (!copy.Restores)
             return;
-        // Which joints are solved at once is found again from where they are.
+        // Which joints are solved at once is found again from where they are, and so is what they connect.
         directStage.Replace(default);
-        chosenVersion = jointVersion - 1;
+        ++jointVersion;
     }
 
     /// <summary>Moves the places of the world that descriptions of constraints hold to where they are seen from a new origin.</summary>

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
@@ -33,15 +34,35 @@ public class UnrelatedIslandTests
     public void What_is_hit_is_read_in_each_substep() =>
         Compare(53, new SolveDescription(1, 4) { RelaxationIterationCount = 1, DirectJoints = DirectJointsMode.WhereNeeded });
 
-    static void Compare(int seed, in SolveDescription solve)
+    /// <summary>Whether all constraints of what hangs on a floor are gone over, or sets of bodies are joined; and whom a body is with.</summary>
+    [Theory]
+    [InlineData(0), InlineData(1), InlineData(2), InlineData(3)]
+    public void What_is_found_in_another_way_changes_no_bit(int block)
     {
-        var alone = Run(seed, solve, false);
-        var beside = Run(seed, solve, true);
+        const int seeds = 6;
+        for (int seed = 1000 + block * seeds; seed < 1000 + (block + 1) * seeds; ++seed)
+        {
+            var expected = Run(seed, SolveDescription.Default, false, Find(0, true));
+            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(int.MaxValue, false)));
+            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(7, true)));
+        }
+    }
+
+    static Action<Simulation> Find(int mostWalked, bool remembersWitnesses) => simulation =>
+    {
+        simulation.NarrowPhase.MostWalkedFromFloors = mostWalked;
+        simulation.CommonMotion.Remembers = remembersWitnesses;
+    };
+
+    static void Compare(int seed, in SolveDescription solve) => Compare(seed, Run(seed, solve, false), Run(seed, solve, true));
+
+    static void Compare(int seed, List<MotionState[]> expectedStates, List<MotionState[]> actualStates)
+    {
         for (int step = 0; step < Steps; ++step)
         {
-            for (int body = 0; body < alone[step].Length; ++body)
+            for (int body = 0; body < expectedStates[step].Length; ++body)
             {
-                var (expected, actual) = (alone[step][body], beside[step][body]);
+                var (expected, actual) = (expectedStates[step][body], actualStates[step][body]);
                 Assert.True(
                     expected.Pose.Position.Equals(actual.Pose.Position) && expected.Pose.Orientation.Equals(actual.Pose.Orientation) &&
                     expected.Velocity.Linear.Equals(actual.Velocity.Linear) && expected.Velocity.Angular.Equals(actual.Velocity.Angular),
@@ -50,12 +71,13 @@ public class UnrelatedIslandTests
         }
     }
 
-    static List<MotionState[]> Run(int seed, in SolveDescription solve, bool hasOther)
+    static List<MotionState[]> Run(int seed, in SolveDescription solve, bool hasOther, Action<Simulation>? prepare = null)
     {
         var pool = new BufferPool();
         using var dispatcher = seed % 2 == 0 ? new ThreadDispatcher(2) : null;
         var gravity = new Vector3(0, (seed % 4) switch { 0 => -1.6f, 1 => -30, 2 => -9.81f, _ => 0 }, 0);
         var simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(gravity), solve);
+        prepare?.Invoke(simulation);
         var sleepThreshold = seed % 2 == 0 ? 0.01f : -1;
         var island = new RandomIsland(simulation, pool, seed, default, sleepThreshold, seed % 3 == 0);
         var other = hasOther ? new RandomIsland(simulation, pool, seed + 100_000, new Vector3(3000, 0, 0), sleepThreshold, true) : null;

@@ -8,10 +8,23 @@ namespace BepuPhysics.Constraints.Contact;
 // What rests on a floor that moves is looked for more widely than what rests on the ground, as each body is asked whether it rests to its own floor, and its
 // supports are put in order before that is known. A stack that has nothing to do with any floor must not know that there is one somewhere: so all that is
 // connected with a floor, over any number of constraints, is gone over from there. It costs what is connected; where nothing moves, nothing.
+//
+// What hangs on a floor by joints, as a cloth or a train, is thousands of constraints that connect what they did in the step before: beyond some constraints
+// no more are gone over, and the sets of bodies that joints make, which are kept, are joined by the contacts.
 sealed unsafe partial class LoadPathStage
 {
+    // Constraints that are gone over before sets are joined: some, and one for so many bodies, of which each takes as long in sets. None where as many
+    // bodies were reached in the last step.
+    const int LeastWalked = 64;
+    const int BodiesPerWalked = 4;
+
     // Per body, whether it is connected with a floor; not there where there is no floor.
     Buffer<byte> reached;
+    JointSets jointSets;
+    bool hasReachedMany;
+
+    /// <summary>Constraints that are gone over at most, before sets are joined; less than zero as is best. Tests ask both ways.</summary>
+    internal int MostWalked = -1;
 
     void FindReached()
     {
@@ -24,13 +37,19 @@ sealed unsafe partial class LoadPathStage
             if (set.LocalInertias[i].InverseMass == 0 && IsFloor(i))
                 Reach(i, ref waiting);
         }
-        while (waiting.Count > 0)
+        var many = LeastWalked + set.Count / BodiesPerWalked;
+        var left = MostWalked >= 0 ? MostWalked : hasReachedMany ? 0 : many;
+        hasReachedMany = false;
+        while (waiting.Count > 0 && left > 0)
         {
             var list = set.Constraints[waiting[waiting.Count - 1]];
             --waiting.Count;
+            left -= list.Count;
             for (int i = 0, edge = list.First; i < list.Count; ++i, edge = solver.Edges.Next(edge))
                 ReachThrough(solver.Locations[solver.Edges.ConstraintSlot(edge)], ref waiting);
         }
+        if (waiting.Count > 0)
+            hasReachedMany = ReachBySets() > many;
         waiting.Dispose(pool);
     }
 
@@ -56,5 +75,26 @@ sealed unsafe partial class LoadPathStage
             return;
         reached[body] = 1;
         waiting.Add(body, pool);
+    }
+
+    // All of a set is reached where one of it is. Returns how many are.
+    int ReachBySets()
+    {
+        var count = bodies.Awake.Count;
+        pool.TakeAtLeast<int>(count, out var parents);
+        jointSets.Join(solver, parents, reached, count, pool);
+        for (int i = 0; i < count; ++i)
+        {
+            if (reached[i] != 0)
+                reached[DisjointSets.Root(parents, i)] = 1;
+        }
+        var reachedCount = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            reached[i] |= reached[DisjointSets.Root(parents, i)];
+            reachedCount += reached[i];
+        }
+        pool.Return(ref parents);
+        return reachedCount;
     }
 }

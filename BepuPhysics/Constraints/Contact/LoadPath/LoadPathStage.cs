@@ -310,12 +310,17 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     }
 
     /// <summary>Gives all memory back.</summary>
-    internal void Dispose() => graph.Dispose(pool);
+    internal void Dispose()
+    {
+        graph.Dispose(pool);
+        jointSets.Dispose(pool);
+    }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
-    internal void Abandon() => graph = default;
+    internal void Abandon() => (graph, jointSets) = (default, default);
 
-    // Gives back what the step took: the graph is kept where there is one. Contacts are let go of here only if an exception has broken the step off.
+    // Gives back what the step took: the graph is kept where there is one, and what joints connect where floors move. Contacts are let go of here only if an
+    // exception has broken the step off.
     void ISolverStage.EndStep()
     {
         if (!hasBegun)
@@ -327,6 +332,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         pool.ReturnIfTaken(ref columns);
         pool.ReturnIfTaken(ref patches);
         pool.ReturnIfTaken(ref supports);
+        if (!reached.Allocated)
+            jointSets.Dispose(pool);
         pool.ReturnIfTaken(ref reached);
         pool.ReturnIfTaken(ref spoilt);
         pool.ReturnIfTaken(ref found);

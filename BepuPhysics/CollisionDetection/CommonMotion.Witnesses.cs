@@ -1,0 +1,133 @@
+using System.Numerics;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Witnesses: through whom a body meets something that does not move along.
+//
+// A limb in a soft body, or a pusher in a heap, has hundreds of bodies around it, and mostly one of them or another meets what does not move along, in this
+// step as in the last. So each body remembers a neighbour from which it is one step less to such a thing, and who they are is asked before everybody around
+// them. Nothing that is remembered is believed: that they are still there, that their bounds overlap and that they do not move along, is found again.
+sealed unsafe partial class CommonMotion
+{
+    // Per body, by its slot; the default stands for nobody.
+    Buffer<Witness> witnesses;
+    // Place among the companions of who found each of those that are gone over at present, from the first of them on.
+    QuickList<int> foundBy;
+
+    /// <summary>Whether bodies remember them; else all around a body are asked in each step, to the same bits, which tests compare.</summary>
+    internal bool Remembers = true;
+
+    /// <summary>A collidable, or nobody.</summary>
+    readonly record struct Witness
+    {
+        readonly int slotAndKind;
+
+        internal Witness(CollidableReference collidable) => slotAndKind = collidable.Slot * 2 + (collidable.Mobility == CollidableMobility.Static ? 1 : 0) + 1;
+
+        internal bool IsNobody => slotAndKind == 0;
+        internal bool IsStatic => (slotAndKind & 1) == 0;
+        internal int Slot => (slotAndKind - 1) >> 1;
+    }
+
+    void ForgetWitnesses()
+    {
+        pool.ReturnIfTaken(ref witnesses);
+        foundBy.DisposeIfTaken(pool);
+    }
+
+    void MakeRoomForWitnesses()
+    {
+        var slots = simulation.Bodies.Locations.Length;
+        var known = witnesses.Length;
+        if (known >= slots)
+            return;
+        pool.ResizeToAtLeast(ref witnesses, slots, known);
+        witnesses.Clear(known, witnesses.Length - known);
+    }
+
+    ref Witness WitnessOf(int body) => ref witnesses[Awake.IndexToHandle[body].Slot];
+
+    // From the last of the companions to whom it remembers, and on, while these are where they were. All of them are companions then, if nobody is among
+    // them who does not move along.
+    void FollowWitnesses(ref Near near, int start)
+    {
+        for (int i = start; Remembers && i < companions.Count && near.AllMoveAlong; ++i)
+        {
+            near.Self = companions[i];
+            near.Bounds = BoundsOf(near.Self);
+            if (!TryFind(WitnessOf(near.Self), near.Bounds, out var witness))
+                return;
+            near.LoopBody(witness);
+            NoteFound(start, i);
+        }
+    }
+
+    bool TryFind(Witness witness, in BoundingBox bounds, out CollidableReference collidable)
+    {
+        collidable = default;
+        if (witness.IsNobody)
+            return false;
+        var broadPhase = simulation.BroadPhase;
+        int leaf;
+        var isInActiveTree = false;
+        if (witness.IsStatic)
+        {
+            var indices = simulation.Statics.Indices;
+            if (witness.Slot >= indices.Length || indices[witness.Slot] < 0)
+                return false;
+            leaf = simulation.Statics.StaticsBuffer[indices[witness.Slot]].BroadPhaseIndex;
+        }
+        else
+        {
+            ref var location = ref simulation.Bodies.Locations[witness.Slot];
+            if (location.SetIndex < 0)
+                return false;
+            isInActiveTree = location.SetIndex == 0;
+            leaf = simulation.Bodies.SetOf(location).Collidables[location.Index].BroadPhaseIndex;
+        }
+        if (leaf < 0)
+            return false;
+        Vector3* min, max;
+        if (isInActiveTree)
+            broadPhase.GetActiveBoundsPointers(leaf, out min, out max);
+        else
+            broadPhase.GetStaticBoundsPointers(leaf, out min, out max);
+        collidable = isInActiveTree ? broadPhase.ActiveLeaves[leaf] : broadPhase.StaticLeaves[leaf];
+        return BoundingBox.IntersectsUnsafe(bounds.Min, bounds.Max, *min, *max);
+    }
+
+    // Who has come since was found by the one at a place.
+    void NoteFound(int start, int place)
+    {
+        while (foundBy.Count < companions.Count - start)
+            foundBy.Add(place, pool);
+    }
+
+    // Each remembers who is on the way to the last of them that was asked, who has met something that does not move along.
+    void Remember(in Near near, int start)
+    {
+        var last = start;
+        for (int i = start; i < companions.Count; ++i)
+        {
+            if (companions[i] == near.Self)
+                last = i;
+            else
+                WitnessOf(companions[i]) = new(ReferenceTo(companions[foundBy[i - start]]));
+        }
+        var next = new Witness(near.Met);
+        while (true)
+        {
+            WitnessOf(companions[last]) = next;
+            if (last == start)
+                return;
+            next = new(ReferenceTo(companions[last]));
+            last = foundBy[last - start];
+        }
+    }
+
+    CollidableReference ReferenceTo(int body) => new(CollidableMobility.Dynamic, Awake.IndexToHandle[body]);
+}
