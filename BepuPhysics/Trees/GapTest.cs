@@ -23,4 +23,9 @@ readonly struct GapTest(Vector3 min, Vector3 max) : IBoxTest
         // The missing side of a tree with a single leaf is infinitely far away; nothing that has a place is.
         return t <= maximum & t <= float.MaxValue;
     }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public readonly unsafe (bool A, bool B) MeetsBoth(NodeChild* children, float maximum, out float tA, out float tB) =>
+        (Meets(children, maximum, out tA), Meets(children + 1, maximum, out tB));
 }

@@ -137,8 +137,7 @@ public unsafe partial struct Tree
                 // a guess costs in the mean.
                 var a = children + 2 * index;
                 var b = a + 1;
-                var meetsA = test.Meets(a, maximumT, out var tA);
-                var meetsB = test.Meets(b, maximumT, out var tB);
+                var (meetsA, meetsB) = test.MeetsBoth(a, maximumT, out var tA, out var tB);
                 if (meetsA)
                 {
                     index = a->Index;
