@@ -14,6 +14,10 @@ namespace BepuPhysics.CollisionDetection;
 public interface ISurfaceCallbacks<TSelf> : INarrowPhaseCallbacks where TSelf : struct, ISurfaceCallbacks<TSelf>
 {
     /// <summary>Called for a pair whose contacts push, after its material was chosen. Called from worker threads.</summary>
+    /// <remarks>
+    /// Pairs that wake since something has touched their island are not tested in that step. They keep their materials, and this is called for each of their
+    /// manifolds, as worker 0, with the contacts with which they fell asleep.
+    /// </remarks>
     SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
         where TManifold : unmanaged, IContactManifold<TManifold>;
 

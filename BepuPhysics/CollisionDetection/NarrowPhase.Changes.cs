@@ -32,6 +32,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             // There may be no room for another constraint: the step is lost, the memory is not, and the workers' pools are free again.
             order.DisposeIfTaken(Pool);
+            Woken.DisposeIfTaken(Pool);
+            ListsWoken = false;
             ReleaseWorkers();
         }
         // Notes of a first step, of which the solver needs nothing, but as much for itself.
@@ -152,7 +154,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         // What sleeps is not tested with what else does not move: of those who wake now nobody knows whom they are beside.
         FastPairs.KnowNoneSlow();
-        if (Simulation.Awakener.WakeRequested())
+        ListsWoken = true;
+        var anyWoke = Simulation.Awakener.WakeRequested();
+        ListsWoken = false;
+        if (anyWoke)
             ReadOld();
     }
 
@@ -236,6 +241,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void WatchBouncingPairs()
     {
         Restitution.BeginStep();
+        NoteSurfacesOfWoken();
         order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Bouncing, i);

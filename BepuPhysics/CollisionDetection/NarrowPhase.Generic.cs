@@ -337,15 +337,20 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void NoteSurface<TManifold>(int workerIndex, in TestedPair tested, ref TManifold manifold)
+        where TManifold : unmanaged, IContactManifold<TManifold> =>
+        NoteSurface(workerIndex, tested.Pair, tested.IsExact, tested.LeastHit, ref manifold);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    void NoteSurface<TManifold>(int workerIndex, in CollidablePair pair, bool isExact, float leastHit, ref TManifold manifold)
         where TManifold : unmanaged, IContactManifold<TManifold>
     {
-        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, tested.Pair, ref manifold);
-        if (surface.Restitution == 0 && !surface.ExactImpacts && !tested.IsExact)
+        var surface = TCallbacks.SurfaceOf(ref Callbacks, workerIndex, pair, ref manifold);
+        if (surface.Restitution == 0 && !surface.ExactImpacts && !isExact)
             return;
-        CallbackChecks.Restitution(tested.Pair, surface.Restitution);
+        CallbackChecks.Restitution(pair, surface.Restitution);
         ref var worker = ref workers[workerIndex];
         var coefficient = surface.ExactImpacts ? MathHelper.Max(surface.Restitution, Restitution.LeastCoefficient) : surface.Restitution;
-        Note(ref worker.Bouncing, new() { Pair = tested.Pair, Coefficient = coefficient, LeastHit = coefficient > 0 ? 0 : tested.LeastHit }, worker.Pool);
+        Note(ref worker.Bouncing, new() { Pair = pair, Coefficient = coefficient, LeastHit = coefficient > 0 ? 0 : leastHit }, worker.Pool);
     }
 
     // A pair that is apart keeps its history, so that it costs little to see that it still is.

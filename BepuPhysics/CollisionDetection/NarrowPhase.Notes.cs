@@ -121,8 +121,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         QuickSort.Sort(notes, ref comparer);
     }
 
-    static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
-
     static CollidablePair PairOf(ulong key) =>
         new(new CollidableReference { Packed = (uint)(key >> 32) }, new CollidableReference { Packed = (uint)key });
 }

@@ -1,11 +1,18 @@
 using System.Numerics;
 using BepuPhysics.Collidables;
+using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;
 
 // Pairs of which one body at least sleeps. Their contacts, if they have any, sleep too, or one of the two has to wake.
 public abstract partial class NarrowPhase
 {
+    /// <summary>Keys of the pairs that have woken since the tests of this step, one for each of their constraints; not allocated where there are none.</summary>
+    private protected QuickList<ulong> Woken;
+
+    /// <summary>Whether pairs that wake are listed.</summary>
+    private protected bool ListsWoken;
+
     /// <summary>Moves the pair of a contact constraint among those that sleep.</summary>
     internal void PutToSleep(int constraint)
     {
@@ -18,7 +25,18 @@ public abstract partial class NarrowPhase
     {
         var pair = pairOfConstraint[constraint];
         Pairs.Awaken(pair, Pool);
+        if (ListsWoken)
+            NoteWoken(pair);
         Simulation.Events.NoteAwake(pair);
+    }
+
+    private protected static ulong Key(in CollidablePair pair) => (ulong)pair.A.Packed << 32 | pair.B.Packed;
+
+    void NoteWoken(in CollidablePair pair)
+    {
+        if (!Woken.Span.Allocated)
+            Woken = new(64, Pool);
+        Woken.Add(Key(pair), Pool);
     }
 
     /// <summary>Whether the contacts of a pair sleep.</summary>
