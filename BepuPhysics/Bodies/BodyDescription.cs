@@ -62,10 +62,16 @@ public struct BodyDescription
         return 0.1f * MathHelper.Min(span.X, MathHelper.Min(span.Y, span.Z));
     }
 
-    /// <summary>A sleep threshold in proportion to a shape: slower than about its size per second.</summary>
+    /// <summary>
+    /// A sleep threshold in proportion to a shape, up to that of one whose radius is a metre: slower than a tenth of its radius per second, at most .1 m/s, and
+    /// than as much in radians per second.
+    /// </summary>
+    // The threshold is of speeds in m/s and rad/s together. In proportion without an end a space station whose rim moves at 20 m/s would count as at rest, and
+    // the load of a crane where it turns back.
     public static BodyActivityDescription GetDefaultActivity<TShape>(in TShape shape) where TShape : unmanaged, IConvexShape
     {
         shape.ComputeAngularExpansionData(out var maximumRadius, out _);
-        return new(0.01f * maximumRadius * maximumRadius);
+        var radius = MathHelper.Min(1, maximumRadius);
+        return new(0.01f * radius * radius);
     }
 }
