@@ -54,6 +54,7 @@ struct CharacterMotionImpulses
 
 /// <summary>The mathematics of both, one body or two.</summary>
 // u = vA + wA x rA - vB - wB x rB, the velocity of the character's supporting point against the support's; x, y, z the axes of the surface
+// rB is to where the character is at the beginning of the substep. To the velocity of the support's point wB x (vA - vB) dt / 2 is added: that of the middle.
 // Horizontal: [ x u ; z u ] = [ target.X ; -target.Y ], its impulse no longer than the greatest horizontal force times the substep
 // Vertical: y u <= depth / substep, its impulse from minus the greatest vertical force times the substep to 0: it never pushes.
 // Where the character rises, y u = rising velocity, its impulse up to the greatest rising force times the substep.
@@ -61,7 +62,7 @@ struct CharacterMotionImpulses
 readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodies, TPrestep, CharacterMotionImpulses>
     where TBodies : unmanaged, IBodySlots where TPrestep : unmanaged, ICharacterMotionWide<TPrestep>
 {
-    public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass;
+    public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass | BodyAccess.Displacement;
     public static BodyAccess SolveAccess => BodyAccess.Velocity | BodyAccess.Mass | BodyAccess.Displacement;
 
     /// <summary>A direction in the world as a row: its lever arms on both bodies.</summary>
@@ -70,6 +71,9 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         readonly Vector3Wide direction = direction;
         readonly Vector3Wide angularA = Vector3Wide.Cross(offsetA, direction);
         readonly Vector3Wide angularB = Vector3Wide.Cross(offsetB, direction);
+
+        /// <summary>The part of a velocity that is along the row.</summary>
+        public Vector<float> Along(in Vector3Wide velocity) => Vector3Wide.Dot(velocity, direction);
 
         /// <summary>J v.</summary>
         public Vector<float> Velocity(in TBodies bodies) => Along(bodies, isMotion: false);
@@ -118,9 +122,15 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         }
     }
 
-    static void Prepare(in TPrestep prestep, out StaticCharacterMotionWide goal, out Row right, out Row up, out Row back)
+    static void Prepare(in TBodies bodies, in TPrestep prestep, out StaticCharacterMotionWide goal, out Row right, out Row up, out Row back)
     {
         TPrestep.Read(prestep, out goal, out var offsetB);
+        // The support's point under the character, wherever that has come to: on what turns each point moves another way.
+        if (TBodies.Count > 1)
+        {
+            ref var others = ref Unsafe.AsRef(in bodies);
+            offsetB += BodySlots.At(ref others, 0).Translation - BodySlots.At(ref others, 1).Translation;
+        }
         right = new(QuaternionWide.TransformUnitX(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
         up = new(QuaternionWide.TransformUnitY(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
         back = new(QuaternionWide.TransformUnitZ(goal.SurfaceBasis), goal.OffsetFromCharacterToSupportPoint, offsetB);
@@ -128,7 +138,7 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
 
     public static void WarmStart(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref CharacterMotionImpulses impulses)
     {
-        Prepare(prestep, out _, out var right, out var up, out var back);
+        Prepare(bodies, prestep, out _, out var right, out var up, out var back);
         // Forces carry over, and the length of the substep may have changed.
         var scale = new Vector<float>(substep.WarmStartScale);
         impulses.Horizontal = new(impulses.Horizontal.X * scale, impulses.Horizontal.Y * scale);
@@ -143,9 +153,20 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         // Motors correct no position, so there is nothing to take back.
         if (substep.IsRelaxation)
             return;
-        Prepare(prestep, out var goal, out var right, out var up, out var back);
+        Prepare(bodies, prestep, out var goal, out var right, out var up, out var back);
         SolveHorizontal(ref bodies, substep, goal, right, back, ref impulses.Horizontal);
         SolveVertical(ref bodies, substep, goal, up, ref impulses.Vertical);
+    }
+
+    // What the support's point under the character moves faster in the middle of the substep than at its beginning. The way of a substep is straight: who took
+    // the tangent on a turntable would go outwards with half of w^2 r dt.
+    static Vector3Wide TurnOfSupport(ref TBodies bodies, in Substep substep)
+    {
+        if (TBodies.Count < 2)
+            return default;
+        ref var a = ref BodySlots.At(ref bodies, 0);
+        ref var b = ref BodySlots.At(ref bodies, 1);
+        return Vector3Wide.Cross(b.Angular, (a.Linear - b.Linear) * new Vector<float>(substep.Dt * 0.5f));
     }
 
     static void SolveHorizontal(
@@ -155,7 +176,9 @@ readonly struct CharacterMotionConstraint<TBodies, TPrestep> : IConstraint<TBodi
         inverseMass.XX = right.InverseMass(bodies, right);
         inverseMass.YX = right.InverseMass(bodies, back);
         inverseMass.YY = back.InverseMass(bodies, back);
-        var missing = new Vector2Wide(goal.TargetVelocity.X - right.Velocity(bodies), -goal.TargetVelocity.Y - back.Velocity(bodies));
+        var turn = TurnOfSupport(ref bodies, substep);
+        var missing = new Vector2Wide(
+            goal.TargetVelocity.X - right.Velocity(bodies) + right.Along(turn), -goal.TargetVelocity.Y - back.Velocity(bodies) + back.Along(turn));
         var change = RowMatrix2.Solve(new(inverseMass), new(missing)).V;
         var previous = impulses;
         Vector2Wide wanted = new(impulses.X + change.X, impulses.Y + change.Y);
