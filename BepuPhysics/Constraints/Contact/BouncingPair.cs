@@ -42,6 +42,10 @@ struct BouncingPair
     public bool IsInStructure;
     /// <summary>Whether it takes part in the impact that is being made.</summary>
     public bool Joins;
+    /// <summary>Whether A rests on something, so that its velocity is without what the substep has added to it.</summary>
+    public bool RestsA;
+    /// <summary>As <see cref="RestsA"/>, of B.</summary>
+    public bool RestsB;
     /// <summary>What impacts have pushed along the normal in this step, N s.</summary>
     public float Impulse;
     /// <summary>What friction of impacts has pushed A with in this step, N s.</summary>
@@ -58,6 +62,12 @@ struct BouncingPair
     public BodyVelocity GainA;
     /// <summary>As <see cref="GainA"/>, of B.</summary>
     public BodyVelocity GainB;
+
+    /// <summary>What is in the velocity of A, while impacts are made, of what the substep has added to it.</summary>
+    public readonly BodyVelocity GainInA => RestsA ? default : GainA;
+
+    /// <summary>As <see cref="GainInA"/>, of B.</summary>
+    public readonly BodyVelocity GainInB => RestsB ? default : GainB;
 
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;

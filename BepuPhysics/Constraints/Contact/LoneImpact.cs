@@ -37,7 +37,7 @@ struct LoneImpact
         BodyInertia inertiaA = contacts.InertiaA, inertiaB = contacts.InertiaB;
         var inverseMass = row.Along(row.ResponseOfA(inertiaA, 1), row.ResponseOfB(inertiaB, 1));
         // The velocity has gained what the acceleration of the whole substep gives. A parabola has gained half of that when the substep begins.
-        speed += row.Along(pair.GainA, pair.GainB) * (0.5f - time / dt);
+        speed += row.Along(pair.GainInA, pair.GainInB) * (0.5f - time / dt);
         if (!(inverseMass > 0) || !(speed > 0))
             return true;
         Impulse = speed / inverseMass;

@@ -30,6 +30,8 @@ sealed unsafe partial class Restitution
     {
         ImpactQueue queue = new(pool);
         SharedImpact impact = new(owner.structures, pool);
+        // Not allocated where nobody rests.
+        QuickList<RestingBody> resting;
 
         readonly ref QuickList<BouncingPair> Pairs => ref owner.pairs;
 
@@ -37,6 +39,7 @@ sealed unsafe partial class Restitution
         {
             queue.Dispose();
             impact.Dispose();
+            resting.DisposeIfTaken(pool);
         }
 
         public void Make(int group, in Substep substep)
@@ -45,10 +48,12 @@ sealed unsafe partial class Restitution
                 return;
             if (!owner.structures.IsEmpty)
                 EnterStructures(group, substep);
+            EnterSupports(group, substep.Dt);
             MakeImpacts(substep.Dt);
             Separate(group, substep.Dt);
             // Who was in the way.
             MakeImpacts(substep.Dt);
+            LeaveSupports();
             if (!owner.structures.IsEmpty)
                 LeaveStructures(group);
             HideOverlaps(group);

@@ -166,8 +166,8 @@ unsafe partial struct SharedImpact(ImpactStructures structures, BufferPool pool)
         bounces |= pair.Coefficient > 0;
         // The velocity has gained what the acceleration of the whole substep gives. A parabola has gained half of that when the substep begins.
         var notYet = 0.5f - time / dt;
-        var gainA = bodies[a].Part >= 0 ? structures.GainOf(bodies[a].Part) : pair.GainA;
-        var gainB = bodies[b].Part >= 0 ? structures.GainOf(bodies[b].Part) : pair.GainB;
+        var gainA = bodies[a].Part >= 0 ? structures.GainOf(bodies[a].Part) : pair.GainInA;
+        var gainB = bodies[b].Part >= 0 ? structures.GainOf(bodies[b].Part) : pair.GainInB;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             var row = pair.Rows[i];
