@@ -1,5 +1,3 @@
-using BepuUtilities.Collections;
-
 namespace BepuPhysics.Constraints.Contact;
 
 // Impacts of bodies that rest on others. What their acceleration has given them in the substep the contacts that bear them take back, but not before the
