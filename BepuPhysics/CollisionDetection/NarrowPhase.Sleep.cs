@@ -7,7 +7,7 @@ namespace BepuPhysics.CollisionDetection;
 // Pairs of which one body at least sleeps. Their contacts, if they have any, sleep too, or one of the two has to wake.
 public abstract partial class NarrowPhase
 {
-    /// <summary>Keys of the pairs that have woken since the tests of this step, one for each of their constraints; not allocated where there are none.</summary>
+    /// <summary>Keys of the pairs that have woken since the tests of this step, one for each constraint; not allocated where there are none.</summary>
     private protected QuickList<ulong> Woken;
 
     /// <summary>Whether pairs that wake are listed.</summary>
