@@ -73,6 +73,7 @@ public partial class MigrationPageTests
         ["velocity of a body that falls asleep"] = "SleepTests.A_game_puts_an_island_to_sleep",
         ["ApplyImpulse"] = "WakeTests.Exactly_the_island_wakes_to_which_something_happens",
         ["StaticReference.UpdateBounds"] = "WakeTests.A_static_whose_pose_was_written_wakes_who_is_there_with_its_bounds",
+        ["BodyDescription.GetDefaultActivity"] = "LargeSleeperTests.ALargeWheelGoesOnTurning",
         ["settings of the sleeper"] = "SleepTests.Everything_settles_and_nothing_that_is_fast_sleeps",
         ["number of bodies"] = "HandleGenerationTests.More_bodies_than_there_are_slots_are_refused",
     };

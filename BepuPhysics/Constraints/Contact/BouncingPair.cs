@@ -69,6 +69,10 @@ struct BouncingPair
     /// <summary>As <see cref="GainInA"/>, of B.</summary>
     public readonly BodyVelocity GainInB => RestsB ? default : GainB;
 
+    /// <summary>The speed at which a contact approaches, with what the substep adds to who rests: that at which it rests has a part for it.</summary>
+    public readonly float WithGain(int contact, float speed) =>
+        RestsA || RestsB ? speed - Rows[contact].Along(RestsA ? GainA : default, RestsB ? GainB : default) : speed;
+
     /// <summary>Next pair of one of the two bodies, or -1.</summary>
     public readonly int NextOf(int body) => A == body ? NextOfA : NextOfB;
 

@@ -196,7 +196,8 @@ sealed unsafe partial class Restitution
             for (int i = 0; i < pair.ContactCount; ++i)
             {
                 var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
-                if (speed > owner.RestingSpeed(pair, contacts, pair.Gained[i], dt) && contacts.Gap(i, pair.Rows[i]) <= pair.ReachOfAlike(speed, dt))
+                if (pair.WithGain(i, speed) > owner.RestingSpeed(pair, contacts, pair.Gained[i], dt) &&
+                    contacts.Gap(i, pair.Rows[i]) <= pair.ReachOfAlike(speed, dt))
                     return true;
             }
             return false;

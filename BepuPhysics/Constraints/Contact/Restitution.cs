@@ -233,7 +233,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
                 stays |= left > 0;
                 pair.Overlap = MathHelper.Max(pair.Overlap, MathHelper.Min(left, contacts.MaximumRecoveryVelocity * dt));
             }
-            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(speed > RestingSpeed(pair, contacts, pair.Gained[i], dt)) ||
+            if (!(speed > 0) || !(gap <= pair.Reach(speed, dt)) || !(pair.WithGain(i, speed) > RestingSpeed(pair, contacts, pair.Gained[i], dt)) ||
                 (pair.B >= 0 && !(speed > StoppedShare * pair.Stopped)))
                 continue;
             var time = MathHelper.Max(earliest, gap / speed);
