@@ -48,7 +48,6 @@ sealed unsafe partial class Restitution
                 return;
             if (!owner.structures.IsEmpty)
                 EnterStructures(group, substep);
-            EnterSupports(group, substep.Dt);
             MakeImpacts(substep.Dt);
             Separate(group, substep.Dt);
             // Who was in the way.
@@ -74,6 +73,11 @@ sealed unsafe partial class Restitution
             while (!queue.IsEmpty)
             {
                 var first = queue.First;
+                if (RestBodiesOf(first))
+                {
+                    LookAt(first, dt);
+                    continue;
+                }
                 var time = Pairs[first].Time;
                 if (TryMakeLone(first, time, dt))
                     continue;
@@ -153,6 +157,7 @@ sealed unsafe partial class Restitution
 
         void Join(int index)
         {
+            RestBodiesOf(index);
             ref var pair = ref Pairs[index];
             Note(ref pair);
             pair.Joins = true;

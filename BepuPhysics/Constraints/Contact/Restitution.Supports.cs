@@ -14,38 +14,33 @@ sealed unsafe partial class Restitution
 
     partial struct Impacts
     {
-        void EnterSupports(int group, float dt)
+        // Of what rests only who is about to be hit is looked at: in a heap few are, in a substep. Their other pairs meet earlier or later by as good as nothing,
+        // and are looked at when the blow has changed them.
+        bool RestBodiesOf(int index)
         {
-            // Without an impact nobody's speeds matter.
-            for (int i = 0; i < owner.groups.CountOf(group) && !queue.IsEmpty; ++i)
-            {
-                var index = owner.groups.Pair(group, i);
-                ref var pair = ref Pairs[index];
-                if (!pair.IsLoaded)
-                    continue;
-                Rest(pair.A, index, pair.GainA);
-                if (pair.B >= 0)
-                    Rest(pair.B, index, pair.GainB);
-            }
-            for (int i = 0; i < resting.Count; ++i)
-                LookAtPairsOf(resting[i].Body, -1, dt);
+            ref var pair = ref Pairs[index];
+            var restsA = !pair.RestsA && TryRest(pair.A);
+            var restsB = pair.B >= 0 && !pair.RestsB && TryRest(pair.B);
+            return restsA || restsB;
         }
 
         // By the first of the contacts that bear it. Of what is in joints the equations of these know what it gains.
-        void Rest(int body, int index, in BodyVelocity gain)
+        bool TryRest(int body)
         {
             if (owner.structures.PartOf(body) >= 0)
-                return;
-            for (int i = owner.groups.FirstOf(body); i != index; i = Pairs[i].NextOf(body))
-            {
-                if (Pairs[i].IsLoaded)
-                    return;
-            }
+                return false;
+            var bearing = owner.groups.FirstOf(body);
+            while (bearing >= 0 && !Pairs[bearing].IsLoaded)
+                bearing = Pairs[bearing].NextOf(body);
+            if (bearing < 0)
+                return false;
             if (!resting.Span.Allocated)
                 resting = new(16, pool);
+            var gain = Pairs[bearing].A == body ? Pairs[bearing].GainA : Pairs[bearing].GainB;
             resting.Add(new() { Body = body, Gain = gain }, pool);
-            owner.Contacts(Pairs[index]).Push(body, Difference(default, gain));
+            owner.Contacts(Pairs[bearing]).Push(body, Difference(default, gain));
             NoteRest(body, true);
+            return true;
         }
 
         readonly void NoteRest(int body, bool rests)
