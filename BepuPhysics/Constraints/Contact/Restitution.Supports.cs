@@ -14,8 +14,8 @@ sealed unsafe partial class Restitution
 
     partial struct Impacts
     {
-        // Of what rests only who is about to be hit is looked at: in a heap few are, in a substep. Their other pairs meet earlier or later by as good as nothing,
-        // and are looked at when the blow has changed them.
+        // Of what rests only who is about to be hit is looked at: in a heap few are, in a substep. Their other pairs meet earlier or later by as good as
+        // nothing, and are looked at when the blow has changed them.
         bool RestBodiesOf(int index)
         {
             ref var pair = ref Pairs[index];
