@@ -52,6 +52,8 @@ public struct CharacterNarrowPhaseCallbacks<TCallbacks>(CharacterControllers cha
     /// <inheritdoc/>
     public void Dispose() => Inner.Dispose();
 
+    static bool INarrowPhaseCallbacks.HasSurfaces => TCallbacks.HasSurfaces;
+
     static SurfaceProperties INarrowPhaseCallbacks.SurfaceOf<TOuter, TManifold>(
         ref TOuter callbacks, int workerIndex, in CollidablePair pair, ref TManifold manifold)
     {

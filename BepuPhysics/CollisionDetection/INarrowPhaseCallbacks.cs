@@ -65,6 +65,9 @@ public interface INarrowPhaseCallbacks
     /// <summary>Called once, when the simulation is disposed.</summary>
     void Dispose();
 
+    /// <summary>Whether the callbacks implement <see cref="ISurfaceCallbacks{TSelf}"/>.</summary>
+    internal static virtual bool HasSurfaces => false;
+
     /// <summary>What <see cref="ISurfaceCallbacks{TSelf}"/> says of a pair; nothing where the callbacks do not implement it.</summary>
     internal static virtual SurfaceProperties SurfaceOf<TCallbacks, TManifold>(
         ref TCallbacks callbacks, int workerIndex, in CollidablePair pair, ref TManifold manifold)

@@ -21,6 +21,8 @@ public interface ISurfaceCallbacks<TSelf> : INarrowPhaseCallbacks where TSelf : 
     SurfaceProperties GetSurface<TManifold>(int workerIndex, CollidablePair pair, ref TManifold manifold)
         where TManifold : unmanaged, IContactManifold<TManifold>;
 
+    static bool INarrowPhaseCallbacks.HasSurfaces => true;
+
     static SurfaceProperties INarrowPhaseCallbacks.SurfaceOf<TCallbacks, TManifold>(
         ref TCallbacks callbacks, int workerIndex, in CollidablePair pair, ref TManifold manifold)
     {

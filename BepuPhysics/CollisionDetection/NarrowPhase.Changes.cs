@@ -154,7 +154,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         // What sleeps is not tested with what else does not move: of those who wake now nobody knows whom they are beside.
         FastPairs.KnowNoneSlow();
-        ListsWoken = true;
+        ListsWoken = TCallbacks.HasSurfaces;
         var anyWoke = Simulation.Awakener.WakeRequested();
         ListsWoken = false;
         if (anyWoke)
