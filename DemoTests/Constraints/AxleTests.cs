@@ -255,31 +255,7 @@ public class AxleTests(ITestOutputHelper output)
     [Fact]
     public void Lanes_lean_alone()
     {
-        var substep = new Substep(0, 1 / 240f, 1, 1);
-        var samples = new JointSamples(3);
-        var lanes = Vector<float>.Count;
-        for (int trial = 0; trial < 20; ++trial)
-        {
-            var first = JointProbes.New<Hinge>();
-            var second = JointProbes.New<Hinge>();
-            for (int lane = 0; lane < lanes; ++lane)
-                Fill(first, lane, samples);
-            var shift = 1 + trial % (lanes - 1);
-            for (int lane = 0; lane < lanes; ++lane)
-            {
-                if (lane % 2 == 0)
-                    first.CopyLane(lane, second, (lane + shift) % lanes);
-                else
-                    Fill(second, (lane + shift) % lanes, samples);
-            }
-            foreach (var probe in new[] { first, second })
-            {
-                probe.WarmStart(substep);
-                probe.Solve(substep);
-            }
-            for (int lane = 0; lane < lanes; lane += 2)
-                Assert.Equal(first.LaneBits(lane), second.LaneBits((lane + shift) % lanes));
-        }
+        JointProbes.AssertLanesAreAlone<Hinge>(new(3), new Substep(0, 1 / 240f, 1, 1), Fill);
 
         static void Fill(JointProbe<Hinge> probe, int lane, JointSamples samples)
         {

@@ -3,6 +3,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Constraints;
 using BepuUtilities;
+using Xunit;
 
 namespace DemoTests.Constraints;
 
@@ -38,6 +39,38 @@ static class JointProbes
 {
     public static JointProbe<TDescription> New<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription> =>
         (JointProbe<TDescription>)Activator.CreateInstance(TypeOf<TDescription>())!;
+
+    /// <summary>Asserts that a lane has the same bits whichever lane it is and whatever its neighbours are, after a warm start and a sweep.</summary>
+    /// <param name="samples">What samples are taken from.</param>
+    /// <param name="substep">The substep of both.</param>
+    /// <param name="fill">Puts a sample into a lane.</param>
+    public static void AssertLanesAreAlone<TDescription>(JointSamples samples, in Substep substep, Action<JointProbe<TDescription>, int, JointSamples> fill)
+        where TDescription : unmanaged, IConstraintDescription<TDescription>
+    {
+        var lanes = Vector<float>.Count;
+        for (int trial = 0; trial < 20; ++trial)
+        {
+            JointProbe<TDescription> first = New<TDescription>(), second = New<TDescription>();
+            for (int lane = 0; lane < lanes; ++lane)
+                fill(first, lane, samples);
+            // Half of the lanes get other company, all change places.
+            var shift = 1 + trial % (lanes - 1);
+            for (int lane = 0; lane < lanes; ++lane)
+            {
+                if (lane % 2 == 0)
+                    first.CopyLane(lane, second, (lane + shift) % lanes);
+                else
+                    fill(second, (lane + shift) % lanes, samples);
+            }
+            foreach (var probe in new[] { first, second })
+            {
+                probe.WarmStart(substep);
+                probe.Solve(substep);
+            }
+            for (int lane = 0; lane < lanes; lane += 2)
+                Assert.Equal(first.LaneBits(lane), second.LaneBits((lane + shift) % lanes));
+        }
+    }
 
     // TypeProcessor<TBodies, TWide, TRows, JointConstraint<TBodies, TWide, TGeometry, TRows, TMass, TJoint>>
     static Type TypeOf<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>

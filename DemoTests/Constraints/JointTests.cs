@@ -178,34 +178,7 @@ public abstract class JointTests<TDescription> where TDescription : unmanaged, I
     }
 
     [Fact]
-    public void LanesDoNotSeeEachOther()
-    {
-        var samples = new JointSamples(7);
-        var lanes = Vector<float>.Count;
-        for (int trial = 0; trial < 20; ++trial)
-        {
-            var first = JointProbes.New<TDescription>();
-            var second = JointProbes.New<TDescription>();
-            for (int lane = 0; lane < lanes; ++lane)
-                Fill(first, lane, samples);
-            // Half of the lanes get other company, all change places.
-            var shift = 1 + trial % (lanes - 1);
-            for (int lane = 0; lane < lanes; ++lane)
-            {
-                if (lane % 2 == 0)
-                    first.CopyLane(lane, second, (lane + shift) % lanes);
-                else
-                    Fill(second, (lane + shift) % lanes, samples);
-            }
-            foreach (var probe in new[] { first, second })
-            {
-                probe.WarmStart(Substep);
-                probe.Solve(Substep);
-            }
-            for (int lane = 0; lane < lanes; lane += 2)
-                Assert.Equal(first.LaneBits(lane), second.LaneBits((lane + shift) % lanes));
-        }
-    }
+    public void LanesDoNotSeeEachOther() => JointProbes.AssertLanesAreAlone<TDescription>(new(7), Substep, Fill);
 
     [Fact]
     public void DegenerateCasesStayFinite()
