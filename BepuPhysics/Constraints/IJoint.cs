@@ -56,6 +56,12 @@ public interface IJoint<TBodies, TPrestep, TGeometry, TRows, TMass>
     /// <summary>C for the current poses. For inequalities: negative where violated, otherwise the slack.</summary>
     static abstract void PositionError(in TBodies bodies, in TPrestep prestep, in TGeometry geometry, out TRows error);
 
+    /// <summary>Whether <see cref="LeastSlack"/> is less to work out than <see cref="PositionError"/>; of one row that is an inequality only.</summary>
+    static virtual bool BoundsSlack => false;
+
+    /// <summary>A value that C is not below, to be asked before it; asked for only where <see cref="BoundsSlack"/>.</summary>
+    static virtual void LeastSlack(in TPrestep prestep, in TGeometry geometry, out TRows slack) => slack = default;
+
     /// <summary>Turns the rows, whose error is that of where <see cref="Prepare"/> has put them, to where they act.</summary>
     static virtual void LeanRows(in TBodies bodies, in TPrestep prestep, ref TGeometry geometry) { }
 

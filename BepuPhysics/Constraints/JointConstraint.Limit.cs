@@ -11,8 +11,18 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     static void SolveLimit(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TRows impulses)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
-        TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
+        if (CanBeIdle)
+        {
+            TRows slack;
+            if (TJoint.BoundsSlack)
+                TJoint.LeastSlack(prestep, geometry, out slack);
+            else
+                TJoint.PositionError(bodies, prestep, geometry, out slack);
+            if (AreOutOfReach(slack, velocity, impulses, substep))
+                return;
+        }
+        TJoint.PositionError(bodies, prestep, geometry, out var error);
         var softness = Softness(ref bodies, substep, prestep);
         if (MayTurnFar && !substep.IsRelaxation)
         {
@@ -38,6 +48,19 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         impulses = sum;
         ApplyWhere(~isIdle, geometry, ref bodies, change);
     }
+
+    // Whether a substep at the present velocities ends short of all limits, so that none of them asks how soft it is. A lane for which this holds is idle by
+    // what is asked above as well, to the last bit: there C is no less, both products with 1/h are rounded alike, and no softness changes the sign of what
+    // is missing.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static bool AreOutOfReach(in TRows slack, in TRows velocity, in TRows impulses, in Substep substep) => Vector.EqualsAll(
+        Vector.GreaterThanOrEqual(Only(slack), Vector<float>.Zero) &
+        Vector.GreaterThanOrEqual(Only(velocity), Only(slack * new Vector<float>(-substep.InverseDt))) &
+        Vector.Equals(Only(impulses), Vector<float>.Zero), new Vector<int>(-1));
+
+    // The number of the only row.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> Only(in TRows rows) => Unsafe.As<TRows, Vector<float>>(ref Unsafe.AsRef(in rows));
 
     // Copies: a local whose address is taken is in memory all the time.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -95,6 +95,7 @@ public unsafe class KernelPurityTests
                 processor.PrestepFloat(ref batch, index, i) = random.NextSingle() * 2 - 0.7f;
             for (int i = 0; i < processor.ImpulseFloats; ++i)
                 processor.Impulse(ref batch, index, i) = random.NextSingle();
+            MakeSpring(processor, ref batch, index);
             if (constraint % 3 == 0)
                 MakeRigid(processor, ref batch, index);
             if (typeId < ConstraintTypeIds.ContactTwoBody && constraint % 2 == 0)
@@ -145,6 +146,15 @@ public unsafe class KernelPurityTests
     }
 
     static Span<float> Floats<T>(ref T row) where T : unmanaged => MemoryMarshal.Cast<T, float>(new Span<T>(ref row));
+
+    // No description has a spring of a negative frequency or damping, which would pull at what it pushes: a limit with one would not be idle out of reach.
+    static void MakeSpring(TypeProcessor processor, ref TypeBatch batch, int index)
+    {
+        if (JointTypes.All.SingleOrDefault(type => type.Id == processor.TypeId)?.PlaceOf<SpringSettings>() is not (int spring and >= 0))
+            return;
+        for (int i = 0; i < 2; ++i)
+            processor.PrestepFloat(ref batch, index, spring + i) = MathF.Abs(processor.PrestepFloat(ref batch, index, spring + i));
+    }
 
     // What is rigid is damped where its load turns a body far.
     static void MakeRigid(TypeProcessor processor, ref TypeBatch batch, int index)

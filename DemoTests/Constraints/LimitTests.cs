@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics.Constraints;
+using BepuUtilities;
 using Xunit;
 
 namespace DemoTests.Constraints;
@@ -168,6 +169,41 @@ public class SwingLimitTests : JointTests<SwingLimit>
         var probe = JointProbes.New<SwingLimit>();
         probe.Set(0, new() { AxisLocalA = new(0, 0, 1), AxisLocalB = new(0, 0, axisB), MinimumDot = minimumDot }, bodies);
         AssertClose([expected], probe.PositionError(0), 1e-6);
+    }
+
+    /// <summary>What tells without an angle that a limit is out of reach never says so where the angle would not, whatever lengths axes have.</summary>
+    [Fact]
+    public void Room_is_never_less_than_its_bound()
+    {
+        var samples = new JointSamples(5);
+        var bounded = 0;
+        for (int i = 0; i < 20_000; ++i)
+        {
+            var bodies = new TwoBodies();
+            var limit = new SwingLimitWide();
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                var axis = samples.Direction();
+                // Near the ends of what cosines can be, and anywhere.
+                var other = samples.Coin() ? samples.Direction() : Vector3.Normalize((samples.Coin() ? axis : -axis) + samples.Vector(0.01f));
+                var end = samples.Coin() ? 1 : -1;
+                var cosine = samples.Coin() ? samples.Uniform(-1, 1) : end * (1 - MathF.Pow(10, samples.Uniform(-8, -2)));
+                Lanes.Write(new SwingLimit { AxisLocalA = axis * Length(0.006f), AxisLocalB = other * Length(0.006f), MinimumDot = cosine }, ref limit, lane);
+                Lanes.Write(Quaternion.Identity * Length(0.2f), ref bodies.A.Orientation, lane);
+                Lanes.Write(samples.Rotation(samples.Coin() ? 0.01f : 3) * Length(0.2f), ref bodies.B.Orientation, lane);
+            }
+            SwingLimitJoint.Prepare(bodies, limit, out var geometry);
+            SwingLimitJoint.LeastSlack(limit, geometry, out var slack);
+            SwingLimitJoint.PositionError(bodies, limit, geometry, out var error);
+            for (int lane = 0; lane < Vector<float>.Count; ++lane)
+            {
+                Assert.True(slack.X[lane] < 0 || slack.X[lane] <= error.X[lane], $"{slack.X[lane]:R} and {error.X[lane]:R}");
+                bounded += slack.X[lane] >= 0 ? 1 : 0;
+            }
+        }
+        Assert.True(bounded > 2000 * Vector<float>.Count, $"Only {bounded} had a bound.");
+
+        float Length(float range) => samples.Uniform(0, 4) < 3 ? 1 : samples.Uniform(1 - range, 1 + range);
     }
 
     /// <summary>A hundredth of a degree beyond the limit is that much, however narrow the limit.</summary>

@@ -67,6 +67,24 @@ readonly struct SwingLimitJoint : IJacobianJoint<TwoBodies, SwingLimitWide, Axes
         AxesRow.Prepare(bodies, prestep.AxisLocalA, prestep.AxisLocalB, out geometry);
 
     /// <inheritdoc/>
+    public static bool BoundsSlack => true;
+
+    // Square of the length of (cosine, sine), less one: of axes that have unit length. Half of it, and what an arc tangent is rounded by, are less than the
+    // margin.
+    const float UnitTolerance = 1f / 1024;
+    const float CosineMargin = 1f / 1024;
+
+    /// <inheritdoc/>
+    // Cosines differ by no more than their angles do. What a game has described as a unit vector, or written into a body, need not be one.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void LeastSlack(in SwingLimitWide prestep, in AxesRow geometry, out Rows1 slack)
+    {
+        var lengthSquared = geometry.Cosine * geometry.Cosine + geometry.Sine * geometry.Sine;
+        var areUnit = Vector.LessThan(Vector.Abs(lengthSquared - Vector<float>.One), new Vector<float>(UnitTolerance));
+        slack.X = Wide.Select(areUnit, geometry.Cosine - prestep.MinimumDot - new Vector<float>(CosineMargin), -Vector<float>.One);
+    }
+
+    /// <inheritdoc/>
     // The difference of two angles by one arc tangent: of its sine and its cosine, from those of the two.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void PositionError(in TwoBodies bodies, in SwingLimitWide prestep, in AxesRow geometry, out Rows1 error)
