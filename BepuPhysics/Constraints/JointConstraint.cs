@@ -77,10 +77,16 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
             return;
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
+        // A dozen operations of springs wait for each other and for nothing else: of short kernels they begin early, of long ones where registers are free
+        // again. Sizes are compared here and not by a property, or the JIT would take up both before it leaves one out.
+        SoftnessWide softness = default;
+        if (Unsafe.SizeOf<TRows>() == Unsafe.SizeOf<Vector<float>>())
+            softness = Softness(ref bodies, substep, prestep);
         TJoint.LeanRows(bodies, prestep, ref geometry);
         TJoint.RelativeVelocity(geometry, bodies, out var velocity);
         TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
-        var softness = Softness(ref bodies, substep, prestep);
+        if (Unsafe.SizeOf<TRows>() != Unsafe.SizeOf<Vector<float>>())
+            softness = Softness(ref bodies, substep, prestep);
 
         if (MayTurnFar && !substep.IsRelaxation)
         {
