@@ -37,10 +37,14 @@ struct AreaGradient : IJacobian<AreaGradient, ThreeBodies, Rows1, Rows1>
         var cross = Vector3Wide.Cross(b, c);
         var areaSquared = cross.LengthSquared();
         row.Area = Vector.SquareRoot(areaSquared);
-        var longer = Vector3Wide.Normalize(Vector3Wide.Select(Vector.GreaterThan(b.LengthSquared(), c.LengthSquared()), b, c));
-        Vector3Wide.BuildOrthonormalBasis(longer, out var perpendicular, out _);
-        var normal = Vector3Wide.Select(
-            Vector.GreaterThan(areaSquared, new Vector<float>(LeastAreaSquared)), cross * (Vector<float>.One / row.Area), perpendicular);
+        var normal = cross * (Vector<float>.One / row.Area);
+        var isPlane = Vector.GreaterThan(areaSquared, new Vector<float>(LeastAreaSquared));
+        if (!Vector.EqualsAll(isPlane, new Vector<int>(-1)))
+        {
+            var longer = Vector3Wide.Normalize(Vector3Wide.Select(Vector.GreaterThan(b.LengthSquared(), c.LengthSquared()), b, c));
+            Vector3Wide.BuildOrthonormalBasis(longer, out var perpendicular, out _);
+            normal = Vector3Wide.Select(isPlane, normal, perpendicular);
+        }
         row.B = Vector3Wide.Cross(c, normal);
         row.C = Vector3Wide.Cross(normal, b);
     }
@@ -51,7 +55,11 @@ struct AreaGradient : IJacobian<AreaGradient, ThreeBodies, Rows1, Rows1>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector<float> Bound(Vector<float> error, in AreaGradient row, Vector<float> target)
     {
-        var gradient = Vector.SquareRoot(row.A.LengthSquared() + row.B.LengthSquared() + row.C.LengthSquared());
+        var gradientSquared = row.A.LengthSquared() + row.B.LengthSquared() + row.C.LengthSquared();
+        // Most are far from the bound, which is no less than g g but for rounding.
+        if (Vector.LessThanAll(Vector.Abs(error), gradientSquared * new Vector<float>(0.99f)))
+            return error;
+        var gradient = Vector.SquareRoot(gradientSquared);
         var greatest = gradient * (gradient + Vector.SquareRoot(target));
         return Wide.Clamp(error, -greatest, greatest);
     }
