@@ -1,4 +1,6 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics.Arm;
+using System.Runtime.Intrinsics.X86;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
@@ -45,6 +47,19 @@ struct PointAndAxesRows : IPointJacobian<PointAndAxesRows, TwoBodies, Rows4, Row
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static void InverseEffectiveMass(in PointAndAxesRows rows, in TwoBodies bodies, out RowMatrix4 inverseMass)
+    {
+        if (Avx512F.VL.IsSupported || AdvSimd.IsSupported)
+            AddUp(rows, bodies, out inverseMass);
+        else
+            AddUpByCall(rows, bodies, out inverseMass);
+    }
+
+    // For sixteen registers, as in PointRows.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void AddUpByCall(in PointAndAxesRows rows, in TwoBodies bodies, out RowMatrix4 inverseMass) => AddUp(rows, bodies, out inverseMass);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static void AddUp(in PointAndAxesRows rows, in TwoBodies bodies, out RowMatrix4 inverseMass)
     {
         inverseMass.Linear = PointRows.InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);
         var responseA = bodies.A.InverseInertia * rows.Axes.Axis;

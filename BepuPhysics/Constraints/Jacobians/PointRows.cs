@@ -1,4 +1,6 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics.Arm;
+using System.Runtime.Intrinsics.X86;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
@@ -47,8 +49,18 @@ struct PointRows : IPointJacobian<PointRows, TwoBodies, Rows3, RowMatrix3>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void InverseEffectiveMass(in PointRows rows, in TwoBodies bodies, out RowMatrix3 inverseMass) =>
-        inverseMass.M = InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);
+    public static void InverseEffectiveMass(in PointRows rows, in TwoBodies bodies, out RowMatrix3 inverseMass)
+    {
+        if (Avx512F.VL.IsSupported || AdvSimd.IsSupported)
+            inverseMass.M = InverseEffectiveMass(bodies, rows.OffsetA, rows.OffsetB);
+        else
+            InverseEffectiveMassByCall(bodies, rows.OffsetA, rows.OffsetB, out inverseMass.M);
+    }
+
+    // Sixteen registers do not hold what a kernel has at hand around it: inlined, each operation would read and write the stack.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void InverseEffectiveMassByCall(in TwoBodies bodies, in Vector3Wide offsetA, in Vector3Wide offsetB, out Symmetric3x3Wide inverseMass) =>
+        inverseMass = InverseEffectiveMass(bodies, offsetA, offsetB);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

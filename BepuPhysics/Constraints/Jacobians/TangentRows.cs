@@ -100,7 +100,8 @@ struct LinearTangentRows : IJacobian<LinearTangentRows, TwoBodies, Rows2, RowMat
             new() { OffsetA = rows.OffsetA, OffsetB = rows.OffsetB }, ref bodies, new(rows.TangentX * impulse.V.X + rows.TangentY * impulse.V.Y));
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // A JIT root of its own, as in PointAndTangentRows.
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static void InverseEffectiveMass(in LinearTangentRows rows, in TwoBodies bodies, out RowMatrix2 inverseMass)
     {
         var armsA = new Matrix2x3Wide(Vector3Wide.Cross(rows.OffsetA, rows.TangentX), Vector3Wide.Cross(rows.OffsetA, rows.TangentY));
