@@ -127,18 +127,32 @@ public static partial class Wide
         var isSmall = Vector.LessThanOrEqual(magnitude, half);
         var z = Select(isSmall, magnitude * magnitude, (one - magnitude) * half);
         var s = Select(isSmall, magnitude, Vector.SquareRoot(z));
-        var p = new Vector<float>(0.043763131f);
-        p = p * z + new Vector<float>(0.023142228f);
-        p = p * z + new Vector<float>(0.045707799f);
-        p = p * z + new Vector<float>(0.074930772f);
-        p = p * z + new Vector<float>(0.16666822f);
-        var asin = s + s * z * p;
+        var asin = s + s * z * AsinPolynomial(z);
 
         var isNegative = Vector.LessThan(cosine, Vector<float>.Zero);
         var small = new Vector<float>(MathHelper.PiOver2) - CopySign(asin, cosine);
         var twice = asin + asin;
         var large = Select(isNegative, new Vector<float>(MathHelper.Pi) - twice, twice);
         return Select(isSmall, small, large);
+    }
+
+    /// <summary>Square of the sine up to which <see cref="AsinOverSine"/> is right.</summary>
+    public const float AsinOverSineLimit = 0.25f;
+
+    /// <summary>Angle of a sine over the sine, without a root or a division; relative error at most 1.5e-7 up to a twelfth of a turn.</summary>
+    /// <param name="z">Square of the sine, up to <see cref="AsinOverSineLimit"/>; the result means nothing for others.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector<float> AsinOverSine(Vector<float> z) => Vector<float>.One + z * AsinPolynomial(z);
+
+    // (asin s - s) / s^3 by the square of s.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<float> AsinPolynomial(Vector<float> z)
+    {
+        var p = new Vector<float>(0.043763131f);
+        p = p * z + new Vector<float>(0.023142228f);
+        p = p * z + new Vector<float>(0.045707799f);
+        p = p * z + new Vector<float>(0.074930772f);
+        return p * z + new Vector<float>(0.16666822f);
     }
 
     /// <summary>

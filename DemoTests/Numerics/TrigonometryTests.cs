@@ -69,6 +69,18 @@ public class TrigonometryTests
         Assert.InRange(MaximumError(Wide.Acos, Math.Acos, -1, -1 + 1e-4, 100_000), 0, 4e-7);
     }
 
+    [Fact]
+    public void AngleOverItsSine()
+    {
+        Assert.Equal(1, Wide.AsinOverSine(Vector<float>.Zero)[0]);
+        for (int i = 1; i <= 1_000_000; ++i)
+        {
+            var square = Wide.AsinOverSineLimit * i / 1_000_000;
+            var sine = Math.Sqrt(square);
+            Assert.InRange(Wide.AsinOverSine(new Vector<float>(square))[0] * sine / Math.Asin(sine), 1 - 1.5e-7, 1 + 1.5e-7);
+        }
+    }
+
     [Theory]
     [InlineData(1f), InlineData(1e-30f), InlineData(1e30f), InlineData(1e-42f)]
     public void Arctangent(float scale)

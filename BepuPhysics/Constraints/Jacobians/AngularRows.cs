@@ -16,17 +16,23 @@ struct AngularRows : IJacobian<AngularRows, TwoBodies, Rows3, RowMatrix3>
     public static bool IsLinear(int row) => false;
 
     /// <summary>Axis times angle of a rotation, the shorter way, at most half a turn.</summary>
-    // The arc tangent needs no unit length and is exact for small angles, where the arc cosine of W would have lost all digits.
+    // Most rotations are small: there the half angle over its sine is a polynomial, which needs no root. Beyond a sixth of a turn it takes an arc tangent, and
+    // not the arc cosine of W, which has lost half of its digits at small angles.
     // At exactly half a turn both ways are equally long, and the axis is that of the quaternion with W = +0.
     // As an error e these rows are its derivative along e itself, whatever its length: d|e|/dt = (e / |e|) w. Across it they are where e = 0.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector3Wide RotationVector(in QuaternionWide q)
     {
         var axis = new Vector3Wide(q.X, q.Y, q.Z);
-        var sine = axis.Length();
-        var halfAngle = Wide.AtanOfQuarter(sine, Vector.Abs(q.W));
-        // Where the sine is zero, or its square too small for a float, so is the angle.
-        return axis * (Wide.Sign(q.W) * Wide.DivideOrZero(halfAngle + halfAngle, sine));
+        var square = axis.LengthSquared();
+        var scale = Wide.AsinOverSine(square);
+        var isFar = Vector.GreaterThan(square, new Vector<float>(Wide.AsinOverSineLimit));
+        if (!Vector.EqualsAll(isFar, Vector<int>.Zero))
+        {
+            var sine = Vector.SquareRoot(square);
+            scale = Wide.Select(isFar, Wide.AtanOfQuarter(sine, Vector.Abs(q.W)) / sine, scale);
+        }
+        return axis * (Wide.Sign(q.W) * (scale + scale));
     }
 
     /// <inheritdoc/>

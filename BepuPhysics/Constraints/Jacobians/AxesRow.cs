@@ -45,8 +45,15 @@ struct AxesRow : IJacobian<AxesRow, TwoBodies, Rows1, Rows1>
 
     /// <summary>What the angle between the axes lacks to a quarter turn, radians; negative where it is more.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static Vector<float> LackOfQuarterTurn(in AxesRow row) =>
-        Wide.CopySign(Wide.AtanOfQuarter(Vector.Abs(row.Cosine), row.Sine), row.Cosine);
+    internal static Vector<float> LackOfQuarterTurn(in AxesRow row)
+    {
+        // Most are near a quarter turn: there the cosine says it, and nothing waits for the root and a division.
+        var square = row.Cosine * row.Cosine;
+        var lack = row.Cosine * Wide.AsinOverSine(square);
+        var isFar = Vector.GreaterThan(square, new Vector<float>(Wide.AsinOverSineLimit));
+        return Vector.EqualsAll(isFar, Vector<int>.Zero) ?
+            lack : Wide.Select(isFar, Wide.CopySign(Wide.AtanOfQuarter(Vector.Abs(row.Cosine), row.Sine), row.Cosine), lack);
+    }
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -22,20 +22,30 @@ struct AngularTangentRows : IJacobian<AngularTangentRows, TwoBodies, Rows2, RowM
     public Vector3Wide TangentY;
 
     /// <summary>The rotation vector that turns an axis b of B to the axis a of A, along the tangents; at right angles to both axes.</summary>
-    // b in the frame (tx, ty, a) has the coordinates (x, y, z), so b x a = tx y - ty x, and the angle is that of (z, |x, y|).
-    // Axes that point exactly against each other are half a turn apart about any axis; it is tx by definition.
+    // b in the frame (tx, ty, a) has the coordinates (x, y, z), so b x a = tx y - ty x, and the angle is that of (z, |x, y|). Most axes are nearly aligned:
+    // there the angle over its sine is a polynomial, which needs no root.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector2Wide TurnToAlign(in Vector3Wide tangentX, in Vector3Wide tangentY, in Vector3Wide axisB)
     {
         var x = Vector3Wide.Dot(tangentX, axisB);
         var y = Vector3Wide.Dot(tangentY, axisB);
         var z = Vector3Wide.Dot(Vector3Wide.Cross(tangentX, tangentY), axisB);
+        var square = x * x + y * y;
+        var scale = Wide.AsinOverSine(square);
+        var isNear = Vector.LessThanOrEqual(square, new Vector<float>(Wide.AsinOverSineLimit)) & Vector.GreaterThan(z, Vector<float>.Zero);
+        return Vector.EqualsAll(isNear, new Vector<int>(-1)) ? new(y * scale, -x * scale) : TurnToAlign(isNear, scale, x, y, z);
+    }
+
+    // Axes that point exactly against each other are half a turn apart about any axis; it is tx by definition.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector2Wide TurnToAlign(Vector<int> isNear, Vector<float> scaleWhereNear, Vector<float> x, Vector<float> y, Vector<float> z)
+    {
         var sine = Vector.SquareRoot(x * x + y * y);
         var angle = Wide.AtanOfQuarter(sine, Vector.Abs(z));
         angle = Wide.Select(Vector.LessThan(z, Vector<float>.Zero), new Vector<float>(MathHelper.Pi) - angle, angle);
-        var aligned = Vector.Equals(sine, Vector<float>.Zero);
-        var scale = Wide.DivideOrZero(angle, sine);
-        return new(Wide.Select(aligned, angle, y * scale), -x * scale);
+        var isOpposite = Vector.AndNot(Vector.Equals(sine, Vector<float>.Zero), isNear);
+        var scale = Wide.Select(isNear, scaleWhereNear, Wide.DivideOrZero(angle, sine));
+        return new(Wide.Select(isOpposite, angle, y * scale), -x * scale);
     }
 
     /// <inheritdoc/>
