@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Trees;
@@ -66,7 +67,24 @@ public sealed partial class Simulation
         hitHandler = tester.Inner.Hits.Handler;
     }
 
-    static void CheckRay(Vector3 origin, Vector3 direction, float maximumT, BufferPool pool)
+    /// <summary>As of each of some rays that were checked.</summary>
+    internal void RayCast<THitHandler>(ReadOnlySpan<BatchedRay> rays, BufferPool pool, ref THitHandler hitHandler) where THitHandler : IRayHitHandler
+    {
+        using var reading = world.Read("Simulation.RayCast");
+        var tester = new CollidableRayTester<THitHandler> { Simulation = this, Hits = new() { Handler = hitHandler } };
+        for (int i = 0; i < rays.Length;)
+        {
+            Unsafe.SkipInit(out RayPacket packet);
+            packet.Count = 0;
+            packet.MaximumT = default;
+            for (; i < rays.Length && packet.Count < RayPacket.Capacity; ++i)
+                packet.Add(rays[i].Ray, rays[i].MaximumT);
+            BroadPhase.CastRays(ref packet, pool, ref tester);
+        }
+        hitHandler = tester.Hits.Handler;
+    }
+
+    internal static void CheckRay(Vector3 origin, Vector3 direction, float maximumT, BufferPool pool)
     {
         BodyChecks.Position(origin, nameof(origin));
         BodyChecks.Vector(direction, nameof(direction));

@@ -42,6 +42,16 @@ public sealed unsafe partial class BroadPhase
         rayTester = leafTester.RayTester;
     }
 
+    /// <summary>As of each of some rays that were checked.</summary>
+    internal void CastRays<TRayTester>(ref RayPacket packet, BufferPool pool, ref TRayTester rayTester) where TRayTester : IBroadPhaseRayTester
+    {
+        var leafTester = new RayLeafTester<TRayTester> { RayTester = rayTester, Leaves = ActiveLeaves };
+        ActiveTree.RayCast(ref packet, pool, ref leafTester);
+        leafTester.Leaves = StaticLeaves;
+        StaticTree.RayCast(ref packet, pool, ref leafTester);
+        rayTester = leafTester.RayTester;
+    }
+
     /// <summary>Tells which collidables have bounds that a moving box meets, active ones first, near ones of each kind first.</summary>
     /// <param name="min">Lower corner of the box where it starts.</param>
     /// <param name="max">Upper corner of the box where it starts.</param>

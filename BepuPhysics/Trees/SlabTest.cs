@@ -19,7 +19,7 @@ namespace BepuPhysics.Trees;
 readonly unsafe struct SlabTest : IBoxTest
 {
     // Two roundings on each side of the comparison, each half an ulp: a box that is met exactly at an edge must not be lost.
-    const float Slack = 1 + 4 * 1.1920929e-7f;
+    internal const float Slack = 1 + 4 * 1.1920929e-7f;
 
     readonly Vector128<float> lower, upper, inverseDirection, isBackward;
     // A node is sixteen numbers, of which each is the beginning or the end of an axis, as the direction has it: they are put in that order, beginnings first,
@@ -45,7 +45,8 @@ readonly unsafe struct SlabTest : IBoxTest
         inverses = Vector512.Create(inverse, inverse);
     }
 
-    static float Invert(float component)
+    /// <summary>Reciprocal of a component of the direction; never infinite.</summary>
+    internal static float Invert(float component)
     {
         var inverse = 1 / component;
         if (component == 0 || inverse > float.MaxValue)

@@ -35,7 +35,6 @@ public partial class MigrationPageTests
         ["a body of Solver.Constrained"] = "MigrationTests.Kinematic_bodies_with_constraints_are_found",
         ["batcher.CacheShapeB"] = "SmallNamesTests.A_cached_shape_is_added_directly",
         ["the constraints of the character"] = "CharacterWalkTests.It_goes_round_with_a_turning_platform",
-        ["rays of a"] = "SmallNamesTests.Batched_rays_hit_what_single_ones_hit",
         ["default(SpringSettings)"] = "MigrationTests.Springs_without_a_frequency_are_rigid",
         ["a frequency above"] = "MigrationTests.Frequencies_are_capped",
         ["springs below critical damping"] = "SpringStepTests.It_swings_and_hangs_as_its_settings_say",
