@@ -25,7 +25,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (slot >= pairOfConstraint.Length)
                 continue;
             var pair = pairOfConstraint[slot];
-            if (pair.A.Packed != a.Packed || pair.B.Mobility == CollidableMobility.Dynamic || solver.Locations[slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
+            if (pair.A.Packed != a.Packed || pair.B.Mobility == CollidableMobility.Dynamic ||
+                solver.Locations[slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
                 continue;
             var handle = solver.ReferenceOf(edge).ConnectingConstraintHandle;
             var place = FindWaiting(first, end, pair.B);

@@ -1,7 +1,6 @@
 using System;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
-using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Memory;

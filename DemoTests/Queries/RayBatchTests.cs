@@ -5,7 +5,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
-using BepuUtilities.Memory;
 using DemoTests.Scenes;
 using Xunit;
 
@@ -111,7 +110,8 @@ public sealed class RayBatchTests : IDisposable
         batcher.Dispose();
     }
 
-    static Hit[] InOrder(List<Hit> hits) => [.. hits.OrderBy(hit => hit.Ray).ThenBy(hit => hit.T).ThenBy(hit => hit.Collidable.Packed).ThenBy(hit => hit.Child)];
+    static Hit[] InOrder(List<Hit> hits) =>
+        [.. hits.OrderBy(hit => hit.Ray).ThenBy(hit => hit.T).ThenBy(hit => hit.Collidable.Packed).ThenBy(hit => hit.Child)];
 
     static (int, float)[] Nearest(List<Hit> hits) => [.. hits.GroupBy(hit => hit.Ray).Select(ray => (ray.Key, ray.Min(hit => hit.T))).Order()];
 
