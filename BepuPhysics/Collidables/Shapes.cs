@@ -88,35 +88,38 @@ public sealed partial class Shapes
     public bool Exists(TypedIndex shape) => shape.Exists && Exists(shape.Type, shape.Index);
 
     /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
-    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void Remove(TypedIndex shapeIndex)
     {
         using var change = Change("Shapes.Remove");
-        GetCheckedBatch(shapeIndex).RemoveUnlocked(shapeIndex.Index);
+        if (shapeIndex.Exists)
+            GetCheckedBatch(shapeIndex).RemoveUnlocked(shapeIndex.Index);
     }
 
     /// <summary>Removes a shape and returns the memory that it owns.</summary>
-    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
     {
         using var change = Change("Shapes.RemoveAndDispose");
-        GetCheckedBatch(shapeIndex).RemoveAndDisposeUnlocked(shapeIndex.Index, pool);
+        if (shapeIndex.Exists)
+            GetCheckedBatch(shapeIndex).RemoveAndDisposeUnlocked(shapeIndex.Index, pool);
     }
 
     /// <summary>Removes a shape and all its children, and returns the memory that they own.</summary>
-    /// <param name="shapeIndex">Name of the shape.</param>
+    /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
     /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
     public void RecursivelyRemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
     {
         using var change = Change("Shapes.RecursivelyRemoveAndDispose");
-        GetCheckedBatch(shapeIndex).RecursivelyRemoveAndDisposeUnlocked(shapeIndex.Index, this, pool);
+        if (shapeIndex.Exists)
+            GetCheckedBatch(shapeIndex).RecursivelyRemoveAndDisposeUnlocked(shapeIndex.Index, this, pool);
     }
 
     /// <summary>Box around a shape in the world, m.</summary>

@@ -63,7 +63,7 @@ public sealed class ShapesTests : IDisposable
     {
         shapes.Add(new Sphere(1));
         var last = TypedIndex.MaximumIndexCount - 1;
-        foreach (var name in (ReadOnlySpan<TypedIndex>)[default, new(Sphere.Id, 1), new(Sphere.Id, last), new(Box.Id, 0), new(127, 0)])
+        foreach (var name in (ReadOnlySpan<TypedIndex>)[new(Sphere.Id, 1), new(Sphere.Id, last), new(Box.Id, 0), new(127, 0)])
         {
             Assert.False(shapes.Exists(name));
             Assert.Throws<ArgumentException>(() => shapes.Remove(name));
@@ -76,6 +76,20 @@ public sealed class ShapesTests : IDisposable
         Assert.Throws<ArgumentOutOfRangeException>(() => shapes.GetShape<Sphere>(-1).Radius);
         Assert.Throws<ArgumentOutOfRangeException>(() => shapes.GetShape<Sphere>(1).Radius);
         Assert.Throws<ArgumentOutOfRangeException>(() => shapes.GetShape<Box>(0).HalfWidth);
+        Assert.Equal(1, shapes[Sphere.Id]!.Count);
+    }
+
+    /// <summary>Bodies that have no shape have the default, and a game that removes the shapes of what it removes need not ask.</summary>
+    [Fact]
+    public void The_default_name_is_of_no_shape_and_removing_it_does_nothing()
+    {
+        shapes.Add(new Sphere(1));
+        shapes.Remove(default);
+        shapes.RemoveAndDispose(default, pool);
+        shapes.RecursivelyRemoveAndDispose(default, pool);
+        Assert.False(shapes.Exists(default));
+        Assert.Throws<ArgumentException>(() => shapes.UpdateBounds(RigidPose.Identity, default, out _));
+        Assert.Throws<ArgumentException>(() => shapes.CheckExists(default, "shape"));
         Assert.Equal(1, shapes[Sphere.Id]!.Count);
     }
 
