@@ -42,23 +42,34 @@ sealed unsafe partial class FastPairs
         pair.ArmB = hit.Place - motion.OffsetB - motion.LinearB * hit.T;
     }
 
+    // So many parts are tried before it is asked whether any will do: most that overlap do so by little.
+    const int PartBeforeThinnest = 2;
+
     // Whether shapes are apart at all is told without a way.
     bool TrySweepThinner(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         var way = motion.MaximumT;
         hit = default;
-        foreach (var part in SkinParts[1..])
+        for (int i = 1; i < SkinParts.Length; ++i)
         {
-            (motion.ThinnerPart, motion.MaximumT) = (part, 0);
-            Sweep(ref pair, motion, temporary, out hit);
-            if (hit.Overlaps)
+            // What is within each other however thin it is has no way at all.
+            if (i == PartBeforeThinnest && OverlapsAtFirst(ref pair, motion, SkinParts[^1], temporary))
+                return false;
+            if (OverlapsAtFirst(ref pair, motion, SkinParts[i], temporary))
                 continue;
-            motion.MaximumT = way;
+            (motion.ThinnerPart, motion.MaximumT) = (SkinParts[i], way);
             Sweep(ref pair, motion, temporary, out hit);
             if (!hit.RanOut)
                 return !hit.Overlaps;
         }
         return false;
+    }
+
+    bool OverlapsAtFirst(ref FastPair pair, SweepMotion motion, double part, BufferPool temporary)
+    {
+        (motion.ThinnerPart, motion.MaximumT) = (part, 0);
+        Sweep(ref pair, motion, temporary, out var hit);
+        return hit.Overlaps;
     }
 
     void PlaceCentre(int body, in RigidPose still, double time, out DoubleVector3 linear, out DoubleVector3 position)

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -21,6 +22,9 @@ struct SweepMotion
     public double ThinnerPart;
     /// <summary>Inner radius, m, of which that part is the most that is taken: nothing that is thick loses more than what is small has.</summary>
     public double MostThinnerOf;
+
+    // Arms are rounded to floats.
+    const double ArcSlack = 1 + 1e-6;
 
     /// <summary>A convex part.</summary>
     /// <param name="typeId">Type of its shape.</param>
@@ -43,10 +47,15 @@ struct SweepMotion
     /// <param name="maximumT">The time.</param>
     public readonly bool BallsMeet(in ImpactBody part, in ImpactCore core, Vector3 local, double maximumT)
     {
-        if (core.IsPlane || part.Core.IsPlane || AngularB.X != 0 || AngularB.Y != 0 || AngularB.Z != 0)
+        if (core.IsPlane || part.Core.IsPlane)
             return true;
         var center = OffsetB + OrientationB.Turn(new(local)) - part.BallCenter;
-        return ImpactBalls.FirstMeeting(center, LinearA - LinearB, part.BallRadius + core.Margin + core.Reach + Accuracy.TouchingDistance) <= maximumT;
+        var radius = part.BallRadius + core.Margin + core.Reach + Accuracy.TouchingDistance;
+        // Where B turns, its part goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle.
+        var arm = local == default ? 0 : (double)Exact.Length(local);
+        if (arm > 0 && (AngularB.X != 0 || AngularB.Y != 0 || AngularB.Z != 0))
+            radius += arm * Math.Min(2, AngularB.Length * maximumT) * ArcSlack;
+        return ImpactBalls.FirstMeeting(center, LinearA - LinearB, radius) <= maximumT;
     }
 }
 
