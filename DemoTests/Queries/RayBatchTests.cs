@@ -94,6 +94,23 @@ public sealed class RayBatchTests : IDisposable
         Assert.Equal(alone, Nearest(CastTogether(rays, 256, isNearest: true)));
     }
 
+    /// <summary>A tree of one leaf has a side that is missing.</summary>
+    [Fact]
+    public void In_a_world_of_two_things_they_are_hit()
+    {
+        using var small = new TestWorld();
+        var still = new CollidableReference(small.AddStatic(new Box(1.1f, 1, 1), RigidPose.Identity));
+        var moving = new CollidableReference(CollidableMobility.Dynamic, small.AddDynamic(new Sphere(.45f), 1, new RigidPose(new Vector3(0, 3, 0))));
+        var hits = new List<Hit>();
+        var batcher = new SimulationRayBatcher<Collector>(small.Pool, small.Simulation, new Collector(hits, false));
+        for (int i = 0; i < 21; ++i)
+            Add(ref batcher, new(new Vector3(0.1f * i - 1, 9, 0), -Vector3.UnitY, 100), i);
+        batcher.Flush();
+        batcher.Dispose();
+        Assert.Equal(Enumerable.Range(5, 11), hits.Where(hit => hit.Collidable == still).Select(hit => hit.Ray).Order());
+        Assert.Equal(Enumerable.Range(6, 9), hits.Where(hit => hit.Collidable == moving).Select(hit => hit.Ray).Order());
+    }
+
     [Fact]
     public void Rays_before_a_bad_one_are_cast_and_those_after_it_forgotten()
     {
