@@ -13,25 +13,13 @@ namespace BepuPhysics.CollisionDetection;
 // them. Nothing that is remembered is believed: that they are still there, that their bounds overlap and that they do not move along, is found again.
 sealed unsafe partial class CommonMotion
 {
-    // Per body, by its slot; the default stands for nobody.
-    Buffer<Witness> witnesses;
+    // Per body, by its slot. The default is as good a guess as another.
+    Buffer<CollidableReference> witnesses;
     // Place among the companions of who found each of those that are gone over at present, from the first of them on.
     QuickList<int> foundBy;
 
     /// <summary>Whether bodies remember them; else all around a body are asked in each step, to the same bits, which tests compare.</summary>
     internal bool Remembers = true;
-
-    /// <summary>A collidable, or nobody.</summary>
-    readonly record struct Witness
-    {
-        readonly int slotAndKind;
-
-        internal Witness(CollidableReference collidable) => slotAndKind = collidable.Slot * 2 + (collidable.Mobility == CollidableMobility.Static ? 1 : 0) + 1;
-
-        internal bool IsNobody => slotAndKind == 0;
-        internal bool IsStatic => (slotAndKind & 1) == 0;
-        internal int Slot => (slotAndKind - 1) >> 1;
-    }
 
     void ForgetWitnesses()
     {
@@ -49,7 +37,7 @@ sealed unsafe partial class CommonMotion
         witnesses.Clear(known, witnesses.Length - known);
     }
 
-    ref Witness WitnessOf(int body) => ref witnesses[Awake.IndexToHandle[body].Slot];
+    ref CollidableReference WitnessOf(int body) => ref witnesses[Awake.IndexToHandle[body].Slot];
 
     // From the last of the companions to whom it remembers, and on, while these are where they were. All of them are companions then, if nobody is among
     // them who does not move along.
@@ -66,28 +54,26 @@ sealed unsafe partial class CommonMotion
         }
     }
 
-    bool TryFind(Witness witness, in BoundingBox bounds, out CollidableReference collidable)
+    // As it is now: a body may have become kinematic since.
+    bool TryFind(CollidableReference witness, in BoundingBox bounds, out CollidableReference collidable)
     {
         collidable = default;
-        if (witness.IsNobody)
-            return false;
         var broadPhase = simulation.BroadPhase;
         int leaf;
         var isInActiveTree = false;
-        if (witness.IsStatic)
+        if (witness.Mobility == CollidableMobility.Static)
         {
-            var indices = simulation.Statics.Indices;
-            if (witness.Slot >= indices.Length || indices[witness.Slot] < 0)
+            if (!simulation.Statics.StaticExists(witness.StaticHandle))
                 return false;
-            leaf = simulation.Statics.StaticsBuffer[indices[witness.Slot]].BroadPhaseIndex;
+            leaf = simulation.Statics.StaticsBuffer[simulation.Statics.Indices[witness.Slot]].BroadPhaseIndex;
         }
         else
         {
-            ref var location = ref simulation.Bodies.Locations[witness.Slot];
-            if (location.SetIndex < 0)
+            if (!simulation.Bodies.BodyExists(witness.BodyHandle))
                 return false;
-            isInActiveTree = location.SetIndex == 0;
-            leaf = simulation.Bodies.SetOf(location).Collidables[location.Index].BroadPhaseIndex;
+            ref var set = ref simulation.Bodies.SetOf(witness.BodyHandle, out var index);
+            isInActiveTree = !set.IsAsleep;
+            leaf = set.Collidables[index].BroadPhaseIndex;
         }
         if (leaf < 0)
             return false;
@@ -116,15 +102,15 @@ sealed unsafe partial class CommonMotion
             if (companions[i] == near.Self)
                 last = i;
             else
-                WitnessOf(companions[i]) = new(ReferenceTo(companions[foundBy[i - start]]));
+                WitnessOf(companions[i]) = ReferenceTo(companions[foundBy[i - start]]);
         }
-        var next = new Witness(near.Met);
+        var next = near.Met;
         while (true)
         {
             WitnessOf(companions[last]) = next;
             if (last == start)
                 return;
-            next = new(ReferenceTo(companions[last]));
+            next = ReferenceTo(companions[last]);
             last = foundBy[last - start];
         }
     }

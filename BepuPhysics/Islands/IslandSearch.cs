@@ -148,8 +148,7 @@ readonly unsafe struct IslandSearch
             holds |= kinds[index] == RestKind.Holds;
             if (kinds[index] != RestKind.Rests)
                 continue;
-            var root = DisjointSets.Root(parents, index);
-            joined = joined < 0 || joined == root ? root : DisjointSets.Join(parents, joined, root);
+            joined = DisjointSets.JoinNext(parents, joined, index);
         }
         // Whoever is held is in the same island as the root, be it one itself by then or not.
         if (holds && joined >= 0)

@@ -22,6 +22,17 @@ static class DisjointSets
         return member;
     }
 
+    /// <summary>Joins the set of a member with that of those before it.</summary>
+    /// <param name="parents">Of each member, one of its set.</param>
+    /// <param name="joined">Root of the set of those before it; less than zero for the first.</param>
+    /// <param name="member">The member.</param>
+    /// <returns>Root of the set of all of them.</returns>
+    internal static int JoinNext(Buffer<int> parents, int joined, int member)
+    {
+        var root = Root(parents, member);
+        return joined < 0 || joined == root ? root : Join(parents, joined, root);
+    }
+
     /// <summary>Joins the sets of two roots and returns their common one, the lower of the two.</summary>
     internal static int Join(Buffer<int> parents, int rootA, int rootB)
     {

@@ -87,10 +87,8 @@ struct JointSets
             {
                 var reference = references[slot * Vector<int>.Count];
                 kinematics |= reference & EncodedBody.KinematicFlag;
-                if ((reference & EncodedBody.KinematicFlag) != 0)
-                    continue;
-                var root = DisjointSets.Root(parents, reference & EncodedBody.IndexMask);
-                joined = joined < 0 || joined == root ? root : DisjointSets.Join(parents, joined, root);
+                if ((reference & EncodedBody.KinematicFlag) == 0)
+                    joined = DisjointSets.JoinNext(parents, joined, reference & EncodedBody.IndexMask);
             }
             for (int slot = 0; kinematics != 0 && slot < bodyCount; ++slot)
             {

@@ -45,10 +45,8 @@ sealed unsafe partial class FastPairs
     // So many parts are tried before it is asked whether any will do: most that overlap do so by little.
     const int PartBeforeThinnest = 2;
 
-    // Whether shapes are apart at all is told without a way.
     bool TrySweepThinner(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
-        var way = motion.MaximumT;
         hit = default;
         for (int i = 1; i < SkinParts.Length; ++i)
         {
@@ -57,7 +55,7 @@ sealed unsafe partial class FastPairs
                 return false;
             if (OverlapsAtFirst(ref pair, motion, SkinParts[i], temporary))
                 continue;
-            (motion.ThinnerPart, motion.MaximumT) = (SkinParts[i], way);
+            motion.ThinnerPart = SkinParts[i];
             Sweep(ref pair, motion, temporary, out hit);
             if (!hit.RanOut)
                 return !hit.Overlaps;
@@ -65,6 +63,7 @@ sealed unsafe partial class FastPairs
         return false;
     }
 
+    // Whether shapes are apart at all is told without a way.
     bool OverlapsAtFirst(ref FastPair pair, SweepMotion motion, double part, BufferPool temporary)
     {
         (motion.ThinnerPart, motion.MaximumT) = (part, 0);

@@ -52,9 +52,8 @@ struct SweepMotion
         var center = OffsetB + OrientationB.Turn(new(local)) - part.BallCenter;
         var radius = part.BallRadius + core.Margin + core.Reach + Accuracy.TouchingDistance;
         // Where B turns, its part goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle.
-        var arm = local == default ? 0 : (double)Exact.Length(local);
-        if (arm > 0 && (AngularB.X != 0 || AngularB.Y != 0 || AngularB.Z != 0))
-            radius += arm * Math.Min(2, AngularB.Length * maximumT) * ArcSlack;
+        if (local != default)
+            radius += Exact.Length(local) * Math.Min(2, AngularB.Length * maximumT) * ArcSlack;
         return ImpactBalls.FirstMeeting(center, LinearA - LinearB, radius) <= maximumT;
     }
 }
