@@ -23,6 +23,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     bool asksFirst;
     // Whether what is known of pairs and their constraints is so little that nothing has to be asked for ahead.
     bool isNearby;
+    TurnsOfThread turns;
     // Pairs that were refused in the last step: nothing of a step depends on it but the time that it takes.
     long refusedPairCount;
 
@@ -202,8 +203,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     bool IsWorthAskingFirst(int leafCount) =>
         leafCount <= LeavesToAskFirst && refusedPairCount > leafCount / 2 && !Simulation.Events.UsesSensors;
 
-    bool IsNearby(int leafCount) => leafCount <= LeavesToAskFirst && (long)PairCount * BytesPerPair +
-        (long)Pairs.Histories.Count * sizeof(PairHistory) + (long)Pairs.Parents.Count * sizeof(ParentHistory) <= BytesNearby;
+    // Of a world that takes turns with many others on this thread nothing is.
+    bool IsNearby(int leafCount)
+    {
+        var bytes = (long)PairCount * BytesPerPair +
+            (long)Pairs.Histories.Count * sizeof(PairHistory) + (long)Pairs.Parents.Count * sizeof(ParentHistory);
+        return turns.Count(bytes) <= BytesNearby && leafCount <= LeavesToAskFirst;
+    }
 
     // A pair that is refused here is spared the queue: parts of one character are most of the pairs that it has.
     bool AskFirst(int workerIndex, in CollidablePair pair, ref float margin)

@@ -325,7 +325,7 @@ public sealed unsafe partial class Solver
     void CheckType<TDescription>(ConstraintHandle handle) where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         CheckHandle(handle);
-        if (Locations[handle.Slot].TypeId != TDescription.ConstraintTypeId || !IsRegistered<TDescription>())
+        if (Locations[handle.Slot].TypeId != TDescription.ConstraintTypeId || !IsRegistered(TDescription.ConstraintTypeId, typeof(TDescription)))
             throw new ArgumentException($"{handle} is no {typeof(TDescription).Name}.", nameof(handle));
     }
 

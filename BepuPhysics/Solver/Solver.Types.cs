@@ -15,33 +15,44 @@ public sealed unsafe partial class Solver
         EnsureRegistered<TDescription>();
     }
 
-    void EnsureRegistered<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
+    // What is generic is compiled for each type of constraint, when the first simulation is made: so that is no more than asking the type.
+    internal void EnsureRegistered<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
-        if (IsRegistered<TDescription>())
+        if (IsRegistered(TDescription.ConstraintTypeId, typeof(TDescription)))
             return;
-        var typeId = TDescription.ConstraintTypeId;
-        var name = typeof(TDescription).Name;
+        CheckTypeId(TDescription.ConstraintTypeId, typeof(TDescription));
+        Register(TDescription.ConstraintTypeId, typeof(TDescription), TDescription.BodyCount, sizeof(TDescription), TDescription.CreateTypeProcessor());
+    }
+
+    void CheckTypeId(int typeId, Type description)
+    {
         if ((uint)typeId >= MaximumTypeCount)
-            throw new ArgumentException($"Constraint type ids are from 0 to {MaximumTypeCount - 1}; {name} has {typeId}.");
+            throw new ArgumentException($"Constraint type ids are from 0 to {MaximumTypeCount - 1}; {description.Name} has {typeId}.");
         if (processors[typeId] is not null)
-            throw new ArgumentException($"Constraint type id {typeId} of {name} is taken by {descriptionTypes[typeId]?.Name ?? "contacts"}.");
-        var processor = TDescription.CreateTypeProcessor() ?? throw new ArgumentException($"{name} has created no processor.");
+            throw new ArgumentException($"Constraint type id {typeId} of {description.Name} is taken by {descriptionTypes[typeId]?.Name ?? "contacts"}.");
+    }
+
+    void Register(int typeId, Type description, int bodyCount, int byteCount, TypeProcessor? processor)
+    {
+        var name = description.Name;
+        if (processor is null)
+            throw new ArgumentException($"{name} has created no processor.");
         if (processor.IsRegistered && processor.TypeId != typeId)
             throw new ArgumentException($"The processor that {name} has created is that of constraint type {processor.TypeId}.");
-        if (processor.BodiesPerConstraint != TDescription.BodyCount || processor.BodiesPerConstraint is < 1 or > MaximumBodiesPerConstraint)
+        if (processor.BodiesPerConstraint != bodyCount || processor.BodiesPerConstraint is < 1 or > MaximumBodiesPerConstraint)
             throw new ArgumentException(
-                $"{name} connects {TDescription.BodyCount} bodies and its processor {processor.BodiesPerConstraint}; both must be the same, " +
+                $"{name} connects {bodyCount} bodies and its processor {processor.BodiesPerConstraint}; both must be the same, " +
                 $"and from 1 to {MaximumBodiesPerConstraint}.");
-        if (processor.PrestepFloats * sizeof(float) != sizeof(TDescription))
+        if (processor.PrestepFloats * sizeof(float) != byteCount)
             throw new ArgumentException(
-                $"{name} has {sizeof(TDescription)} bytes and its wide form {processor.PrestepFloats} vectors: " +
+                $"{name} has {byteCount} bytes and its wide form {processor.PrestepFloats} vectors: " +
                 "it must be the description with each float widened.");
         if (processor.PrestepFloats + processor.ImpulseFloats > MaximumFloatsPerConstraint)
             throw new ArgumentException(
                 $"{name} has {processor.PrestepFloats} floats and {processor.ImpulseFloats} impulses; " +
                 $"there is room for {MaximumFloatsPerConstraint} of both.");
         RegisterProcessor(typeId, processor);
-        descriptionTypes[typeId] = typeof(TDescription);
+        descriptionTypes[typeId] = description;
     }
 
     internal void RegisterProcessor(int typeId, TypeProcessor processor)
@@ -51,9 +62,5 @@ public sealed unsafe partial class Solver
     }
 
     // A type is what it was when it was registered, whatever it says of itself now.
-    bool IsRegistered<TDescription>() where TDescription : unmanaged, IConstraintDescription<TDescription>
-    {
-        var typeId = TDescription.ConstraintTypeId;
-        return (uint)typeId < MaximumTypeCount && descriptionTypes[typeId] == typeof(TDescription);
-    }
+    bool IsRegistered(int typeId, Type description) => (uint)typeId < MaximumTypeCount && descriptionTypes[typeId] == description;
 }

@@ -52,13 +52,13 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     /// <summary>Length in elements of the buffer that <see cref="TakeAtLeast{T}"/> yields for a least length.</summary>
     public static int GetCapacityForCount<T>(int count) where T : unmanaged =>
-        GetCapacity<T>(GetPower<T>(count));
+        GetCapacity<T>(GetPower(count, sizeof(T)));
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Take<T>(int count, out Buffer<T> buffer) where T : unmanaged
     {
-        TakeBlock(GetPower<T>(count), out var memory, out var id);
+        TakeBlock(GetPower(count, sizeof(T)), out var memory, out var id);
         NoteOwner(id, typeof(T));
         buffer = new Buffer<T>(memory, count, id);
     }
@@ -67,7 +67,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void TakeAtLeast<T>(int count, out Buffer<T> buffer) where T : unmanaged
     {
-        var power = GetPower<T>(count);
+        var power = GetPower(count, sizeof(T));
         TakeBlock(power, out var memory, out var id);
         NoteOwner(id, typeof(T));
         buffer = new Buffer<T>(memory, GetCapacity<T>(power), id);
@@ -87,8 +87,7 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     /// <inheritdoc/>
     public void Return<T>(ref Buffer<T> buffer) where T : unmanaged
     {
-        var pool = FindOwner(buffer.Id, buffer.Memory, out var slot);
-        pool.Return(slot);
+        ReturnBlock(buffer.Id, buffer.Memory);
         buffer = default;
     }
 
@@ -259,38 +258,47 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
 
     void Resize<T>(ref Buffer<T> buffer, int targetSize, int copyCount, bool exact) where T : unmanaged
     {
-        ArgumentOutOfRangeException.ThrowIfNegative(targetSize);
-        ArgumentOutOfRangeException.ThrowIfNegative(copyCount);
-        ArgumentOutOfRangeException.ThrowIfGreaterThan(copyCount, Math.Min(buffer.Length, targetSize));
-        var power = GetPower<T>(targetSize);
-        var length = exact ? targetSize : GetCapacity<T>(power);
-        if (!buffer.Allocated)
-        {
-            TakeBlock(power, out var memory, out var id);
+        var memory = (byte*)buffer.Memory;
+        var id = buffer.Id;
+        var power = ResizeBlock(ref memory, ref id, buffer.Allocated ? buffer.Length : -1, targetSize, copyCount, sizeof(T));
+        if (id != buffer.Id || memory != buffer.Memory)
             NoteOwner(id, typeof(T));
-            buffer = new Buffer<T>(memory, length, id);
-            return;
-        }
-        var owner = FindOwner(buffer.Id, buffer.Memory, out var slot);
-        if (owner.Power == power && owner.GetBlock(slot) == buffer.Memory)
-        {
-            buffer.Length = length;
-            return;
-        }
-        TakeBlock(power, out var newMemory, out var newId);
-        NoteOwner(newId, typeof(T));
-        var resized = new Buffer<T>(newMemory, length, newId);
-        buffer.CopyTo(0, resized, 0, copyCount);
-        owner.Return(slot);
-        buffer = resized;
+        buffer = new Buffer<T>(memory, exact ? targetSize : GetCapacity<T>(power), id);
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    // What does not depend on the type of the elements is compiled once, for all. The length is negative if nothing is taken yet.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    int ResizeBlock(ref byte* memory, ref int id, int length, int targetSize, int copyCount, int elementSize)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(targetSize);
+        ArgumentOutOfRangeException.ThrowIfNegative(copyCount);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(copyCount, Math.Clamp(length, 0, targetSize));
+        var power = GetPower(targetSize, elementSize);
+        if (length < 0)
+        {
+            TakeBlock(power, out memory, out id);
+            return power;
+        }
+        var owner = FindOwner(id, memory, out var slot);
+        if (owner.Power == power && owner.GetBlock(slot) == memory)
+            return power;
+        TakeBlock(power, out var newMemory, out id);
+        var bytes = (long)copyCount * elementSize;
+        Buffer.MemoryCopy(memory, newMemory, bytes, bytes);
+        owner.Return(slot);
+        memory = newMemory;
+        return power;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
     void TakeBlock(int power, out byte* memory, out int id)
     {
         var slot = GetPool(power).Take(out memory);
         id = ((power - MinimumPower) << SlotBits) | slot;
     }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    void ReturnBlock(int id, void* memory) => FindOwner(id, memory, out var slot).Return(slot);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     PowerPool GetPool(int power) => pools[power - MinimumPower];
@@ -314,11 +322,11 @@ public sealed unsafe class BufferPool : IUnmanagedMemoryPool, IDisposable
     }
 
     /// <summary>Exponent of the smallest block for a number of elements.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static int GetPower<T>(int count) where T : unmanaged
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static int GetPower(int count, int elementSize)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(count);
-        var power = GetPower((ulong)count * (ulong)sizeof(T));
+        var power = GetPower((ulong)count * (ulong)elementSize);
         if (power > MaximumPower)
             ThrowTooLarge(count);
         return power;

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using BepuPhysics.Collidables;
 
@@ -17,6 +18,16 @@ public abstract unsafe class CollisionTask
         ShapeTypeIndexA = shapeTypeIndexA;
         ShapeTypeIndexB = shapeTypeIndexB;
         Description = description;
+    }
+
+    // Not in the generic classes, where it would be compiled for each pair of shapes.
+    private protected static string Describe(Type shapeA, Type shapeB) => $"{shapeA.Name} and {shapeB.Name}";
+
+    private protected void CheckOrder(Type shapeA, Type shapeB)
+    {
+        if (ShapeTypeIndexA > ShapeTypeIndexB)
+            throw new InvalidOperationException(
+                $"Name {shapeB.Name} (type id {ShapeTypeIndexB}) before {shapeA.Name} (type id {ShapeTypeIndexA}).");
     }
 
     /// <summary>Type id of the first shape, no greater than that of the second.</summary>

@@ -23,12 +23,7 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
     where TContacts : unmanaged, IFew<ContactWide>
 {
     private protected ConvexPairTask(bool keepsHistories)
-        : base(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}", keepsHistories)
-    {
-        if (TShapeA.TypeId > TShapeB.TypeId)
-            throw new InvalidOperationException(
-                $"Name {typeof(TShapeB).Name} (type id {TShapeB.TypeId}) before {typeof(TShapeA).Name} (type id {TShapeA.TypeId}).");
-    }
+        : base(TShapeA.TypeId, TShapeB.TypeId, Describe(typeof(TShapeA), typeof(TShapeB)), keepsHistories) => CheckOrder(typeof(TShapeA), typeof(TShapeB));
 
     // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
     // half of those would lie across two.

@@ -103,7 +103,7 @@ abstract unsafe class ExpandingTask : CollisionTask
 /// <summary>Keeps the parents of two shape types.</summary>
 /// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
 /// <typeparam name="TShapeB">Second shape.</typeparam>
-abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.TypeId, TShapeB.TypeId, $"{typeof(TShapeA).Name} and {typeof(TShapeB).Name}")
+abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.TypeId, TShapeB.TypeId, Describe(typeof(TShapeA), typeof(TShapeB)))
     where TShapeA : unmanaged, IShape where TShapeB : unmanaged, IShape
 {
     private protected struct Entry
