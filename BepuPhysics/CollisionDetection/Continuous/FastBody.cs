@@ -109,17 +109,6 @@ struct FastBody
     /// <summary>Inverse mass; zero while it is held.</summary>
     public readonly float InverseMass => IsHeld ? 0 : Inertia.InverseMass;
 
-    /// <summary>What is left of a spin where a body can turn only about a direction: the angular momentum about it stays as it is.</summary>
-    public readonly Vector3 SpinAbout(in Vector3 direction, in Vector3 spin)
-    {
-        var inverse = WorldInertia.InverseInertiaTensor;
-        var determinant = Symmetric3x3.Determinant(inverse);
-        if (!(determinant > 0) || !(determinant < float.MaxValue))
-            return default;
-        var inertia = Symmetric3x3.Invert(inverse);
-        return direction * (Exact.Dot(inertia * spin, direction) / Exact.Dot(inertia * direction, direction));
-    }
-
     /// <summary>Goes on from the time to which the body was brought, with its velocity as it is now.</summary>
     /// <param name="dt">End of the substep, s.</param>
     public void GoOn(double dt)
@@ -128,5 +117,19 @@ struct FastBody
         Angular = new(Velocity.Angular);
         EndOrientation = BodyTurn.Turn(Orientation, Angular, dt - Time);
         HasChanged = true;
+    }
+
+    /// <summary>Goes on from the time to which the body was brought as a part of a rigid body, that turns as this one does.</summary>
+    /// <param name="offset">Where the body is from the centre of the rigid one, m.</param>
+    /// <param name="velocity">Velocity of that centre, m/s.</param>
+    /// <param name="dt">End of the substep, s.</param>
+    public void GoOnAbout(in DoubleVector3 offset, in DoubleVector3 velocity, double dt)
+    {
+        var rest = dt - Time;
+        if (!(rest > 0))
+            return;
+        var end = BodyTurn.Of(Angular, rest).Turn(offset);
+        Linear = velocity + (end - offset) * (1 / rest);
+        Velocity.Linear = (velocity + DoubleVector3.Cross(Angular, end)).ToSingle();
     }
 }

@@ -29,6 +29,10 @@ struct FastPair
     public bool HasPassed;
     /// <summary>Impacts in this substep.</summary>
     public int ImpactCount;
+    /// <summary>Whether both go on as one body, for the rest of the substep or until one of them is hit by another.</summary>
+    public bool IsJoined;
+    /// <summary>Energy that impacts have taken along their normals in this step, and not given back, J.</summary>
+    public float Lost;
     /// <summary>Rounds that its sweeps have taken in this step.</summary>
     public int RoundCount;
     /// <summary>Inner radius of the thinner shape, m.</summary>

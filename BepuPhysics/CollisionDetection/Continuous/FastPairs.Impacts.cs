@@ -42,20 +42,25 @@ sealed unsafe partial class FastPairs
             a.GoTo(time, dt);
         if (pair.B >= 0)
             b.GoTo(time, dt);
-        if (pair.ImpactCount >= SlidingCount)
+        var isLast = pair.ImpactCount >= JoiningCount;
+        if (isLast)
+            Join(ref pair, ref a, ref b);
+        else if (pair.ImpactCount >= SlidingCount)
             Stop(pair, ref a, ref b);
         else
-            Bounce(ref pair, ref a, ref b);
+            Bounce(ref pair, ref a, ref b, dt - time);
         if (pair.ImpactCount == MaximumCount)
             Hold(pair, ref a, ref b);
         var (bodyA, bodyB) = (pair.A, pair.B);
         GoOn(bodyA, dt);
         GoOn(bodyB, dt);
+        if (isLast)
+            GoOnTogether(pair, ref a, ref b, dt);
         // These may find more pairs, which moves all of them in memory.
         LookAround(bodyA, time, dt);
         LookAround(bodyB, time, dt);
-        SweepAgain(bodyA, -1, time, dt);
-        SweepAgain(bodyB, bodyA, time, dt);
+        SweepAgain(bodyA, -1, index, time, dt);
+        SweepAgain(bodyB, bodyA, index, time, dt);
     }
 
     void End(ref FastBody mover, double dt)
@@ -84,8 +89,8 @@ sealed unsafe partial class FastPairs
         mover.GoOn(dt);
     }
 
-    // The pair with somebody whose pairs were swept before is known.
-    void SweepAgain(int body, int done, double time, double dt)
+    // The pair with somebody whose pairs were swept before is known. Who was joined with another one is not any more, as it has been hit.
+    void SweepAgain(int body, int done, int hit, double time, double dt)
     {
         if (body < 0)
             return;
@@ -94,12 +99,13 @@ sealed unsafe partial class FastPairs
             ref var pair = ref pairs[i];
             if ((done >= 0 && pair.OtherThan(body) == done) || pair.ApartUntil >= substepEnd)
                 continue;
+            pair.IsJoined &= i == hit;
             Find(ref pair, time, dt, pool);
             times.Change(i, pair.Time, pool);
         }
     }
 
-    static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b)
+    void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b, double rest)
     {
         Vector3 normal = pair.Normal.ToSingle(), armA = pair.ArmA.ToSingle(), armB = pair.ArmB.ToSingle();
         var (inertiaA, inertiaB) = (a.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);
@@ -109,9 +115,17 @@ sealed unsafe partial class FastPairs
         var approach = -row.Along(a.Velocity, b.Velocity);
         var pushed = Push(row, inertiaA, inertiaB, (1 + restitution) * approach, float.MaxValue, ref a.Velocity, ref b.Velocity);
         pair.Impulse += pushed;
+        pair.Lost += pushed * .5f * (1 - restitution) * approach;
+        Rub(ref pair, normal, armA, armB, inertiaA, inertiaB, pushed, ref a.Velocity, ref b.Velocity);
+        KeepAhead(ref pair, row, inertiaA, inertiaB, ref a, ref b, rest);
+    }
+
+    static void Rub(ref FastPair pair, in Vector3 normal, in Vector3 armA, in Vector3 armB, in BodyInertia inertiaA, in BodyInertia inertiaB, float pushed,
+        ref BodyVelocity a, ref BodyVelocity b)
+    {
         if (!(pair.Friction > 0) || !(pushed > 0))
             return;
-        var sliding = a.Velocity.Linear + Exact.Cross(a.Velocity.Angular, armA) - b.Velocity.Linear - Exact.Cross(b.Velocity.Angular, armB);
+        var sliding = a.Linear + Exact.Cross(a.Angular, armA) - b.Linear - Exact.Cross(b.Angular, armB);
         sliding -= normal * Exact.Dot(sliding, normal);
         var speed = Exact.Length(sliding);
         if (!(speed > 0))
@@ -119,7 +133,7 @@ sealed unsafe partial class FastPairs
         var tangent = sliding * (-1 / speed);
         pair.FrictionImpulse += tangent * Push(
             new ContactRow(tangent, Exact.Cross(armA, tangent), Exact.Cross(tangent, armB)), inertiaA, inertiaB, speed,
-            pair.Friction * pushed, ref a.Velocity, ref b.Velocity);
+            pair.Friction * pushed, ref a, ref b);
     }
 
     // By the impulse along a row that changes the velocity in it.
@@ -133,46 +147,5 @@ sealed unsafe partial class FastPairs
         a = new(a.Linear + changeA.Linear, a.Angular + changeA.Angular);
         b = new(b.Linear + changeB.Linear, b.Angular + changeB.Angular);
         return impulse;
-    }
-
-    // Impacts that do not end are those of a body that lies against the other, or spins against it edge by edge. It stops to approach, and to turn but about
-    // the normal: then no part of it comes nearer to a face. Where that does not help it stops altogether. The heavier body keeps its turn.
-    void Stop(in FastPair pair, ref FastBody a, ref FastBody b)
-    {
-        var normal = pair.Normal.ToSingle();
-        var inverseMass = a.InverseMass + b.InverseMass;
-        // Who is held is met by what does not give way either.
-        if (!(inverseMass > 0) && (a.IsHeld || b.IsHeld))
-            return;
-        var aIsLighter = a.InverseMass > b.InverseMass;
-        ref var lighter = ref aIsLighter ? ref a : ref b;
-        ref var heavier = ref aIsLighter ? ref b : ref a;
-        var isLast = pair.ImpactCount >= StoppingCount;
-        StopCount += isLast ? 1 : 0;
-        var spin = lighter.Velocity.Angular - heavier.Velocity.Angular;
-        lighter.Velocity.Angular = heavier.Velocity.Angular + (isLast ? default : lighter.SpinAbout(normal, spin));
-        // Of the place of the impact, as a part of the heavier body.
-        var arm = (aIsLighter ? pair.ArmB - pair.ArmA : pair.ArmA - pair.ArmB).ToSingle();
-        var relative = lighter.Velocity.Linear - heavier.Velocity.Linear - Exact.Cross(heavier.Velocity.Angular, arm);
-        if (!isLast)
-            relative = normal * (aIsLighter ? MathHelper.Min(0, Exact.Dot(relative, normal)) : MathHelper.Max(0, Exact.Dot(relative, normal)));
-        if (!(inverseMass > 0))
-            return;
-        lighter.Velocity.Linear -= relative * (lighter.InverseMass / inverseMass);
-        heavier.Velocity.Linear += relative * (heavier.InverseMass / inverseMass);
-    }
-
-    // A pair of so many impacts is left alone. With a wall, against which others push it, it would be pushed through that: a mesh is one wall to all sides,
-    // and all of its impacts are those of one pair. So it stays where it is, for the rest of the substep, and the others meet a wall.
-    static void Hold(in FastPair pair, ref FastBody a, ref FastBody b)
-    {
-        if (a.InverseMass > 0 == b.InverseMass > 0)
-            return;
-        var aIsHeld = a.InverseMass > 0;
-        ref var held = ref aIsHeld ? ref a : ref b;
-        ref var holder = ref aIsHeld ? ref b : ref a;
-        var arm = (aIsHeld ? pair.ArmB - pair.ArmA : pair.ArmA - pair.ArmB).ToSingle();
-        held.Velocity = new(holder.Velocity.Linear + Exact.Cross(holder.Velocity.Angular, arm), holder.Velocity.Angular);
-        held.IsHeld = true;
     }
 }

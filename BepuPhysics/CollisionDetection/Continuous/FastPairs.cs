@@ -24,10 +24,10 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     static ReadOnlySpan<double> SkinParts => [.1, .15, .2, .25, .3, .35, .4, .5, .6, .7, .8, .9];
     // Part of the inner radius at which cores count as touching: they may come back to half of that some times, and still be apart for all that rounding tells.
     const double TouchingPart = .01;
-    // Impacts of one pair in a substep from which on it does not turn any more, from which on it is stopped, and from which on it is left alone: something
-    // holds it there.
+    // Impacts of one pair in a substep from which on it does not turn any more, from which on both go on as one, and from which on it is left alone:
+    // something holds it there.
     const int SlidingCount = 8;
-    const int StoppingCount = 16;
+    const int JoiningCount = 16;
     const int MaximumCount = 32;
     // Rounds in which a sweep of two parts is to end: hardly any takes more, but those that begin as good as in touch, and turn against each other all the
     // time. Of these thinner cores are tried, which are farther apart.
@@ -58,7 +58,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     /// <summary>Number of impacts that were made in the last step.</summary>
     internal int ImpactCount { get; private set; }
 
-    /// <summary>Number of pairs that were stopped in the last step, as impacts did not end.</summary>
+    /// <summary>How often pairs were joined in the last step, as impacts did not end.</summary>
     internal int StopCount { get; private set; }
 
     /// <summary>Rounds of all sweeps of the last step, which is what they cost.</summary>
@@ -189,6 +189,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         {
             ref var pair = ref pairs[i];
             pair.ImpactCount = 0;
+            pair.IsJoined = false;
             if (!pair.IsKnown && !pair.Passes)
             {
                 SetGate(ref pair);
@@ -299,7 +300,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     void Find(ref FastPair pair, double from, double dt, BufferPool temporary)
     {
         pair.Time = FastPair.Never;
-        if (pair.Passes || pair.ImpactCount >= MaximumCount)
+        if (pair.Passes || pair.IsJoined || pair.ImpactCount >= MaximumCount)
             return;
         if (!pair.IsKnown)
             SetGate(ref pair);
