@@ -8,23 +8,27 @@ ref partial struct ImpactPair
     // How many times farther a body that turns reaches than the other one is away, from which on it counts how the other one moves in its frame.
     const double FarReach = 16;
 
+    // Rounds after which both count how the other one moves in their frames. What goes along what turns, and comes no nearer, as a ball along a plate, comes
+    // at it with all of its speed for the world's axes.
+    const int PlainRounds = 24;
+
     /// <summary>A time in which the shapes cannot cross a gap along the normal; infinite where they never can.</summary>
-    readonly double LongestSafe(double width)
+    readonly double LongestSafe(double width, int round)
     {
         var closing = DoubleVector3.Dot(linear, normal);
         if (!a.Turns && !b.Turns)
             return closing > 0 ? width / closing : double.PositiveInfinity;
         var dt = LongestSafeBySpeeds(width, closing);
         var offset = offsetB - centerA;
-        if (IsFarReaching(a, b, offset))
+        if (IsFarReaching(a, b, offset, round))
             dt = Math.Max(dt, LongestSafeInFrame(a, b, normal, offset, -linear, width));
-        if (IsFarReaching(b, a, offset))
+        if (IsFarReaching(b, a, offset, round))
             dt = Math.Max(dt, LongestSafeInFrame(b, a, -normal, -offset, linear, width));
         return dt;
     }
 
-    readonly bool IsFarReaching(in ImpactBody body, in ImpactBody other, in DoubleVector3 offset) =>
-        body.Turns && !b.Core.IsPlane && body.Reach > FarReach * (offset.Length + other.Reach);
+    readonly bool IsFarReaching(in ImpactBody body, in ImpactBody other, in DoubleVector3 offset, int round) =>
+        body.Turns && !b.Core.IsPlane && (round >= PlainRounds || body.Reach > FarReach * (offset.Length + other.Reach));
 
     /// <summary>
     /// As <see cref="LongestSafe"/>, in the frame of a body that turns: the ends of a long one are fast, but not near what is beside its middle.
