@@ -93,6 +93,8 @@ sealed unsafe partial class FastPairs
             IsBall = shape.Exists && shape.Type == Sphere.Id,
             UnforeseenSpeed = UnforeseenPart * inner / stepDt,
             ForeseenLinear = new(motion.Velocity.Linear),
+            Linear = new(motion.Velocity.Linear),
+            Angular = new(motion.Velocity.Angular),
             ForeseenSpin = Exact.Length(motion.Velocity.Angular),
         };
     }
@@ -105,6 +107,7 @@ sealed unsafe partial class FastPairs
             ref var mover = ref movers[i];
             ref var velocity = ref Bodies.ActiveSet.MotionStates[mover.Index].Velocity;
             mover.FreeChange = new DoubleVector3(velocity.Linear) - mover.ForeseenLinear;
+            mover.Velocity = velocity;
         }
     }
 
@@ -242,25 +245,40 @@ sealed unsafe partial class FastPairs
 
     void Pair(int body, CollidableReference self, CollidableReference other, double dt)
     {
-        // Who came before may have found it.
-        if (IsWatched(body, other))
+        if (!TryMakePair(body, self, other, out var pair))
             return;
-        NarrowPhase.SortCollidableReferencesForPair(self, other, out _, out _, out var a, out var b);
-        var pair = new FastPair { Pair = new(a, b), Time = FastPair.Never };
-        if (!TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) ||
-            !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B))
-            return;
-        if (!narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
-        {
-            HaveOthers(pair.A);
-            HaveOthers(pair.B);
-            return;
-        }
         var number = pairs.Count;
         pair.NextOfA = LinkLate(ref pair.A, number, dt);
         pair.NextOfB = LinkLate(ref pair.B, number, dt);
         pairs.Add(pair, pool);
         times.Add(number, pair.Time, pool);
+    }
+
+    void PairFromTheBeginning(int body, CollidableReference self, CollidableReference other)
+    {
+        if (!TryMakePair(body, self, other, out var pair))
+            return;
+        pair.NextOfA = Link(ref pair.A, pairs.Count);
+        pair.NextOfB = Link(ref pair.B, pairs.Count);
+        pairs.Add(pair, pool);
+    }
+
+    bool TryMakePair(int body, CollidableReference self, CollidableReference other, out FastPair pair)
+    {
+        pair = default;
+        // Who came before may have found it.
+        if (IsWatched(body, other))
+            return false;
+        NarrowPhase.SortCollidableReferencesForPair(self, other, out _, out _, out var a, out var b);
+        pair = new FastPair { Pair = new(a, b), Time = FastPair.Never };
+        if (!TryFind(a, out pair.ShapeA, out pair.PoseA, out pair.A) ||
+            !TryFind(b, out pair.ShapeB, out pair.PoseB, out pair.B))
+            return false;
+        if (narrowPhase.WatchesLate(pair.Pair, pair.ShapeA, pair.ShapeB, VelocityOf(pair.A), VelocityOf(pair.B), stepDt, out pair.Inner))
+            return true;
+        HaveOthers(pair.A);
+        HaveOthers(pair.B);
+        return false;
     }
 
     // Whether a body's pair with something is watched.
@@ -297,6 +315,7 @@ sealed unsafe partial class FastPairs
         ref var end = ref Bodies.ActiveSet.MotionStates[index];
         ref var mover = ref movers[body];
         mover.MayHaveOthers = true;
+        narrowPhase.Restitution.Strikes[index] = default;
         mover.CheckedPosition = end.Pose.Position - end.Velocity.Linear * (float)dt;
         mover.CheckedOrientation = BodyTurn.Turn(end.Pose.Orientation, new(end.Velocity.Angular), -dt);
         mover.Begin(end, dt);

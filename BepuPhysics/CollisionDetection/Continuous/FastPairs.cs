@@ -117,6 +117,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         changed.Dispose(pool);
         slow.Dispose(pool);
         near.DisposeIfTaken(pool);
+        pushed.DisposeIfTaken(pool);
         if (looks.Span.Allocated)
         {
             looks.Dispose(pool);
@@ -135,6 +136,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         changed = default;
         slow = default;
         near = default;
+        pushed = default;
         looks = default;
         found = default;
         times = default;
@@ -174,6 +176,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         for (int i = StartOf(block, blockCount, movers.Count); i < StartOf(block + 1, blockCount, movers.Count); ++i)
         {
             ref var mover = ref movers[i];
+            PutBack(mover);
             mover.Begin(Bodies.ActiveSet.MotionStates[mover.Index], dt);
             mover.ForeseenLinear += mover.FreeChange;
             mover.Look = -1;
@@ -221,6 +224,8 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             pair.NextOfA = Link(ref pair.A, i);
             pair.NextOfB = Link(ref pair.B, i);
         }
+        WatchPushed();
+        ForgetStrikes();
     }
 
     // Only what the last step has written: what is marked costs nothing for bodies that are not.

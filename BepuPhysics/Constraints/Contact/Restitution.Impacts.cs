@@ -102,8 +102,7 @@ sealed unsafe partial class Restitution
                 {
                     if (!impact.TryGetChange(i, out var body, out var change))
                         continue;
-                    contacts.Push(body, change);
-                    Shift(contacts, body, change.Linear * -time);
+                    Strike(contacts, body, change, time);
                 }
                 if (impact.HasStructures)
                 {
@@ -135,13 +134,9 @@ sealed unsafe partial class Restitution
             Note(ref pair);
             pair.Impulse += lone.Impulse;
             pair.Friction += lone.Friction;
-            contacts.Push(pair.A, lone.ChangeOfA);
-            Shift(contacts, pair.A, lone.ChangeOfA.Linear * -time);
+            Strike(contacts, pair.A, lone.ChangeOfA, time);
             if (pair.B >= 0)
-            {
-                contacts.Push(pair.B, lone.ChangeOfB);
-                Shift(contacts, pair.B, lone.ChangeOfB.Linear * -time);
-            }
+                Strike(contacts, pair.B, lone.ChangeOfB, time);
             LookAtPairsOf(pair.A, pair.B, dt);
             if (pair.B >= 0)
                 LookAtPairsOf(pair.B, -1, dt);
@@ -206,6 +201,14 @@ sealed unsafe partial class Restitution
                     return true;
             }
             return false;
+        }
+
+        readonly void Strike(in ContactRows contacts, int body, in BodyVelocity change, float time)
+        {
+            contacts.Push(body, change);
+            Shift(contacts, body, change.Linear * -time);
+            if (body < owner.Strikes.Count)
+                owner.Strikes[body].Add(change.Linear, time);
         }
 
         readonly void Shift(in ContactRows contacts, int body, Vector3 way)

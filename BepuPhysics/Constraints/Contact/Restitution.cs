@@ -49,6 +49,9 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     bool anyMeets;
     bool anySleeps;
 
+    /// <summary>What impacts of a substep have made of bodies, by their index in the active set; nothing where nobody asks for it.</summary>
+    internal QuickList<Strike> Strikes;
+
     /// <summary>Watches a contact constraint in the coming step.</summary>
     internal void Watch(ConstraintHandle constraint, int contactCount, float coefficient, float leastHit) =>
         pairs.Add(new() { Constraint = constraint, ContactCount = contactCount, Coefficient = coefficient, LeastHit = leastHit }, pool);
@@ -100,12 +103,14 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pairs.Dispose(pool);
         groups.Dispose();
         structures.Dispose();
+        Strikes.DisposeIfTaken(pool);
     }
 
     internal void Abandon()
     {
         pairs = default;
         groups = default;
+        Strikes = default;
         structures.Abandon();
     }
 

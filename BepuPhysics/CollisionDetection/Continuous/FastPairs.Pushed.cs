@@ -1,0 +1,71 @@
+using System;
+using BepuPhysics.Collidables;
+using BepuUtilities;
+using BepuUtilities.Collections;
+
+namespace BepuPhysics.CollisionDetection;
+
+// What is marked is watched, and sees what it meets. A body that is not marked, and is shot at, pushes others on that it touches or is joined with, into the
+// way of what is marked, where nobody has foreseen them: plates of a stack that is hit. So all that hangs together with such a body is watched from the
+// beginning. Of bodies that are marked themselves nobody need ask that: they look around when they are pushed.
+sealed unsafe partial class FastPairs
+{
+    // So many are watched around what is hit, nearest first.
+    const int MostPushed = 16;
+
+    struct ConnectedList(FastPairs owner) : IForEach<BodyHandle>
+    {
+        public readonly void LoopBody(BodyHandle body)
+        {
+            if (owner.pushed.Count < MostPushed && owner.MayBePushed(body) && !owner.pushed.AsSpan().Contains(body))
+                owner.pushed.Add(body, owner.Pool);
+        }
+    }
+
+    // What hangs together with what one body is shot at. It has memory from the first one on.
+    QuickList<BodyHandle> pushed;
+
+    void WatchPushed()
+    {
+        var count = pairs.Count;
+        for (int i = 0; i < count; ++i)
+        {
+            var (pair, a, b, isSensor) = (pairs[i].Pair, pairs[i].A, pairs[i].B, pairs[i].IsSensor);
+            if (isSensor || a < 0 || b < 0)
+                continue;
+            // One of them is marked.
+            if (MayBePushed(pair.A.BodyHandle))
+                WatchPushed(b, pair.B, pair.A.BodyHandle);
+            else if (MayBePushed(pair.B.BodyHandle))
+                WatchPushed(a, pair.A, pair.B.BodyHandle);
+        }
+    }
+
+    void WatchPushed(int body, CollidableReference self, BodyHandle hit)
+    {
+        if (self.Mobility != CollidableMobility.Dynamic)
+            return;
+        if (!pushed.Span.Allocated)
+            pushed = new(MostPushed, pool);
+        pushed.Count = 0;
+        pushed.Add(hit, pool);
+        var list = new ConnectedList(this);
+        for (int i = 0; i < pushed.Count; ++i)
+        {
+            foreach (var constraint in Bodies.GetConstraints(pushed[i]))
+                simulation.Solver.EnumerateOtherBodies(constraint, ref list);
+        }
+        for (int i = 1; i < pushed.Count; ++i)
+            PairFromTheBeginning(body, self, BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, Bodies.Locations[pushed[i].Slot].Index));
+    }
+
+    bool MayBePushed(BodyHandle body)
+    {
+        if (Bodies.IsAsleep(body.Slot))
+            return false;
+        var index = Bodies.Locations[body.Slot].Index;
+        ref var collidable = ref Bodies.ActiveSet.Collidables[index];
+        return collidable.Shape.Exists && collidable.Continuity.Mode != ContinuousDetectionMode.Continuous &&
+            !BepuPhysics.Bodies.IsKinematic(Bodies.ActiveSet.LocalInertias[index]);
+    }
+}
