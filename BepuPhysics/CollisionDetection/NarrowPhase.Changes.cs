@@ -147,6 +147,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             if (pending.Pair.B.Mobility != CollidableMobility.Static)
                 awakener.Request(pending.Pair.B.Slot);
         }
+        RequestThrownAt();
         return awakener.HasRequests;
     }
 

@@ -41,6 +41,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public CollidablePair Pair { get; init; }
         public float Inner;
         public bool IsSensor;
+        // Whether it was foreseen that they hit each other.
+        public bool Hits;
     }
 
     // Children as the callbacks know them.
@@ -113,6 +115,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 isApart = balls.AreFartherApartThan(new(offsetB), tested.SpeculativeMargin);
                 return false;
             }
+            NoteHit(workerIndex);
             // Nobody asks how a ball is turned.
             placed.A = new(default, poseA.Orientation);
             placed.B = new((new DoubleVector3(offsetB) + (linearB - linearA) * time).ToSingle(), poseB.Orientation);
@@ -137,9 +140,17 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             Simulation.Shapes, workers[workerIndex].Pool, out var hit);
         if (hit.Overlaps || !Touches(ref tested, hit.Exists, hit.T, inner))
             return false;
+        NoteHit(workerIndex);
         placed.A = new(default, BodyTurn.Turn(poseA.Orientation, motion.AngularA, hit.T));
         placed.B = new((motion.OffsetB + (motion.LinearB - motion.LinearA) * hit.T).ToSingle(), BodyTurn.Turn(poseB.Orientation, motion.AngularB, hit.T));
         return true;
+    }
+
+    // Of the pair that was noted last.
+    void NoteHit(int workerIndex)
+    {
+        ref var fast = ref workers[workerIndex].Fast;
+        fast[fast.Count - 1].Hits = true;
     }
 
     // What a test would say of balls that are apart. They keep no history.

@@ -7,11 +7,40 @@ namespace BepuPhysics.CollisionDetection;
 
 // What is marked is watched, and sees what it meets. A body that is not marked, and is shot at, pushes others on that it touches or is joined with, into the
 // way of what is marked, where nobody has foreseen them: plates of a stack that is hit. So all that hangs together with such a body is watched from the
-// beginning. Of bodies that are marked themselves nobody need ask that: they look around when they are pushed.
+// beginning. Bodies that are marked themselves look around when they are pushed, as balls that lie against each other and of which one is hit: they are
+// followed from the beginning, and need no pairs before.
 sealed unsafe partial class FastPairs
 {
     // So many are watched around what is hit, nearest first.
     const int MostPushed = 16;
+
+    // So many are followed for each body of a pair of the beginning.
+    const int MostFollowed = 16;
+
+    struct FollowedList(FastPairs owner) : IForEach<BodyHandle>
+    {
+        public readonly void LoopBody(BodyHandle body)
+        {
+            if (!owner.IsMarked(body))
+                return;
+            var index = owner.Bodies.Locations[body.Slot].Index;
+            owner.Link(ref index);
+        }
+    }
+
+    // Who is in no marked pair that is too slow to be watched touches nobody who is marked and not watched.
+    void FollowPushed()
+    {
+        var list = new FollowedList(this);
+        var most = movers.Count * MostFollowed;
+        for (int i = 0; i < movers.Count && movers.Count < most; ++i)
+        {
+            if (!movers[i].MayHaveOthers)
+                continue;
+            foreach (var constraint in Bodies.GetConstraints(Bodies.ActiveSet.IndexToHandle[movers[i].Index]))
+                simulation.Solver.EnumerateOtherBodies(constraint, ref list);
+        }
+    }
 
     struct ConnectedList(FastPairs owner) : IForEach<BodyHandle>
     {
@@ -59,13 +88,18 @@ sealed unsafe partial class FastPairs
             PairFromTheBeginning(body, self, BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, Bodies.Locations[pushed[i].Slot].Index));
     }
 
-    bool MayBePushed(BodyHandle body)
+    bool MayBePushed(BodyHandle body) => IsPushable(body, out var isMarked) && !isMarked;
+
+    bool IsMarked(BodyHandle body) => IsPushable(body, out var isMarked) && isMarked;
+
+    bool IsPushable(BodyHandle body, out bool isMarked)
     {
+        isMarked = false;
         if (Bodies.IsAsleep(body.Slot))
             return false;
         var index = Bodies.Locations[body.Slot].Index;
         ref var collidable = ref Bodies.ActiveSet.Collidables[index];
-        return collidable.Shape.Exists && collidable.Continuity.Mode != ContinuousDetectionMode.Continuous &&
-            !BepuPhysics.Bodies.IsKinematic(Bodies.ActiveSet.LocalInertias[index]);
+        isMarked = collidable.Continuity.Mode == ContinuousDetectionMode.Continuous;
+        return collidable.Shape.Exists && !BepuPhysics.Bodies.IsKinematic(Bodies.ActiveSet.LocalInertias[index]);
     }
 }

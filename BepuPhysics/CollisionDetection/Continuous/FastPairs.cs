@@ -225,6 +225,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             pair.NextOfB = Link(ref pair.B, i);
         }
         WatchPushed();
+        FollowPushed();
         ForgetStrikes();
     }
 
@@ -261,10 +262,9 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         return shape.Exists;
     }
 
-    int Link(ref int body, int pair)
+    // Turns the index of a body into that of its mover.
+    void Link(ref int body)
     {
-        if (body < 0)
-            return -1;
         ref var mover = ref moverOf[body];
         if (mover < 0)
         {
@@ -274,6 +274,13 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             thrown.Add(false, pool);
         }
         body = mover;
+    }
+
+    int Link(ref int body, int pair)
+    {
+        if (body < 0)
+            return -1;
+        Link(ref body);
         var next = firstPairs[body];
         firstPairs[body] = pair;
         return next;
