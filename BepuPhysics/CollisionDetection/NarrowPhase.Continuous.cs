@@ -17,6 +17,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // A pair is fast that moves by more than this part of the inner radius of the thinner shape, in a step; where neither has one, of the mover's radius.
     const float FastPart = .5f;
     const float FastPartOfRadius = .02f;
+    // As the first, of a pair that is found within a step, and has no contacts.
+    const float LateFastPart = .05f;
     // How much longer than the step is looked ahead: what pushes may hasten an impact, and a contact that is not reached does nothing.
     const float Lookahead = 1.25f;
     // Parts of the thinner shape's inner radius: how far around an impact contacts are looked for, how near is nearby, how exact an impact is at least, and
@@ -68,7 +70,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         isApart = false;
         var dt = workers[workerIndex].Batcher.Dt;
         var (velocityA, velocityB) = (VelocityOf(tested.Pair.A), VelocityOf(tested.Pair.B));
-        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out var inner, out var speed, out var gate))
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, FastPart, out var inner, out var speed, out var gate))
         {
             FastPairs.NoteSlow(tested.Pair);
             return false;
@@ -170,8 +172,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return touches;
     }
 
-    bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, out float inner, out float speed,
-        out WayGate gate)
+    bool IsFast(TypedIndex shapeA, TypedIndex shapeB, in BodyVelocity velocityA, in BodyVelocity velocityB, float dt, float part, out float inner,
+        out float speed, out WayGate gate)
     {
         var (batchA, batchB) = (Simulation.Shapes.GetBatch(shapeA.Type), Simulation.Shapes.GetBatch(shapeB.Type));
         float innerA = batchA.InnerRadius(shapeA.Index), innerB = batchB.InnerRadius(shapeB.Index);
@@ -184,7 +186,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         gate = default;
         // Twice what may count as touching.
         gate.Set(radiusA, radiusB, 2 * ExactnessPart * inner);
-        return speed * dt > FastPart * inner;
+        return speed * dt > part * inner;
     }
 
     internal override (float Inner, float Radius) RadiiOf(TypedIndex shape)
@@ -202,7 +204,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         if (pair.A.Mobility != CollidableMobility.Dynamic || (ContinuityOf(pair.A).Mode != ContinuousDetectionMode.Continuous &&
             ContinuityOf(pair.B).Mode != ContinuousDetectionMode.Continuous))
             return false;
-        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, out inner, out _, out _) || !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+        if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, LateFastPart, out inner, out _, out _) ||
+            !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
             return false;
         if ((Simulation.Layers.IsUsed && !CollisionLayers.MayMeet(Simulation.Layers.Of(pair.A), Simulation.Layers.Of(pair.B))) ||
             (Simulation.Events.UsesSensors && Simulation.Events.CountSensors(pair.A, pair.B) > 0))

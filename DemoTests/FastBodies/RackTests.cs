@@ -17,7 +17,15 @@ public class RackTests
     [Theory]
     [InlineData(3, 0, false), InlineData(8, 0, false), InlineData(12, 0, false), InlineData(3, 0, true), InlineData(12, 0, true)]
     [InlineData(8, 1e-6f, false), InlineData(12, 1e-4f, true)]
-    public void NoBallPassesAnother(float speed, float gap, bool isMarked)
+    public void NoBallPassesAnother(float speed, float gap, bool isMarked) => Break(speed, gap, isMarked, speed / 60, .98f);
+
+    // What is marked needs no margin: whoever is hit within a step meets those who are beside it. Without, balls came into each other by half of their size, and
+    // those that slept were walls: momentum changed by twice what there was.
+    [Theory]
+    [InlineData(3, 0), InlineData(12, 0), InlineData(3, 1e-6f), InlineData(12, 1e-6f)]
+    public void NoMarkedBallPassesAnotherWithoutAMargin(float speed, float gap) => Break(speed, gap, isMarked: true, 0, .95f);
+
+    static void Break(float speed, float gap, bool isMarked, float margin, float leastDistance)
     {
         const float Radius = .0286f, Mass = .17f;
         for (int seed = 0; seed < 5; ++seed)
@@ -30,7 +38,7 @@ public class RackTests
                 new DefaultPoseIntegratorCallbacks(Vector3.Zero), new SolveDescription(1, 4));
             var ball = new Sphere(Radius);
             var collidable = new CollidableDescription(
-                simulation.Shapes.Add(ball), speed / 60, float.MaxValue, isMarked ? ContinuousDetection.Continuous() : ContinuousDetection.Passive);
+                simulation.Shapes.Add(ball), margin, float.MaxValue, isMarked ? ContinuousDetection.Continuous() : ContinuousDetection.Passive);
             var balls = new List<BodyHandle>();
             for (int row = 0; row < 5; ++row)
             {
@@ -54,7 +62,7 @@ public class RackTests
                     for (int b = 0; b < a; ++b)
                     {
                         var distance = Vector3.Distance(simulation.Bodies[balls[a]].Pose.Position, simulation.Bodies[balls[b]].Pose.Position);
-                        Assert.InRange(distance, 2 * Radius * .98f, float.MaxValue);
+                        Assert.InRange(distance, 2 * Radius * leastDistance, float.MaxValue);
                     }
                 }
             }

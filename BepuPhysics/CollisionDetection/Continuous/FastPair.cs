@@ -29,6 +29,8 @@ struct FastPair
     public bool HasPassed;
     /// <summary>Impacts in this substep.</summary>
     public int ImpactCount;
+    /// <summary>Whether it was found within the step: then it may have no contacts.</summary>
+    public bool IsLate;
     /// <summary>Whether both go on as one body, for the rest of the substep or until one of them is hit by another.</summary>
     public bool IsJoined;
     /// <summary>Energy that impacts have taken along their normals in this step, and not given back, J.</summary>

@@ -248,6 +248,7 @@ sealed unsafe partial class FastPairs
         if (!TryMakePair(body, self, other, out var pair))
             return;
         var number = pairs.Count;
+        pair.IsLate = true;
         pair.NextOfA = LinkLate(ref pair.A, number, dt);
         pair.NextOfB = LinkLate(ref pair.B, number, dt);
         pairs.Add(pair, pool);

@@ -54,7 +54,7 @@ sealed unsafe partial class FastPairs
         PlaceCentre(pair.B, pair.PoseB, from, out var linearB, out var positionB);
         var offsetB = positionB - positionA;
         ++pair.RoundCount;
-        foreach (var part in SkinParts)
+        foreach (var part in pair.IsLate ? LateSkinParts : SkinParts)
         {
             if (!pair.Balls.TryFind(part, offsetB, linearA, linearB, TouchingPart * pair.Inner, out var time))
                 continue;

@@ -22,6 +22,8 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
     // Parts of the inner radius by which cores are thinner: the first at which they are apart. Who is pushed again and again, by others, comes deeper by one
     // of these in a substep at most: so their steps are small.
     static ReadOnlySpan<double> SkinParts => [.1, .15, .2, .25, .3, .35, .4, .5, .6, .7, .8, .9];
+    // Those of balls that are found within a step: no contact stops them before.
+    static ReadOnlySpan<double> LateSkinParts => [.01, .02, .03, .05, .07, .1, .15, .2, .25, .3, .35, .4, .5, .6, .7, .8, .9];
     // Part of the inner radius at which cores count as touching: they may come back to half of that some times, and still be apart for all that rounding tells.
     const double TouchingPart = .01;
     // Impacts of one pair in a substep from which on it does not turn any more, from which on both go on as one, and from which on it is left alone:
