@@ -19,8 +19,8 @@ public class RackTests
     [InlineData(8, 1e-6f, false), InlineData(12, 1e-4f, true)]
     public void NoBallPassesAnother(float speed, float gap, bool isMarked) => Break(speed, gap, isMarked, speed / 60, .98f);
 
-    // What is marked needs no margin: whoever is hit within a step meets those who are beside it. Without, balls came into each other by half of their size, and
-    // those that slept were walls: momentum changed by twice what there was.
+    // What is marked needs no margin: whoever is hit within a step meets those who are beside it. Balls came into each other by half of their size, and those
+    // that slept were walls: momentum changed by twice what there was.
     [Theory]
     [InlineData(3, 0), InlineData(12, 0), InlineData(3, 1e-6f), InlineData(12, 1e-6f)]
     public void NoMarkedBallPassesAnotherWithoutAMargin(float speed, float gap) => Break(speed, gap, isMarked: true, 0, .95f);
