@@ -105,7 +105,7 @@ sealed unsafe partial class FastPairs
         }
     }
 
-    void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b, double rest)
+    static void Bounce(ref FastPair pair, ref FastBody a, ref FastBody b, double rest)
     {
         Vector3 normal = pair.Normal.ToSingle(), armA = pair.ArmA.ToSingle(), armB = pair.ArmB.ToSingle();
         var (inertiaA, inertiaB) = (a.InverseMass > 0 || pair.A >= 0 ? a.WorldInertia : default, pair.B >= 0 ? b.WorldInertia : default);

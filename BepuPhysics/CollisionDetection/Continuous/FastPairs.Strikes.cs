@@ -1,4 +1,3 @@
-using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 
 namespace BepuPhysics.CollisionDetection;

@@ -1,5 +1,4 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
@@ -19,7 +18,7 @@ sealed unsafe partial class FastPairs
     // By how much the face may turn until the ball comes back, rad: to there the gap is nearly a parabola.
     const double MostTurn = .5;
 
-    void KeepAhead(ref FastPair pair, in ContactRow row, in BodyInertia inertiaA, in BodyInertia inertiaB, ref FastBody a, ref FastBody b, double rest)
+    static void KeepAhead(ref FastPair pair, in ContactRow row, in BodyInertia inertiaA, in BodyInertia inertiaB, ref FastBody a, ref FastBody b, double rest)
     {
         bool aIsBall = pair.A >= 0 && a.IsBall, bIsBall = pair.B >= 0 && b.IsBall;
         if (aIsBall == bIsBall || !(pair.Lost > 0))
