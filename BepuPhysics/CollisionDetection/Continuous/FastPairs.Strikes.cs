@@ -1,5 +1,3 @@
-using BepuUtilities.Collections;
-
 namespace BepuPhysics.CollisionDetection;
 
 // Bounces come before the substep that they fall in: a body that is hit at a time t within it, and gains the velocity c, is moved back by t c, and so is at

@@ -1,5 +1,4 @@
 using System;
-using BepuPhysics.Constraints;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
