@@ -27,8 +27,8 @@ sealed class ShotPlate : IDisposable
     const float Dt = 1 / 60f;
     const float Thickness = .02f;
     const int Steps = 20;
-    // Of a plate in a substep, rad: by so little that a line tells where the ball went through.
-    const float LeastTurn = .3f;
+    // Of a plate in a substep, rad: what turns farther may have been hit within it, and turned around the ball.
+    const float GreatestTurn = .3f;
 
     // Sees where bodies are at the end of each substep, when their ways have been swept.
     sealed class AfterWays(Action look) : ISolverStage
@@ -45,7 +45,8 @@ sealed class ShotPlate : IDisposable
     readonly BufferPool pool = new();
     readonly Simulation simulation;
     readonly List<BodyHandle> plates = [];
-    readonly List<Vector3> places = [];
+    readonly List<RigidPose> before = [];
+    Vector3 ballBefore;
     readonly BodyHandle ball;
     readonly Box plate;
     readonly float radius;
@@ -129,7 +130,8 @@ sealed class ShotPlate : IDisposable
 
     void Run(int steps, float mass, bool isFree)
     {
-        places.AddRange(plates.ConvertAll(PlaceInFrame));
+        before.AddRange(plates.ConvertAll(handle => simulation.Bodies[handle].Pose));
+        ballBefore = simulation.Bodies[ball].Pose.Position;
         var stages = simulation.Solver.OptionalStages;
         stages.Insert(stages.FindIndex(stage => stage is FastPairs) + 1, new AfterWays(Look));
         var (energy, momentum) = Sum();
@@ -145,32 +147,35 @@ sealed class ShotPlate : IDisposable
 
     void Look()
     {
+        var place = simulation.Bodies[ball].Pose.Position;
         for (int i = 0; i < plates.Count; ++i)
         {
-            var place = PlaceInFrame(plates[i]);
-            var turn = simulation.Bodies[plates[i]].Velocity.Angular.Length() * Dt / simulation.Solver.SubstepCount;
-            HasPassed |= Passes(places[i], place, turn);
-            places[i] = place;
+            var body = simulation.Bodies[plates[i]];
+            HasPassed |= Passes(before[i], body.Pose, place, body.Velocity.Angular.Length() * Dt / simulation.Solver.SubstepCount);
+            before[i] = body.Pose;
         }
+        ballBefore = place;
     }
 
-    Vector3 PlaceInFrame(BodyHandle handle)
-    {
-        var pose = simulation.Bodies[handle].Pose;
-        return Vector3.Transform(simulation.Bodies[ball].Pose.Position - pose.Position, Quaternion.Conjugate(pose.Orientation));
-    }
+    static Vector3 PlaceInFrame(in RigidPose pose, Vector3 place) => Vector3.Transform(place - pose.Position, Quaternion.Conjugate(pose.Orientation));
 
     bool IsBeside(Vector3 place, float edge) => MathF.Abs(place.X) < plate.Width / 2 - edge && MathF.Abs(place.Z) < plate.Length / 2 - edge;
 
-    bool Passes(Vector3 before, Vector3 after, float turn)
+    // In the frame of what turns ways are bent.
+    bool Passes(in RigidPose start, in RigidPose end, Vector3 place, float turn)
     {
-        if (MathF.Abs(after.Y) < Thickness / 2 && IsBeside(after, 0))
-            return true;
-        // What turns farther may have gone around it.
-        if (before.Y > 0 == after.Y > 0 || turn > LeastTurn)
-            return false;
-        var edge = radius + turn * (after - before).Length() / 2;
-        return IsBeside(Vector3.Lerp(before, after, before.Y / (before.Y - after.Y)), edge);
+        const int parts = 32;
+        var last = PlaceInFrame(start, ballBefore);
+        var isThrough = MathF.Abs(PlaceInFrame(end, place).Y) < Thickness / 2 && IsBeside(PlaceInFrame(end, place), 0);
+        for (int i = 1; i <= parts && turn < GreatestTurn; ++i)
+        {
+            var part = i / (float)parts;
+            var pose = new RigidPose(Vector3.Lerp(start.Position, end.Position, part), Quaternion.Slerp(start.Orientation, end.Orientation, part));
+            var next = PlaceInFrame(pose, Vector3.Lerp(ballBefore, place, part));
+            isThrough |= last.Y > 0 != next.Y > 0 && IsBeside(Vector3.Lerp(last, next, last.Y / (last.Y - next.Y)), radius);
+            last = next;
+        }
+        return isThrough;
     }
 
     (double Energy, Vector3 Momentum) Sum()
