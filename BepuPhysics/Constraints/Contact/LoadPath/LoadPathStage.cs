@@ -247,7 +247,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 FindFloorChange(ref node);
             var turns = Turns(node);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(graph.Links[j].Band, turns);
+                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(BandOf(graph.Links[j], i), turns);
         }
     }
 
