@@ -32,7 +32,7 @@ readonly unsafe struct SupportFinder(
     internal const int LeastContacts = 3;
     // Least part of the acceleration from outside along the normal of a contact that carries against it: 37 degrees. What leans on steeper faces, as the
     // stones of an arch, is held by both of its neighbours at once, and no order from the top down is right for it.
-    const float LeastSlope = 0.8f;
+    internal const float LeastSlope = 0.8f;
     // Speed of a body up to which it rests, in substeps of acceleration. What sways is left to the sweeps, which damp it: held and let go by turns as its
     // contacts open and close, it would be let down on its springs and lifted again, and a stack that was pushed would sway more and more.
     internal const float RestingSteps = 1;
