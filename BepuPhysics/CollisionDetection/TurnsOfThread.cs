@@ -2,7 +2,9 @@ using System;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>What a thread has gone through since it stepped a simulation last: where that is much, the simulation finds nothing of its own in the caches.</summary>
+/// <summary>
+/// What a thread has gone through since it stepped a simulation last: where that is much, the simulation finds nothing of its own in the caches.
+/// </summary>
 // A character's cloth, or a rig that learns, is often a small simulation of its own, one of hundreds that take turns.
 struct TurnsOfThread
 {

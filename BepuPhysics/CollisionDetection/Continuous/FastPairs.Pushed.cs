@@ -28,15 +28,14 @@ sealed unsafe partial class FastPairs
         }
     }
 
-    // Who is in no marked pair that is too slow to be watched touches nobody who is marked and not watched.
+    // Of all that are watched. Who may have others is no question here: that is known only after a step with fast pairs, and what a step does may not depend
+    // on what there was in the last one.
     void FollowPushed()
     {
         var list = new FollowedList(this);
         var most = movers.Count * MostFollowed;
         for (int i = 0; i < movers.Count && movers.Count < most; ++i)
         {
-            if (!movers[i].MayHaveOthers)
-                continue;
             foreach (var constraint in Bodies.GetConstraints(Bodies.ActiveSet.IndexToHandle[movers[i].Index]))
                 simulation.Solver.EnumerateOtherBodies(constraint, ref list);
         }
