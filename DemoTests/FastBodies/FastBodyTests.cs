@@ -44,6 +44,30 @@ public class FastBodyTests
         }
     }
 
+    /// <summary>
+    /// A ball that overlaps the first of two plates is hit before the substep begins, which moves it back by nothing; what that hit has changed is no part of
+    /// that of the next substep, at the other plate.
+    /// </summary>
+    [Fact]
+    public void ABallBetweenPlatesIsWhereItsBouncesTakeIt()
+    {
+        const float radius = .02f, overlap = 1e-3f, speed = 60;
+        for (int phase = 0; phase < 10; ++phase)
+        {
+            using var world = new TestWorld(Weightless, restitution: 1);
+            var way = speed * Dt / 4 * (1.1f + .08f * phase);
+            world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(-.5f - radius, 0, 0)));
+            world.AddStatic(new Box(1, 4, 4), new RigidPose(new Vector3(way + .5f + radius, 0, 0)));
+            var ball = world.AddMarked(new Sphere(radius), 1, new Vector3(-overlap, 0, 0), new Vector3(-speed, 0, 0));
+            world.Step();
+            // There and back again, as often as it takes: a path that is folded at both plates.
+            var folded = speed * Dt % (2 * way);
+            var expected = folded < way ? folded : 2 * way - folded;
+            // What is swept is thinner by a part of the radius.
+            Assert.InRange(world.Bodies[ball].Pose.Position.X, expected - radius, expected + radius);
+        }
+    }
+
     /// <summary>What is passed by, at whatever distance, turns nothing aside.</summary>
     [Theory]
     [InlineData(.001f)]

@@ -202,6 +202,7 @@ sealed class ShotPlate : IDisposable
     public void Dispose()
     {
         simulation.Dispose();
+        pool.AssertEmpty();
         pool.Clear();
     }
 }

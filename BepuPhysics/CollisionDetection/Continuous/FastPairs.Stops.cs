@@ -34,9 +34,7 @@ sealed unsafe partial class FastPairs
         // How a ball turns brings it no nearer.
         if (!a.IsBall && !b.IsBall)
         {
-            // Two directions across: from an axis that is not along the normal.
-            var x = Exact.Cross(normal, normal.X * normal.X < .5f ? Vector3.UnitX : Vector3.UnitY);
-            x *= 1 / Exact.Length(x);
+            var x = ContactRow.Across(normal);
             var y = Exact.Cross(normal, x);
             rows[count++] = new(default, x, -x);
             rows[count++] = new(default, y, -y);

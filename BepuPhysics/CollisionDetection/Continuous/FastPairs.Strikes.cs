@@ -9,8 +9,7 @@ sealed unsafe partial class FastPairs
     void ForgetStrikes()
     {
         ref var strikes = ref narrowPhase.Restitution.Strikes;
-        var known = strikes.Count;
-        if (known < Bodies.ActiveSet.Count)
+        if (strikes.Count < Bodies.ActiveSet.Count)
         {
             if (!strikes.Span.Allocated)
                 strikes = new(Bodies.ActiveSet.Count, pool);
@@ -23,14 +22,16 @@ sealed unsafe partial class FastPairs
 
     void PutBack(in FastBody mover)
     {
-        ref var strike = ref narrowPhase.Restitution.Strikes[mover.Index];
+        ref var place = ref narrowPhase.Restitution.Strikes[mover.Index];
+        var strike = place;
+        // Those of the next substep begin anew, also after one that moved nothing back: at its beginning, or before it.
+        place = default;
         if (!(strike.Time > 0))
             return;
         ref var motion = ref Bodies.ActiveSet.MotionStates[mover.Index];
         // Without what acceleration adds in the next substep, which is there already.
         var solved = new DoubleVector3(motion.Velocity.Linear - mover.Velocity.Linear - strike.Change) - mover.FreeChange;
         var way = solved * -strike.Time;
-        strike = default;
         // Less is seen by the sweeps, and by the contacts of the next step.
         if (!(way.Length > mover.UnforeseenSpeed * stepDt))
             return;

@@ -51,8 +51,7 @@ struct LoneImpact
         in ContactRows contacts, in BodyVelocity a, in BodyVelocity b, in BodyInertia inertiaA, in BodyInertia inertiaB, float coupling, float most)
     {
         var normal = contacts.Normal;
-        var axis = MathF.Abs(normal.X) < MathF.Abs(normal.Y) ? Vector3.UnitX : Vector3.UnitY;
-        var direction = Exact.Normalize(Exact.Cross(normal, axis));
+        var direction = ContactRow.Across(normal);
         var x = contacts.Row(contacts.Arm(0), direction);
         var y = contacts.Row(contacts.Arm(0), Exact.Cross(normal, direction));
         float turnedX = x.Along(ChangeOfA, ChangeOfB), turnedY = y.Along(ChangeOfA, ChangeOfB);

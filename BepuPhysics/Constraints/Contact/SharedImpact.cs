@@ -308,8 +308,7 @@ unsafe partial struct SharedImpact(ImpactStructures structures, BufferPool pool)
             for (int j = patch.First; j < patch.End; ++j)
                 center += rows[j].Arm * (rows[j].Impulse / sum);
             // Any two tangents do: the friction of a patch is a vector.
-            var axis = MathF.Abs(patch.Normal.X) < MathF.Abs(patch.Normal.Y) ? Vector3.UnitX : Vector3.UnitY;
-            var x = Exact.Normalize(Exact.Cross(patch.Normal, axis));
+            var x = ContactRow.Across(patch.Normal);
             patch.Tangent = rows.Count;
             patch.Direction = x;
             AddTangent(patch, center, x);
