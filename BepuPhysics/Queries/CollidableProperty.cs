@@ -8,9 +8,10 @@ namespace BepuPhysics;
 /// <summary>A value of a game's own for each body and static, found by handle: friction, team, name of a sound.</summary>
 /// <typeparam name="T">Type of the values.</typeparam>
 /// <remarks>
-/// Two arrays indexed by slot, so that a callback finds a value by one read. They grow only when asked to: allocate or ensure capacity
-/// when a body or static is added, then read and write from any number of threads. A body in the slot of one that was removed finds the value
-/// of its predecessor until it is allocated anew. Handles of what was removed are refused.
+/// Two arrays indexed by slot, so that a callback finds a value by one read. They begin with room for as many bodies and statics as the simulation
+/// has room for, and grow only when asked to: allocate or ensure capacity when a body or static is added, then read and write from any number of
+/// threads. A body in the slot of one that was removed finds the value of its predecessor until it is allocated anew. Handles of what was removed
+/// are refused.
 /// </remarks>
 public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T : unmanaged
 {
@@ -28,7 +29,8 @@ public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T
     /// <param name="pool">Source of the memory; null for the pool of the simulation.</param>
     public CollidableProperty(Simulation simulation, BufferPool? pool = null) : this(pool) => Initialize(simulation);
 
-    /// <summary>Makes room for all that a simulation has. To be called once; the narrow phase callbacks' Initialize is a good place.</summary>
+    /// <summary>Makes room for all bodies and statics that a simulation has room for. To be called once; the narrow phase callbacks' Initialize is a good
+    /// place.</summary>
     /// <exception cref="InvalidOperationException">There is a simulation already.</exception>
     public void Initialize(Simulation simulation)
     {
@@ -37,8 +39,9 @@ public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T
             throw new InvalidOperationException("The properties belong to a simulation already.");
         this.simulation = simulation;
         pool ??= simulation.BufferPool;
-        EnsureBodyCapacity(simulation.Bodies.HandlePool.HighestPossiblyClaimedId + 1);
-        EnsureStaticCapacity(simulation.Statics.HandlePool.HighestPossiblyClaimedId + 1);
+        // Contact events of games, among others, write to values that they did not allocate.
+        EnsureBodyCapacity(simulation.Bodies.HandleToLocation.Length);
+        EnsureStaticCapacity(simulation.Statics.HandleToIndex.Length);
     }
 
     /// <summary>Value of a body.</summary>
@@ -79,26 +82,26 @@ public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T
     /// <summary>Makes room for a body's value, sets it to its default and returns it; valid until room is made again.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a body can have.</exception>
     /// <exception cref="ArgumentException">The body was removed.</exception>
-    public ref T Allocate(BodyHandle handle)
+    public ref T Allocate(BodyHandle bodyHandle)
     {
-        CheckNotStale(handle);
-        return ref Allocate(ref bodyData, handle.Value, handle.Slot);
+        CheckNotStale(bodyHandle);
+        return ref Allocate(ref bodyData, bodyHandle.Value, bodyHandle.Slot);
     }
 
     /// <summary>Makes room for a static's value, sets it to its default and returns it; valid until room is made again.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a static can have.</exception>
     /// <exception cref="ArgumentException">The static was removed.</exception>
-    public ref T Allocate(StaticHandle handle)
+    public ref T Allocate(StaticHandle bodyHandle)
     {
-        CheckNotStale(handle);
-        return ref Allocate(ref staticData, handle.Value, handle.Slot);
+        CheckNotStale(bodyHandle);
+        return ref Allocate(ref staticData, bodyHandle.Value, bodyHandle.Slot);
     }
 
     /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
-    public ref T Allocate(CollidableReference collidable) =>
-        ref collidable.Mobility == CollidableMobility.Static
-            ? ref Allocate(new StaticHandle(collidable.RawHandleValue))
-            : ref Allocate(new BodyHandle(collidable.RawHandleValue));
+    public ref T Allocate(CollidableReference collidableReference) =>
+        ref collidableReference.Mobility == CollidableMobility.Static
+            ? ref Allocate(new StaticHandle(collidableReference.RawHandleValue))
+            : ref Allocate(new BodyHandle(collidableReference.RawHandleValue));
 
     /// <summary>Makes room for the bodies whose slots are below a number.</summary>
     public void EnsureBodyCapacity(int capacity)

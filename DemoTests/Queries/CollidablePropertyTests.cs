@@ -51,6 +51,33 @@ public class CollidablePropertyTests
     }
 
     [Fact]
+    public void There_is_room_for_what_the_simulation_has_room_for()
+    {
+        // As contact events that games copied from the Demos have it: made before there are bodies, written to without an allocation.
+        using var world = new TestWorld();
+        using var property = new CollidableProperty<int>(world.Simulation);
+        for (int i = 0; i < 100; ++i)
+        {
+            property[world.AddDynamic(new Sphere(1), 1, RigidPose.Identity)] += i;
+            property[world.AddStatic(new Sphere(1), RigidPose.Identity)] += 1000 + i;
+        }
+        Assert.Equal(99, property[new BodyHandle(99)]);
+        Assert.Equal(1099, property[new StaticHandle(99)]);
+
+        // As cars of games have it: the value of the body is kept at hand while those of its wheels are allocated.
+        ref var body = ref property.Allocate(world.AddDynamic(new Sphere(1), 1, RigidPose.Identity));
+        for (int i = 0; i < 4; ++i)
+            property.Allocate(world.AddDynamic(new Sphere(1), 1, RigidPose.Identity)) = i;
+        body = 7;
+        Assert.Equal(7, property[new BodyHandle(100)]);
+
+        using var wide = new TestWorld(sizes: new SimulationAllocationSizes { Bodies = 20_000, Statics = 3000 });
+        using var many = new CollidableProperty<int>(wide.Simulation);
+        Assert.Equal(0, many[new BodyHandle(19_999)]);
+        Assert.Equal(0, many[new StaticHandle(2999)]);
+    }
+
+    [Fact]
     public void Handles_without_room_are_refused()
     {
         using var world = new TestWorld();
