@@ -55,7 +55,7 @@ public sealed partial class Bodies
             Invariant.Require(collidable.BroadPhaseIndex < 0, "leaf of body without a shape", handle);
             return;
         }
-        Invariant.Require(shapes.Exists(collidable.Shape), "shape of body", handle);
+        Invariant.Require(shapes.Holds(collidable.Shape), "shape of body", handle);
         var leafLimit = set.IsAsleep ? broadPhase.StaticTree.LeafCount : broadPhase.ActiveTree.LeafCount;
         Invariant.Require((uint)collidable.BroadPhaseIndex < (uint)leafLimit, "leaf of body", handle);
         // Also that the leaf knows whether the body is kinematic.

@@ -14,7 +14,7 @@ public sealed partial class Statics
             ref var target = ref StaticsBuffer[index];
             Invariant.Finite(target.Pose.Position, "position of static", handle.Slot);
             Invariant.Finite(target.Pose.Orientation, "orientation of static", handle.Slot);
-            Invariant.Require(shapes.Exists(target.Shape), "shape of static", handle.Slot);
+            Invariant.Require(shapes.Holds(target.Shape), "shape of static", handle.Slot);
             Invariant.Require((uint)target.BroadPhaseIndex < (uint)broadPhase.StaticTree.LeafCount, "leaf of static", handle.Slot);
             Invariant.Require(broadPhase.StaticLeaves[target.BroadPhaseIndex] == new Collidables.CollidableReference(handle),
                 "collidable of the leaf of static", handle.Slot);

@@ -65,7 +65,7 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal ref TShape Get(int shapeIndex)
     {
-        Check.That(Exists(shapeIndex));
+        Check.That(Holds(shapeIndex));
         return ref shapes.Memory[shapeIndex];
     }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Threading;
 using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
@@ -8,6 +9,12 @@ namespace BepuPhysics.Collidables;
 // Who uses a shape: bodies and statics, and compounds that have it as a child.
 public abstract unsafe partial class ShapeBatch
 {
+    // What is in a slot: nothing, a shape, or a shape that was removed while bodies or statics had it.
+    const byte None = 0, There = 1, Removed = 2;
+
+    // Shapes that were removed while bodies or statics had them, with the pool that their own memory goes back to, if it does.
+    List<(int Index, BufferPool? Pool)>? kept;
+
     // Number of bodies and statics of each slot's shape.
     Buffer<int> uses;
     // Number of children of compounds that are each slot's shape.
@@ -50,9 +57,62 @@ public abstract unsafe partial class ShapeBatch
     /// <summary>Refuses a shape that does not exist, or that something uses.</summary>
     internal void CheckUnused(int shapeIndex)
     {
-        CheckExists(shapeIndex);
+        CheckRemovable(shapeIndex);
         CheckNoUser(shapeIndex);
+    }
+
+    // Bodies and statics do not hold a removal up: they keep the shape.
+    void CheckRemovable(int shapeIndex)
+    {
+        if (!Exists(shapeIndex))
+            throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
         CheckNoPart(shapeIndex);
+    }
+
+    void RemoveOrKeep(int shapeIndex, BufferPool? memoryPool)
+    {
+        LetGo();
+        --Count;
+        if (uses[shapeIndex] == 0)
+        {
+            FreeSlot(shapeIndex, memoryPool);
+            return;
+        }
+        taken[shapeIndex] = Removed;
+        (kept ??= []).Add((shapeIndex, memoryPool));
+    }
+
+    void FreeSlot(int shapeIndex, BufferPool? memoryPool)
+    {
+        if (memoryPool is not null)
+            DisposeShape(shapeIndex, memoryPool);
+        OnRemoved(shapeIndex);
+        ids.Return(shapeIndex, pool);
+        taken[shapeIndex] = None;
+    }
+
+    /// <summary>Number of shapes in the batch and of those that were removed and are kept.</summary>
+    internal int HeldCount => Count + (kept?.Count ?? 0);
+
+    /// <summary>Frees the slots of removed shapes that no body and no static has any more.</summary>
+    /// <remarks>
+    /// With each change of the batch, not when the last of them loses the shape: simulations that share shapes may lose some at once, each on a thread
+    /// of its own, while those who change the batch have it alone.
+    /// </remarks>
+    internal void LetGo()
+    {
+        if (kept is null)
+            return;
+        int left = 0;
+        for (int i = 0; i < kept.Count; ++i)
+        {
+            var shape = kept[i];
+            if (uses[shape.Index] == 0)
+                FreeSlot(shape.Index, shape.Pool);
+            else
+                kept[left++] = shape;
+        }
+        kept.RemoveRange(left, kept.Count - left);
     }
 
     void CheckNoUser(int shapeIndex)
@@ -75,7 +135,7 @@ public abstract unsafe partial class ShapeBatch
     {
         for (int i = 0; i < UsedSlotCount; ++i)
         {
-            if (!Exists(i))
+            if (!Holds(i))
                 continue;
             CheckNoUser(i);
             if (andNoParts)

@@ -18,7 +18,7 @@ public abstract unsafe partial class ShapeBatch
 {
     private protected readonly BufferPool pool;
     IdPool ids;
-    // One byte per slot: 1 when a shape is in it.
+    // One byte per slot: None, There or Removed.
     Buffer<byte> taken;
     // What number each slot's shape has among all that were ever added.
     Buffer<int> generations;
@@ -57,7 +57,11 @@ public abstract unsafe partial class ShapeBatch
 
     /// <summary>Whether a shape was added at an index and not removed since. Any index may be asked.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool Exists(int shapeIndex) => (uint)shapeIndex < (uint)taken.Length && taken[shapeIndex] != 0;
+    public bool Exists(int shapeIndex) => (uint)shapeIndex < (uint)taken.Length && taken[shapeIndex] == There;
+
+    /// <summary>Whether there is a shape at an index, be it one that was removed and that bodies or statics still have.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal bool Holds(int shapeIndex) => (uint)shapeIndex < (uint)taken.Length && taken[shapeIndex] != None;
 
     /// <summary>Memory of a shape; valid until a shape is added or the batch is resized.</summary>
     /// <param name="shapeIndex">Index of the shape.</param>
@@ -119,54 +123,50 @@ public abstract unsafe partial class ShapeBatch
         RayTest(shapeIndex, pose, ray, ref maximumT, null!, ref hitHandler);
     }
 
-    /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
-    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <summary>Removes a shape. What it owns itself stays its owner's. Bodies and statics that have it keep it.</summary>
+    /// <param name="index">Index of the shape.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
-    public void Remove(int shapeIndex)
+    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
+    public void Remove(int index)
     {
         using var change = BeginChange("ShapeBatch.Remove");
-        RemoveUnlocked(shapeIndex);
+        RemoveUnlocked(index);
     }
 
     internal void RemoveUnlocked(int shapeIndex)
     {
-        CheckUnused(shapeIndex);
-        OnRemoved(shapeIndex);
-        ids.Return(shapeIndex, pool);
-        taken[shapeIndex] = 0;
-        --Count;
+        CheckRemovable(shapeIndex);
+        RemoveOrKeep(shapeIndex, null);
     }
 
-    /// <summary>Removes a shape and returns the memory that it owns.</summary>
-    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <summary>Removes a shape and returns the memory that it owns, once no body and no static has it any more.</summary>
+    /// <param name="index">Index of the shape.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
-    public void RemoveAndDispose(int shapeIndex, BufferPool pool)
+    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
+    public void RemoveAndDispose(int index, BufferPool pool)
     {
         using var change = BeginChange("ShapeBatch.RemoveAndDispose");
-        RemoveAndDisposeUnlocked(shapeIndex, pool);
+        RemoveAndDisposeUnlocked(index, pool);
     }
 
     internal void RemoveAndDisposeUnlocked(int shapeIndex, BufferPool pool)
     {
-        CheckUnused(shapeIndex);
+        CheckRemovable(shapeIndex);
         ArgumentNullException.ThrowIfNull(pool);
-        DisposeShape(shapeIndex, pool);
-        RemoveUnlocked(shapeIndex);
+        RemoveOrKeep(shapeIndex, pool);
     }
 
     /// <summary>Removes a shape and its children, and returns the memory that they own.</summary>
-    /// <param name="shapeIndex">Index of the shape.</param>
+    /// <param name="index">Index of the shape.</param>
     /// <param name="shapes">Collection that holds the children.</param>
     /// <param name="pool">Pool that the shapes' own memory was taken from.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
     /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
-    public void RecursivelyRemoveAndDispose(int shapeIndex, Shapes shapes, BufferPool pool)
+    public void RecursivelyRemoveAndDispose(int index, Shapes shapes, BufferPool pool)
     {
         using var change = BeginChange("ShapeBatch.RecursivelyRemoveAndDispose");
-        RecursivelyRemoveAndDisposeUnlocked(shapeIndex, shapes, pool);
+        RecursivelyRemoveAndDisposeUnlocked(index, shapes, pool);
     }
 
     internal void RecursivelyRemoveAndDisposeUnlocked(int shapeIndex, Shapes shapes, BufferPool pool)
@@ -189,9 +189,10 @@ public abstract unsafe partial class ShapeBatch
 
     internal void ClearUnlocked()
     {
+        LetGo();
         for (int i = 0; i < UsedSlotCount; ++i)
         {
-            if (Exists(i))
+            if (Holds(i))
                 OnRemoved(i);
         }
         ids.Clear();
@@ -241,6 +242,7 @@ public abstract unsafe partial class ShapeBatch
     {
         if (owner is not null)
             throw new InvalidOperationException("A batch of a collection is disposed with the collection, by Shapes.Dispose.");
+        LetGo();
         ReturnMemory();
     }
 
@@ -309,7 +311,7 @@ public abstract unsafe partial class ShapeBatch
     /// <summary>Tells a shape that exists from those that were in its slot before.</summary>
     internal int Generation(int shapeIndex)
     {
-        Check.That(Exists(shapeIndex));
+        Check.That(Holds(shapeIndex));
         return generations[shapeIndex];
     }
 
@@ -332,6 +334,7 @@ public abstract unsafe partial class ShapeBatch
 
     private protected int TakeSlot()
     {
+        LetGo();
         if (ids.AvailableIdCount == 0)
         {
             if (UsedSlotCount == TypedIndex.MaximumIndexCount)
@@ -341,8 +344,8 @@ public abstract unsafe partial class ShapeBatch
                 ResizeShapes((int)Math.Min(Math.Max(1, Capacity * 2L), TypedIndex.MaximumIndexCount));
         }
         var index = ids.Take();
-        Check.That(!Exists(index));
-        taken[index] = 1;
+        Check.That(!Holds(index));
+        taken[index] = There;
         generations[index] = ++lastGeneration;
         uses[index] = 0;
         parts[index] = 0;
@@ -350,9 +353,10 @@ public abstract unsafe partial class ShapeBatch
         return index;
     }
 
+    // A shape that was removed can be read by those who still have it.
     private protected void CheckExists(int shapeIndex)
     {
-        if (!Exists(shapeIndex))
+        if (!Holds(shapeIndex))
             throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
     }
 

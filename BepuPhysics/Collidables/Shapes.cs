@@ -87,10 +87,14 @@ public sealed partial class Shapes
     /// <summary>Whether a shape was added under this name and not removed since.</summary>
     public bool Exists(TypedIndex shape) => shape.Exists && Exists(shape.Type, shape.Index);
 
-    /// <summary>Removes a shape. What it owns itself stays its owner's; no collidable may use it any more.</summary>
+    /// <summary>Removes a shape. What it owns itself stays its owner's.</summary>
+    /// <remarks>
+    /// Bodies and statics that have it keep it until they are gone or get another one, so it may be removed before them. For all else it is gone at
+    /// once: nothing can get it any more.
+    /// </remarks>
     /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
     public void Remove(TypedIndex shapeIndex)
     {
         using var change = Change("Shapes.Remove");
@@ -98,11 +102,13 @@ public sealed partial class Shapes
             GetCheckedBatch(shapeIndex).RemoveUnlocked(shapeIndex.Index);
     }
 
-    /// <summary>Removes a shape and returns the memory that it owns.</summary>
+    /// <summary>Removes a shape and returns the memory that it owns: once no body and no static has it any more, at the next change of its type's
+    /// shapes.</summary>
+    /// <inheritdoc cref="Remove" path="/remarks"/>
     /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
-    /// <param name="pool">Pool that the shape's own memory was taken from.</param>
+    /// <param name="pool">Pool that the shape's own memory was taken from; to be kept as long as those who have the shape.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A body, a static or a compound uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
     public void RemoveAndDispose(TypedIndex shapeIndex, BufferPool pool)
     {
         using var change = Change("Shapes.RemoveAndDispose");
@@ -150,6 +156,7 @@ public sealed partial class Shapes
     internal void ClearUnlocked()
     {
         CheckAllUnused();
+        LetGo();
         foreach (var batch in batches)
             batch?.ClearUnlocked();
     }
@@ -194,14 +201,22 @@ public sealed partial class Shapes
     /// <summary>Returns all memory to the pool.</summary>
     internal void ReturnMemory()
     {
+        LetGo();
         foreach (var batch in batches)
             batch?.ReturnMemory();
         batches = [];
         pool.RemoveUser(this);
     }
 
-    /// <summary>Whether there is any shape of a type.</summary>
-    internal bool HasAny(int typeIndex) => typeIndex < batches.Length && batches[typeIndex] is { Count: > 0 };
+    // All of them before the memory of any: compounds count their children, which are in other batches.
+    void LetGo()
+    {
+        foreach (var batch in batches)
+            batch?.LetGo();
+    }
+
+    /// <summary>Whether there is any shape of a type, be it one that was removed and that bodies or statics still have.</summary>
+    internal bool HasAny(int typeIndex) => typeIndex < batches.Length && batches[typeIndex] is { HeldCount: > 0 };
 
     /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
     internal ShapeBatch GetBatch(int typeIndex) => batches[typeIndex]!;
@@ -210,6 +225,14 @@ public sealed partial class Shapes
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal bool Exists(int typeIndex, int shapeIndex) =>
         (uint)typeIndex < (uint)batches.Length && batches[typeIndex] is { } batch && batch.Exists(shapeIndex);
+
+    /// <summary>Whether there is a shape, be it one that was removed and that bodies or statics still have.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal bool Holds(int typeIndex, int shapeIndex) =>
+        (uint)typeIndex < (uint)batches.Length && batches[typeIndex] is { } batch && batch.Holds(shapeIndex);
+
+    /// <inheritdoc cref="Holds(int, int)"/>
+    internal bool Holds(TypedIndex shape) => shape.Exists && Holds(shape.Type, shape.Index);
 
     /// <summary>Tells a shape from all others that had its name, or will have it. It must exist.</summary>
     internal ShapeIdentity Identify(TypedIndex shape) => new(shape, GetBatch(shape.Type).Generation(shape.Index));

@@ -23,7 +23,7 @@ struct UsedShapes(Shapes shapes, BufferPool pool) : IForEach<TypedIndex>
     {
         foreach (ref var used in list.AsSpan())
         {
-            if (!shapes.Exists(used.Shape) || shapes.Identify(used.Shape) != used)
+            if (!shapes.Holds(used.Shape) || shapes.Identify(used.Shape) != used)
             {
                 throw new InvalidOperationException(
                     $"{used.Shape}, which a body or static of the snapshot has, is not there any more, or is another shape: shapes are no part of a " +

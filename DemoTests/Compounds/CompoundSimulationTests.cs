@@ -159,6 +159,6 @@ public class CompoundSimulationTests
             if (i % 10 == 9)
                 world.Simulation.Bodies.SetShape(handle, i == 19 ? sphere : i == 29 ? default : compound);
         }
-        Assert.Throws<InvalidOperationException>(() => world.Simulation.Shapes.Remove(compound));
+        Assert.Throws<InvalidOperationException>(() => world.Simulation.Shapes.RecursivelyRemoveAndDispose(compound, world.Pool));
     }
 }

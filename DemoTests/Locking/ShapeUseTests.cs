@@ -7,19 +7,115 @@ using Xunit;
 
 namespace DemoTests.Locking;
 
-/// <summary>A shape that a body or static uses stays.</summary>
+/// <summary>A shape that a body or static uses stays for it.</summary>
 public sealed class ShapeUseTests : IDisposable
 {
     readonly BufferPool pool = new();
 
     public void Dispose() => pool.Dispose();
 
-    /// <summary>Ways to get rid of a shape.</summary>
-    public static TheoryData<string> Removals =>
-    [
-        "Remove", "RemoveAndDispose", "RecursivelyRemoveAndDispose", "batch Remove", "batch RemoveAndDispose", "batch Recursively", "Clear",
-        "batch Clear", "Dispose",
-    ];
+    /// <summary>Ways to get rid of a shape that want it to be unused.</summary>
+    public static TheoryData<string> Removals => ["RecursivelyRemoveAndDispose", "batch Recursively", "Clear", "batch Clear", "Dispose"];
+
+    /// <summary>Ways to get rid of a shape that leave it to those who have it.</summary>
+    public static TheoryData<string> EarlyRemovals => ["Remove", "RemoveAndDispose", "batch Remove", "batch RemoveAndDispose"];
+
+    [Theory]
+    [MemberData(nameof(EarlyRemovals))]
+    public void A_shape_may_be_removed_before_those_who_have_it(string removal)
+    {
+        var shapes = new Shapes(pool, 4);
+        using (var simulation = NewSimulation(shapes))
+        using (var other = NewSimulation(shapes))
+        {
+            Span<Vector3> corners = [new(0, 0, 0), new(1, 0, 0), new(0, 1, 0), new(0, 0, 1)];
+            var shape = shapes.Add(new ConvexHull(corners, pool, out _));
+            var hull = shapes.GetShape<ConvexHull>(shape.Index);
+            var sphere = shapes.Add(new Sphere(1));
+            var first = AddBody(simulation, shape);
+            var second = AddBody(simulation, shape);
+            var still = other.Statics.Add(new StaticDescription(RigidPose.Identity, shape));
+
+            Remove(shapes, shape, removal);
+            // It is gone for all but those who have it.
+            Assert.False(shapes.Exists(shape));
+            Assert.Equal(0, shapes[shape.Type]!.Count);
+            Assert.Throws<ArgumentException>(() => AddBody(simulation, shape));
+            Assert.Throws<ArgumentException>(() => other.Statics.Add(new StaticDescription(RigidPose.Identity, shape)));
+            Assert.ThrowsAny<ArgumentException>(() => Remove(shapes, shape, removal));
+            Assert.Equal(shape, simulation.Bodies[first].Collidable.Shape);
+            Assert.True(simulation.RayCast(new Vector3(.2f, 9, .2f), -Vector3.UnitY, 20, pool, out var hit) && hit.Collidable.BodyHandle == first);
+            Steps();
+
+            // Another shape of its type does not take its place while anyone has it.
+            var next = AddHull(shapes);
+            Assert.NotEqual(shape, next);
+            simulation.Bodies.Remove(first);
+            simulation.Bodies.SetShape(second, sphere);
+            Assert.NotEqual(shape, AddHull(shapes));
+            Steps();
+            other.Statics.Remove(still);
+            Assert.Equal(shape, AddHull(shapes));
+            Steps();
+            if (!removal.Contains("ispose", StringComparison.Ordinal))
+                hull.Dispose(pool);
+
+            void Steps()
+            {
+                simulation.Timestep(1 / 60f);
+                other.Timestep(1 / 60f);
+                simulation.Validate();
+                other.Validate();
+            }
+        }
+        for (int i = 0; i < 3; ++i)
+            shapes.RemoveAndDispose(new TypedIndex(ConvexHull.Id, i), pool);
+        shapes.Dispose();
+        pool.AssertEmpty();
+    }
+
+    [Fact]
+    public void A_removed_shape_that_is_still_in_use_goes_with_its_simulation()
+    {
+        using (var simulation = NewSimulation(null))
+        {
+            var shape = AddHull(simulation.Shapes);
+            AddBody(simulation, shape);
+            simulation.Shapes.RemoveAndDispose(shape, pool);
+            simulation.Clear();
+            Assert.Equal(shape, AddHull(simulation.Shapes));
+            AddBody(simulation, shape);
+            simulation.Shapes.RemoveAndDispose(shape, pool);
+            // Its children are in a batch of their own, whose memory is returned first.
+            pool.Take(1, out Buffer<CompoundChild> children);
+            children[0] = new(RigidPose.Identity, simulation.Shapes.Add(new Sphere(1)));
+            var compound = simulation.Shapes.Add(new Compound(children));
+            AddBody(simulation, compound);
+            simulation.Shapes.RemoveAndDispose(compound, pool);
+            simulation.Timestep(1 / 60f);
+            simulation.Validate();
+        }
+        pool.AssertEmpty();
+    }
+
+    [Fact]
+    public void Bodies_of_a_snapshot_get_a_removed_shape_back_while_others_have_it()
+    {
+        using var simulation = NewSimulation(null);
+        var shape = simulation.Shapes.Add(new Sphere(1));
+        var body = AddBody(simulation, shape);
+        AddBody(simulation, shape);
+        using var snapshot = new SimulationSnapshot(pool);
+        simulation.Save(snapshot);
+        simulation.Shapes.Remove(shape);
+        simulation.Bodies.Remove(body);
+        simulation.Restore(snapshot);
+        simulation.Timestep(1 / 60f);
+        simulation.Validate();
+        simulation.Clear();
+        simulation.Shapes.Add(new Sphere(2));
+        Assert.Throws<InvalidOperationException>(() => simulation.Restore(snapshot));
+    }
 
     [Theory]
     [MemberData(nameof(Removals))]
@@ -184,6 +280,12 @@ public sealed class ShapeUseTests : IDisposable
             case "Dispose": shapes.Dispose(); break;
             default: throw new ArgumentOutOfRangeException(nameof(removal), removal, null);
         }
+    }
+
+    TypedIndex AddHull(Shapes shapes)
+    {
+        Span<Vector3> corners = [new(0, 0, 0), new(1, 0, 0), new(0, 1, 0), new(0, 0, 1)];
+        return shapes.Add(new ConvexHull(corners, pool, out _));
     }
 
     static BodyHandle AddBody(Simulation simulation, TypedIndex shape) =>

@@ -120,17 +120,17 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
     /// <param name="orientationA">Rotation from A's frame to the world; unit length.</param>
     /// <param name="orientationB">Rotation from B's frame to the world; unit length.</param>
     /// <param name="speculativeMargin">Greatest distance at which contacts are wanted, m.</param>
-    /// <param name="continuation">What becomes of the result.</param>
+    /// <param name="pairContinuation">What becomes of the result.</param>
     /// <exception cref="ArgumentException">A shape is missing, or a number is not finite or out of range.</exception>
     /// <exception cref="InvalidOperationException">No task is registered for the two shape types.</exception>
     public void AddDirectly(int shapeTypeA, int shapeTypeB, void* shapeA, void* shapeB, Vector3 offsetB, Quaternion orientationA,
-        Quaternion orientationB, float speculativeMargin, in PairContinuation continuation)
+        Quaternion orientationB, float speculativeMargin, in PairContinuation pairContinuation)
     {
         ArgumentNullException.ThrowIfNull(shapeA);
         ArgumentNullException.ThrowIfNull(shapeB);
         CheckInput(offsetB, orientationA, orientationB, speculativeMargin);
         var task = registry.GetTask(shapeTypeA, shapeTypeB, out var taskIndex, out var flipped);
-        AddKnown(task, taskIndex, flipped, shapeA, shapeB, offsetB, orientationA, orientationB, speculativeMargin, continuation.PairId);
+        AddKnown(task, taskIndex, flipped, shapeA, shapeB, offsetB, orientationA, orientationB, speculativeMargin, pairContinuation.PairId);
     }
 
     /// <summary>Adds a pair of shapes in memory, which are copied, to the task of their types, with a pose that is known to be sound.</summary>
@@ -296,7 +296,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
     [MethodImpl(MethodImplOptions.NoInlining)]
     readonly void CheckShapes(TypedIndex shapeIndexA, TypedIndex shapeIndexB)
     {
-        if (!Shapes.Exists(shapeIndexA) || !Shapes.Exists(shapeIndexB))
+        if (!Shapes.Holds(shapeIndexA) || !Shapes.Holds(shapeIndexB))
             RefuseShapes(shapeIndexA, shapeIndexB);
     }
 
@@ -304,7 +304,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks> : IDisposable where TC
     [MethodImpl(MethodImplOptions.NoInlining)]
     readonly void RefuseShapes(TypedIndex shapeIndexA, TypedIndex shapeIndexB)
     {
-        if (Shapes.Exists(shapeIndexA))
+        if (Shapes.Holds(shapeIndexA))
             Shapes.ThrowMissing(shapeIndexB, nameof(shapeIndexB));
         Shapes.ThrowMissing(shapeIndexA, nameof(shapeIndexA));
     }

@@ -70,7 +70,7 @@ public abstract unsafe class CollisionTask
     internal bool TryWrite(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {
-        if (!shapes.Exists(ShapeTypeIndexA, shapeIndexA) || !shapes.Exists(ShapeTypeIndexB, shapeIndexB))
+        if (!shapes.Holds(ShapeTypeIndexA, shapeIndexA) || !shapes.Holds(ShapeTypeIndexB, shapeIndexB))
             return false;
         Write(ref batch, shapes, shapeIndexA, shapeIndexB, offsetB, orientationA, orientationB, pair);
         return true;
