@@ -60,6 +60,24 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     /// <summary>Kept for callers: results never depend on threads, whatever this says.</summary>
     public bool Deterministic { get; set; } = true;
 
+    /// <summary>Whether handles of bodies and statics that are given out from now on are slots and nothing else, as in bepuphysics2.</summary>
+    /// <remarks>
+    /// False unless it is set. For games that have arrays of their own by <see cref="BodyHandle.Value"/> and do not want to write
+    /// <see cref="BodyHandle.Slot"/> there. What it costs is that the handle of a body that was removed names the next one that gets its slot, and is not
+    /// refused any more. To be set before anything is added. Results are the same.
+    /// </remarks>
+    /// <exception cref="InvalidOperationException">It is set while a stage or a query is in progress, or another thread is changing something.</exception>
+    public bool PlainHandles
+    {
+        get => Bodies.HasPlainHandles;
+        set
+        {
+            using var change = world.Change("Simulation.PlainHandles");
+            Bodies.HasPlainHandles = value;
+            Statics.HasPlainHandles = value;
+        }
+    }
+
     Simulation(BufferPool bufferPool, IPoseIntegrator poseIntegrator, in SolveDescription solveDescription, ITimestepper timestepper,
         in SimulationAllocationSizes sizes, Shapes? shapes)
     {
@@ -157,15 +175,15 @@ public sealed partial class Simulation : IDisposable, IBufferPoolUser
     }
 
     /// <summary>Makes room ahead of time.</summary>
-    public void EnsureCapacity(SimulationAllocationSizes sizes)
+    public void EnsureCapacity(SimulationAllocationSizes allocationTarget)
     {
-        sizes.Validate();
+        allocationTarget.Validate();
         using var change = world.Change("Simulation.EnsureCapacity");
-        Bodies.MakeRoomFor(sizes.Bodies);
-        Statics.MakeRoomFor(sizes.Statics);
-        BroadPhase.MakeRoomFor(Math.Max(1, sizes.Bodies), Math.Max(1, sizes.Bodies + sizes.Statics));
+        Bodies.MakeRoomFor(allocationTarget.Bodies);
+        Statics.MakeRoomFor(allocationTarget.Statics);
+        BroadPhase.MakeRoomFor(Math.Max(1, allocationTarget.Bodies), Math.Max(1, allocationTarget.Bodies + allocationTarget.Statics));
         if (ownsShapes)
-            Shapes.MakeRoomFor(sizes.ShapesPerType);
+            Shapes.MakeRoomFor(allocationTarget.ShapesPerType);
     }
 
     /// <summary>Whether it is disposed of, as while its callbacks let go of what they have, or its memory is gone.</summary>

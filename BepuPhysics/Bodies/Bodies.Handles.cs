@@ -31,7 +31,7 @@ public sealed partial class Bodies
     }
 
     /// <summary>Whether a handle names a body.</summary>
-    public bool BodyExists(BodyHandle handle) => owners.Has(handle.Value, handle.Slot);
+    public bool BodyExists(BodyHandle bodyHandle) => owners.Has(bodyHandle.Value, bodyHandle.Slot);
 
     /// <summary>Finds the body that has a slot now, as when walking through an array by slots.</summary>
     /// <param name="slot">Any number.</param>
@@ -72,6 +72,13 @@ public sealed partial class Bodies
 
     /// <summary>Refuses a change of values while a step reads or writes them.</summary>
     internal void CheckWritable(string operation) => world.CheckWritable(operation);
+
+    /// <summary>As <see cref="HandleOwners.IsPlain"/>.</summary>
+    internal bool HasPlainHandles
+    {
+        get => owners.IsPlain;
+        set => owners.IsPlain = value;
+    }
 
     void EnsureSlots(int count) => owners.EnsureSlots(count, new BodyMemoryLocation { SetIndex = -1 }, ref Locations, ref HandlePool, Pool);
 }

@@ -16,12 +16,28 @@ struct HandleOwners
     readonly int valueMask;
     // Value of the handle that has the slot; of a free slot the complement of the value that comes next, which equals no value.
     Buffer<int> values;
+    bool isPlain;
 
     internal HandleOwners(int slotBits, int valueBits, int capacity, BufferPool pool)
     {
         this.slotBits = slotBits;
         valueMask = (int)((1u << valueBits) - 1);
         EnsureCapacity(capacity, pool);
+    }
+
+    /// <summary>Whether values that are given out are slots and nothing else, and do not tell who has a slot from who had it before.</summary>
+    internal bool IsPlain
+    {
+        readonly get => isPlain;
+        set
+        {
+            isPlain = value;
+            for (int slot = 0; value && slot < values.Length; ++slot)
+            {
+                if (values[slot] < 0)
+                    values[slot] = ~slot;
+            }
+        }
     }
 
     /// <summary>Number of slots that are known.</summary>
@@ -56,7 +72,7 @@ struct HandleOwners
     internal readonly void Release(int slot)
     {
         Check.That(IsTaken(slot));
-        values[slot] = ~(int)(((uint)values[slot] + (1u << slotBits)) & (uint)valueMask);
+        values[slot] = ~(isPlain ? slot : (int)(((uint)values[slot] + (1u << slotBits)) & (uint)valueMask));
     }
 
     /// <summary>Makes all slots free.</summary>

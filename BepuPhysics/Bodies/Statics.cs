@@ -295,6 +295,13 @@ public sealed unsafe partial class Statics
         broadPhase.MakeRoomFor(0, broadPhase.StaticTree.LeafCount + 1);
     }
 
+    /// <summary>As <see cref="HandleOwners.IsPlain"/>.</summary>
+    internal bool HasPlainHandles
+    {
+        get => owners.IsPlain;
+        set => owners.IsPlain = value;
+    }
+
     void EnsureSlots(int count) => owners.EnsureSlots(count, -1, ref Indices, ref HandlePool, pool);
 
     BoundingBox BoundsOf(in RigidPose pose, TypedIndex shape)

@@ -28,6 +28,57 @@ public class HandleGenerationTests
     }
 
     [Fact]
+    public void Plain_handles_are_slots_whoever_had_them_before()
+    {
+        using var world = new TestWorld();
+        Assert.False(world.Simulation.PlainHandles);
+        // One that was given up before counts from its slot too.
+        world.Bodies.Remove(Add(world, 0));
+        world.Simulation.PlainHandles = true;
+        for (int i = 0; i < 300; ++i)
+        {
+            var body = Add(world, 0);
+            var one = world.AddStatic(new Sphere(1), RigidPose.Identity);
+            Assert.Equal((0, 0), (body.Value, one.Value));
+            Assert.Equal(0, world.Bodies[body].CollidableReference.RawHandleValue);
+            world.Bodies.Remove(body);
+            Assert.False(world.Bodies.BodyExists(body));
+            Assert.Throws<ArgumentException>(() => world.Bodies[body].Pose);
+            world.Statics.Remove(one);
+        }
+        world.Simulation.Clear();
+        Assert.Equal(0, Add(world, 0).Value);
+    }
+
+    // What is remembered of a pair is not that of the one which has its handle now.
+    [Fact]
+    public void Bodies_that_take_plain_handles_over_begin_anew()
+    {
+        using var plain = new TestWorld();
+        using var counted = new TestWorld();
+        plain.Simulation.PlainHandles = true;
+        foreach (var world in new[] { plain, counted })
+        {
+            Floor(world);
+            for (int i = 0; i < 40; ++i)
+                Add(world, i);
+            var random = new Random(5);
+            for (int step = 0; step < 120; ++step)
+            {
+                for (int i = 0; i < 2; ++i)
+                {
+                    Assert.True(world.Bodies.TryGetHandle(random.Next(40), out var gone));
+                    world.Bodies.Remove(gone);
+                    Assert.Equal(gone.Slot, Add(world, random.Next(40)).Slot);
+                }
+                world.Step();
+                world.Simulation.Validate();
+            }
+        }
+        Assert.Equal(counted.HashSteps(20), plain.HashSteps(20));
+    }
+
+    [Fact]
     public void A_slot_is_given_out_again_under_another_value_and_is_found_by_it()
     {
         using var world = new TestWorld();

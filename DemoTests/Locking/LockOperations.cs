@@ -56,6 +56,7 @@ static class LockOperations
         Change("Bodies.SetLocalInertia", w => w.Simulation.Bodies.SetLocalInertia(w.Body, new Sphere(.5f).ComputeInertia(2)));
         Change("BecomeKinematic", w => w.Simulation.Bodies[w.Body].BecomeKinematic());
         Change("Bodies.UpdateBounds", w => w.Simulation.Bodies.UpdateBounds(w.Body));
+        Change("Simulation.PlainHandles", w => w.Simulation.PlainHandles = true);
         Change("Bodies.EnsureCapacity", w => w.Simulation.Bodies.EnsureCapacity(5000));
         Change("Layers of a body", w => w.Simulation.Layers[w.Body] = new CollisionLayers(1, 2));
         Change("Layers of a static", w => w.Simulation.Layers[w.SpareStatic] = new CollisionLayers(1, 2));
