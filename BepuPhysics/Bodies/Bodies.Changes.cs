@@ -33,20 +33,20 @@ public sealed unsafe partial class Bodies
     /// <summary>Gives a body another shape; its inertia stays.</summary>
     /// <exception cref="ArgumentException">There is no such body or no such shape; nothing was changed.</exception>
     /// <exception cref="InvalidOperationException">The body's pose is not finite; nothing was changed.</exception>
-    public void SetShape(BodyHandle handle, TypedIndex shape)
+    public void SetShape(BodyHandle handle, TypedIndex newShape)
     {
         using var change = world.Change("Bodies.SetShape");
         CheckHandle(handle);
-        CheckShape(shape);
+        CheckShape(newShape);
         ref var before = ref SetOf(handle, out var index);
-        if (before.Collidables[index].Shape == shape)
+        if (before.Collidables[index].Shape == newShape)
             return;
-        var bounds = PrepareBounds(handle, before.MotionStates[index].Pose, shape);
+        var bounds = PrepareBounds(handle, before.MotionStates[index].Pose, newShape);
         awakener.WakeAround(handle);
         ref var set = ref SetOf(handle, out index);
         ref var collidable = ref set.Collidables[index];
-        shapes.ChangeUse(collidable.Shape, shape);
-        collidable.Shape = shape;
+        shapes.ChangeUse(collidable.Shape, newShape);
+        collidable.Shape = newShape;
         PlaceInBroadPhase(ref set, index, bounds);
     }
 
@@ -65,12 +65,12 @@ public sealed unsafe partial class Bodies
     /// <summary>Moves the bounds of a body in the broad phase to where its pose says, as for queries between steps. Wakes nobody.</summary>
     /// <exception cref="ArgumentException">There is no such body.</exception>
     /// <exception cref="InvalidOperationException">The body's pose is not finite; nothing was changed.</exception>
-    public void UpdateBounds(BodyHandle handle)
+    public void UpdateBounds(BodyHandle bodyHandle)
     {
         using var change = world.Change("Bodies.UpdateBounds");
-        CheckHandle(handle);
-        ref var set = ref SetOf(handle, out var index);
-        PlaceInBroadPhase(ref set, index, PrepareBounds(handle, set.MotionStates[index].Pose, set.Collidables[index].Shape));
+        CheckHandle(bodyHandle);
+        ref var set = ref SetOf(bodyHandle, out var index);
+        PlaceInBroadPhase(ref set, index, PrepareBounds(bodyHandle, set.MotionStates[index].Pose, set.Collidables[index].Shape));
     }
 
     /// <summary>The set of a body that exists, and its index there.</summary>

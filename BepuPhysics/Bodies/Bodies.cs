@@ -193,11 +193,11 @@ public sealed unsafe partial class Bodies
 
     /// <summary>Visits each body that shares a constraint with a body, once per constraint.</summary>
     /// <exception cref="ArgumentException">There is no such body.</exception>
-    public void EnumerateConnectedBodies<TEnumerator>(BodyHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
+    public void EnumerateConnectedBodies<TEnumerator>(BodyHandle bodyHandle, ref TEnumerator enumerator) where TEnumerator : IForEach<BodyHandle>
     {
         using var reading = world.Read("Bodies.EnumerateConnectedBodies");
-        CheckHandle(handle);
-        foreach (var constraint in GetConstraints(handle))
+        CheckHandle(bodyHandle);
+        foreach (var constraint in GetConstraints(bodyHandle))
             solver.EnumerateOtherBodies(constraint, ref enumerator);
     }
 

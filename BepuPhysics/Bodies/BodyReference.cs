@@ -87,7 +87,7 @@ public struct BodyReference(BodyHandle handle, Bodies bodies)
     /// <summary>Gives the body another inertia.</summary>
     public readonly void SetLocalInertia(in BodyInertia localInertia) => Owner.SetLocalInertia(Handle, localInertia);
     /// <summary>Gives the body another shape.</summary>
-    public readonly void SetShape(TypedIndex shape) => Owner.SetShape(Handle, shape);
+    public readonly void SetShape(TypedIndex newShape) => Owner.SetShape(Handle, newShape);
     /// <summary>Describes the body as it is now.</summary>
     public readonly void GetDescription(out BodyDescription description) => Owner.GetDescription(Handle, out description);
     /// <summary>Makes the body what a description says.</summary>

@@ -80,9 +80,11 @@ public struct StaticReference(StaticHandle handle, Statics statics)
     readonly Statics Owner => Statics ?? throw new InvalidOperationException("The default static reference refers to no static.");
 
     /// <summary>Gives the static another shape.</summary>
-    public readonly void SetShape(TypedIndex shape) => Owner.SetShape(Handle, shape);
+    public readonly void SetShape(TypedIndex newShape) => Owner.SetShape(Handle, newShape);
     /// <summary>Describes the static as it is now.</summary>
     public readonly void GetDescription(out StaticDescription description) => Owner.GetDescription(Handle, out description);
+    /// <summary>Everything about the static, to be changed and given to <see cref="ApplyDescription"/>.</summary>
+    public readonly StaticDescription GetDescription() => Owner.GetDescription(Handle);
     /// <summary>Makes the static what a description says.</summary>
     public readonly void ApplyDescription(in StaticDescription description) => Owner.ApplyDescription(Handle, description);
     /// <summary>Moves the bounds of the static to where its pose says.</summary>

@@ -10,26 +10,26 @@ public sealed unsafe partial class Statics
 {
     /// <summary>Gives a static another shape and wakes the dynamic bodies that it may touch, or may have touched.</summary>
     /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
-    public void SetShape(StaticHandle handle, TypedIndex shape)
+    public void SetShape(StaticHandle handle, TypedIndex newShape)
     {
         var filter = default(StaticsShouldntAwakenKinematics);
-        SetShape(handle, shape, ref filter);
+        SetShape(handle, newShape, ref filter);
     }
 
     /// <summary>Gives a static another shape and wakes the bodies that a filter chooses.</summary>
     /// <exception cref="ArgumentException">There is no such static or no such shape; nothing was changed.</exception>
-    public void SetShape<TAwakeningFilter>(StaticHandle handle, TypedIndex shape, ref TAwakeningFilter filter)
+    public void SetShape<TAwakeningFilter>(StaticHandle handle, TypedIndex newShape, ref TAwakeningFilter filter)
         where TAwakeningFilter : struct, IStaticChangeAwakeningFilter
     {
         using var change = world.Change("Statics.SetShape");
         CheckHandle(handle);
-        shapes.CheckExists(shape, nameof(shape));
+        shapes.CheckExists(newShape, nameof(newShape));
         var index = Indices[handle.Slot];
         ref var target = ref StaticsBuffer[index];
-        var bounds = CheckedBounds(index, target.Pose, shape);
+        var bounds = CheckedBounds(index, target.Pose, newShape);
         RequestAround(index, bounds, ref filter);
-        shapes.ChangeUse(target.Shape, shape);
-        target.Shape = shape;
+        shapes.ChangeUse(target.Shape, newShape);
+        target.Shape = newShape;
         Replace(index, bounds);
     }
 

@@ -23,11 +23,11 @@ public static unsafe class ConvexHullHelper
     /// <param name="points">Points in any order and number.</param>
     /// <param name="pool">Source of the hull's memory and of temporary memory.</param>
     /// <param name="center">Centre of mass in the coordinates of the points; the hull's own coordinates begin there.</param>
-    /// <param name="hullShape">The hull; without memory when there is none.</param>
+    /// <param name="convexHull">The hull; without memory when there is none.</param>
     /// <returns>Whether there is a hull: not when the points span no volume, or none of a size that a shape can have.</returns>
     /// <exception cref="ArgumentException">A point is not finite.</exception>
-    public static bool CreateShape(Span<Vector3> points, BufferPool pool, out Vector3 center, out ConvexHull hullShape) =>
-        TryCreateShape(points, pool, out center, out hullShape, out _);
+    public static bool CreateShape(Span<Vector3> points, BufferPool pool, out Vector3 center, out ConvexHull convexHull) =>
+        TryCreateShape(points, pool, out center, out convexHull, out _);
 
     /// <summary>Creates the convex hull of a set of points, and says why when there is none.</summary>
     /// <param name="points">Points in any order and number.</param>
@@ -51,12 +51,12 @@ public static unsafe class ConvexHullHelper
     /// <param name="pool">Source of the hull's memory and of temporary memory.</param>
     /// <param name="hullData">Vertices and faces as indices, to be disposed too; without memory when there is no hull.</param>
     /// <param name="center">Centre of mass in the coordinates of the points; the hull's own coordinates begin there.</param>
-    /// <param name="hullShape">The hull; without memory when there is none.</param>
+    /// <param name="convexHull">The hull; without memory when there is none.</param>
     /// <returns>Whether there is a hull: not when the points span no volume, or none of a size that a shape can have.</returns>
     /// <exception cref="ArgumentException">A point is not finite.</exception>
     public static bool CreateShape(
-        Span<Vector3> points, BufferPool pool, out HullData hullData, out Vector3 center, out ConvexHull hullShape) =>
-        TryCreateShape(points, pool, out hullData, out center, out hullShape, out _);
+        Span<Vector3> points, BufferPool pool, out HullData hullData, out Vector3 center, out ConvexHull convexHull) =>
+        TryCreateShape(points, pool, out hullData, out center, out convexHull, out _);
 
     /// <summary>Finds the convex hull of a set of points without making a shape of it.</summary>
     /// <param name="points">Points in any order and number.</param>

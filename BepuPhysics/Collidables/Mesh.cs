@@ -99,6 +99,17 @@ public unsafe partial struct Mesh : IDisposableShape
     /// <summary>Number of triangles, those included that are left out.</summary>
     public readonly int ChildCount => Header == null ? 0 : Header->TriangleCount;
 
+    /// <summary>The triangles by their numbers, before scaling; a view to read.</summary>
+    public readonly MeshTriangleView Triangles
+    {
+        get
+        {
+            var unscaled = this;
+            unscaled.scale = Vector3.One;
+            return new(unscaled);
+        }
+    }
+
     /// <summary>Number of vertices.</summary>
     public readonly int VertexCount => Header == null ? 0 : Header->VertexCount;
 

@@ -55,9 +55,9 @@ public struct SpringSettings
     }
 
     /// <summary>Whether the settings can be simulated: not negative, and within <see cref="Limits"/>.</summary>
-    public static bool Validate(in SpringSettings settings) =>
-        settings.AngularFrequency >= 0 && settings.AngularFrequency <= Limits.MaximumSpringFrequency * MathF.Tau &&
-        settings.TwiceDampingRatio >= 0 && settings.TwiceDampingRatio <= Limits.MaximumDampingRatio * 2;
+    public static bool Validate(in SpringSettings springSettings) =>
+        springSettings.AngularFrequency >= 0 && springSettings.AngularFrequency <= Limits.MaximumSpringFrequency * MathF.Tau &&
+        springSettings.TwiceDampingRatio >= 0 && springSettings.TwiceDampingRatio <= Limits.MaximumDampingRatio * 2;
 }
 
 /// <summary>A bundle of <see cref="SpringSettings"/>.</summary>

@@ -39,11 +39,11 @@ public sealed unsafe class IslandAwakener
 
     /// <summary>Wakes a body with its island. One that is awake begins anew to count its rest.</summary>
     /// <exception cref="ArgumentException">There is no such body.</exception>
-    public void AwakenBody(BodyHandle body)
+    public void AwakenBody(BodyHandle bodyHandle)
     {
         using var change = world.Change("IslandAwakener.AwakenBody");
-        bodies.CheckHandle(body);
-        Wake(body);
+        bodies.CheckHandle(bodyHandle);
+        Wake(bodyHandle);
     }
 
     /// <summary>Wakes a set of bodies: all that sleep are in one. To wake one island, use <see cref="AwakenBody"/>.</summary>

@@ -15,23 +15,24 @@ public sealed unsafe partial class Solver
 
     /// <summary>Adds a constraint on one body.</summary>
     /// <exception cref="ArgumentException">The body does not exist or a value cannot be simulated; nothing was changed.</exception>
-    public ConstraintHandle Add<TDescription>(BodyHandle body, in TDescription description)
-        where TDescription : unmanaged, IOneBodyConstraintDescription<TDescription> => Add([body], description);
+    public ConstraintHandle Add<TDescription>(BodyHandle bodyHandle, in TDescription description)
+        where TDescription : unmanaged, IOneBodyConstraintDescription<TDescription> => Add([bodyHandle], description);
 
     /// <summary>Adds a constraint between two bodies.</summary>
     /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
-    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, in TDescription description)
-        where TDescription : unmanaged, ITwoBodyConstraintDescription<TDescription> => Add([a, b], description);
+    public ConstraintHandle Add<TDescription>(BodyHandle bodyHandleA, BodyHandle bodyHandleB, in TDescription description)
+        where TDescription : unmanaged, ITwoBodyConstraintDescription<TDescription> => Add([bodyHandleA, bodyHandleB], description);
 
     /// <summary>Adds a constraint between three bodies.</summary>
     /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
-    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, BodyHandle c, in TDescription description)
-        where TDescription : unmanaged, IThreeBodyConstraintDescription<TDescription> => Add([a, b, c], description);
+    public ConstraintHandle Add<TDescription>(BodyHandle bodyHandleA, BodyHandle bodyHandleB, BodyHandle bodyHandleC, in TDescription description)
+        where TDescription : unmanaged, IThreeBodyConstraintDescription<TDescription> => Add([bodyHandleA, bodyHandleB, bodyHandleC], description);
 
     /// <summary>Adds a constraint between four bodies.</summary>
     /// <exception cref="ArgumentException">A body does not exist, all are kinematic, or a value cannot be simulated; nothing was changed.</exception>
-    public ConstraintHandle Add<TDescription>(BodyHandle a, BodyHandle b, BodyHandle c, BodyHandle d, in TDescription description)
-        where TDescription : unmanaged, IFourBodyConstraintDescription<TDescription> => Add([a, b, c, d], description);
+    public ConstraintHandle Add<TDescription>(
+        BodyHandle bodyHandleA, BodyHandle bodyHandleB, BodyHandle bodyHandleC, BodyHandle bodyHandleD, in TDescription description)
+        where TDescription : unmanaged, IFourBodyConstraintDescription<TDescription> => Add([bodyHandleA, bodyHandleB, bodyHandleC, bodyHandleD], description);
 
     /// <summary>Adds a constraint between as many bodies as its type connects.</summary>
     /// <exception cref="ArgumentException">A body does not exist, occurs twice, all are kinematic, or a value cannot be simulated; nothing
@@ -94,20 +95,20 @@ public sealed unsafe partial class Solver
 
     /// <summary>Changes the description of a constraint and wakes its bodies; its accumulated impulses stay.</summary>
     /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
-    public void ApplyDescription<TDescription>(ConstraintHandle handle, in TDescription description)
+    public void ApplyDescription<TDescription>(ConstraintHandle constraintHandle, in TDescription description)
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         world.CheckWritable("Solver.ApplyDescription");
-        CheckType<TDescription>(handle);
+        CheckType<TDescription>(constraintHandle);
         TDescription.Validate(description);
-        if (IsAsleep(handle.Slot))
+        if (IsAsleep(constraintHandle.Slot))
         {
             using var change = world.Change("Solver.ApplyDescription");
-            WakeBodiesOf(handle);
+            WakeBodiesOf(constraintHandle);
         }
         // Several threads may change constraints of one body: they write the same.
-        ForgetRest(handle);
-        WriteDescription(Locations[handle.Slot], description);
+        ForgetRest(constraintHandle);
+        WriteDescription(Locations[constraintHandle.Slot], description);
     }
 
     void ForgetRest(ConstraintHandle handle)
@@ -133,13 +134,13 @@ public sealed unsafe partial class Solver
 
     /// <summary>Changes the description of a constraint without waking its bodies.</summary>
     /// <exception cref="ArgumentException">There is no such constraint, it has another type, or a value cannot be simulated.</exception>
-    public void ApplyDescriptionWithoutWaking<TDescription>(ConstraintHandle handle, in TDescription description)
+    public void ApplyDescriptionWithoutWaking<TDescription>(ConstraintHandle constraintHandle, in TDescription description)
         where TDescription : unmanaged, IConstraintDescription<TDescription>
     {
         world.CheckWritable("Solver.ApplyDescription");
-        CheckType<TDescription>(handle);
+        CheckType<TDescription>(constraintHandle);
         TDescription.Validate(description);
-        WriteDescription(Locations[handle.Slot], description);
+        WriteDescription(Locations[constraintHandle.Slot], description);
     }
 
     /// <summary>Reads the description of a constraint.</summary>
@@ -159,11 +160,11 @@ public sealed unsafe partial class Solver
 
     /// <summary>Visits the accumulated impulses of a constraint, row by row, N s or N m s, as the last substep left them.</summary>
     /// <exception cref="ArgumentException">There is no such constraint.</exception>
-    public void EnumerateAccumulatedImpulses<TEnumerator>(ConstraintHandle handle, ref TEnumerator enumerator) where TEnumerator : IForEach<float>
+    public void EnumerateAccumulatedImpulses<TEnumerator>(ConstraintHandle constraintHandle, ref TEnumerator enumerator) where TEnumerator : IForEach<float>
     {
         using var reading = world.Read("Solver.EnumerateAccumulatedImpulses");
-        CheckHandle(handle);
-        ref var location = ref Locations[handle.Slot];
+        CheckHandle(constraintHandle);
+        ref var location = ref Locations[constraintHandle.Slot];
         ref var batch = ref TypeBatchAt(location);
         var processor = Processor(location.TypeId);
         for (int i = 0; i < processor.ImpulseFloats; ++i)
@@ -171,15 +172,15 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>Square of the Euclidean length of a constraint's accumulated impulses over its rows.</summary>
-    public float GetAccumulatedImpulseMagnitudeSquared(ConstraintHandle handle)
+    public float GetAccumulatedImpulseMagnitudeSquared(ConstraintHandle constraintHandle)
     {
         var sum = new SumOfSquares();
-        EnumerateAccumulatedImpulses(handle, ref sum);
+        EnumerateAccumulatedImpulses(constraintHandle, ref sum);
         return sum.Sum;
     }
 
     /// <summary>Euclidean length of a constraint's accumulated impulses over its rows.</summary>
-    public float GetAccumulatedImpulseMagnitude(ConstraintHandle handle) => MathF.Sqrt(GetAccumulatedImpulseMagnitudeSquared(handle));
+    public float GetAccumulatedImpulseMagnitude(ConstraintHandle constraintHandle) => MathF.Sqrt(GetAccumulatedImpulseMagnitudeSquared(constraintHandle));
 
     struct SumOfSquares : IForEach<float>
     {

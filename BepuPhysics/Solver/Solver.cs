@@ -194,7 +194,7 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>Whether a handle names a constraint.</summary>
-    public bool ConstraintExists(ConstraintHandle handle) => owners.Has(handle.Value, handle.Slot);
+    public bool ConstraintExists(ConstraintHandle constraintHandle) => owners.Has(constraintHandle.Value, constraintHandle.Slot);
 
     /// <summary>Where a constraint is; valid until constraints are added or removed.</summary>
     /// <exception cref="ArgumentException">There is no such constraint.</exception>

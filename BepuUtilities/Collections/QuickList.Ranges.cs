@@ -7,36 +7,36 @@ namespace BepuUtilities.Collections;
 public partial struct QuickList<T>
 {
     /// <summary>Adds elements at the end. They must not be the list's own.</summary>
-    public void AddRange(ReadOnlySpan<T> elements, IUnmanagedMemoryPool pool)
+    public void AddRange(ReadOnlySpan<T> span, IUnmanagedMemoryPool pool)
     {
-        EnsureCapacity(checked(Count + elements.Length), pool);
-        AddRangeUnsafely(elements);
+        EnsureCapacity(checked(Count + span.Length), pool);
+        AddRangeUnsafely(span);
     }
 
     /// <summary>Adds elements at the end. They must not be the list's own.</summary>
-    public void AddRange(Span<T> elements, IUnmanagedMemoryPool pool) => AddRange((ReadOnlySpan<T>)elements, pool);
+    public void AddRange(Span<T> span, IUnmanagedMemoryPool pool) => AddRange((ReadOnlySpan<T>)span, pool);
 
     /// <summary>Adds elements at the end. They must not be the list's own.</summary>
-    public void AddRange(in Buffer<T> elements, IUnmanagedMemoryPool pool) => AddRange((ReadOnlySpan<T>)elements, pool);
+    public void AddRange(in Buffer<T> span, IUnmanagedMemoryPool pool) => AddRange((ReadOnlySpan<T>)span, pool);
 
     /// <summary>Adds a part of a buffer at the end.</summary>
-    public void AddRange(in Buffer<T> elements, int start, int count, IUnmanagedMemoryPool pool) =>
-        AddRange(((ReadOnlySpan<T>)elements).Slice(start, count), pool);
+    public void AddRange(in Buffer<T> span, int start, int count, IUnmanagedMemoryPool pool) =>
+        AddRange(((ReadOnlySpan<T>)span).Slice(start, count), pool);
 
     /// <summary>Adds a part of a span at the end.</summary>
-    public void AddRange(ReadOnlySpan<T> elements, int start, int count, IUnmanagedMemoryPool pool) =>
-        AddRange(elements.Slice(start, count), pool);
+    public void AddRange(ReadOnlySpan<T> span, int start, int count, IUnmanagedMemoryPool pool) =>
+        AddRange(span.Slice(start, count), pool);
 
     /// <summary>Adds elements at the end, into room that is there.</summary>
-    public void AddRangeUnsafely(ReadOnlySpan<T> elements)
+    public void AddRangeUnsafely(ReadOnlySpan<T> span)
     {
-        elements.CopyTo(Span.AsSpan()[Count..]);
-        Count += elements.Length;
+        span.CopyTo(Span.AsSpan()[Count..]);
+        Count += span.Length;
     }
 
     /// <summary>Adds a part of a buffer at the end, into room that is there.</summary>
-    public void AddRangeUnsafely(in Buffer<T> elements, int start, int count) =>
-        AddRangeUnsafely(((ReadOnlySpan<T>)elements).Slice(start, count));
+    public void AddRangeUnsafely(in Buffer<T> span, int start, int count) =>
+        AddRangeUnsafely(((ReadOnlySpan<T>)span).Slice(start, count));
 
     /// <summary>Removes an element; those behind it move up and stay in order.</summary>
     public void RemoveAt(int index)

@@ -18,12 +18,12 @@ public partial struct QuickList<T> where T : unmanaged
     public int Count;
 
     /// <summary>Creates an empty list.</summary>
-    /// <param name="initialCapacity">Number of elements that fit without more memory.</param>
+    /// <param name="minimumInitialCount">Number of elements that fit without more memory.</param>
     /// <param name="pool">Where the memory comes from.</param>
-    public QuickList(int initialCapacity, IUnmanagedMemoryPool pool)
+    public QuickList(int minimumInitialCount, IUnmanagedMemoryPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        PoolCalls.TakeAtLeast(pool, initialCapacity, out Span);
+        PoolCalls.TakeAtLeast(pool, minimumInitialCount, out Span);
         Count = 0;
     }
 

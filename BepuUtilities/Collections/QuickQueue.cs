@@ -20,12 +20,12 @@ public struct QuickQueue<T> where T : unmanaged
     public int FirstIndex;
 
     /// <summary>Creates an empty queue.</summary>
-    /// <param name="initialCapacity">Number of elements that fit without more memory.</param>
+    /// <param name="minimumInitialCount">Number of elements that fit without more memory.</param>
     /// <param name="pool">Where the memory comes from.</param>
-    public QuickQueue(int initialCapacity, IUnmanagedMemoryPool pool)
+    public QuickQueue(int minimumInitialCount, IUnmanagedMemoryPool pool)
     {
         ArgumentNullException.ThrowIfNull(pool);
-        pool.TakeAtLeast(initialCapacity, out Span);
+        pool.TakeAtLeast(minimumInitialCount, out Span);
         Count = 0;
         FirstIndex = 0;
     }

@@ -66,6 +66,24 @@ public unsafe partial struct Buffer<T> where T : unmanaged
         }
     }
 
+    /// <summary>Element at an index that may be counted from the end: <c>buffer[^1]</c> is the last one.</summary>
+    public readonly ref T this[Index index]
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => ref this[index.GetOffset(Length)];
+    }
+
+    /// <summary>View of a part of the buffer, <c>buffer[2..5]</c> or <c>buffer[..count]</c>; it keeps the id of the whole.</summary>
+    public readonly Buffer<T> this[Range range]
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get
+        {
+            var start = range.Start.GetOffset(Length);
+            return Slice(start, range.End.GetOffset(Length) - start);
+        }
+    }
+
     /// <summary>Address of the element at an index in [0, Length).</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly T* GetPointer(int index)
@@ -92,11 +110,11 @@ public unsafe partial struct Buffer<T> where T : unmanaged
 
     /// <summary>View of a part of the buffer; it keeps the id of the whole.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void Slice(int start, int count, out Buffer<T> slice) => slice = Slice(start, count);
+    public readonly void Slice(int start, int count, out Buffer<T> sliced) => sliced = Slice(start, count);
 
     /// <summary>View of the first elements of the buffer; it keeps the id of the whole.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly void Slice(int count, out Buffer<T> slice) => slice = Slice(0, count);
+    public readonly void Slice(int count, out Buffer<T> sliced) => sliced = Slice(0, count);
 
     /// <summary>The same bytes as elements of another type; bytes at the end that fill no element are left out.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

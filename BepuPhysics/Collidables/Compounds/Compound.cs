@@ -87,6 +87,27 @@ public unsafe struct Compound : ICompoundShape, IContainer
         max = extent.Max;
     }
 
+    /// <summary>Where a child is if its compound is at the origin and turned.</summary>
+    /// <param name="localPose">Pose of the child in the compound.</param>
+    /// <param name="orientation">Orientation of the compound; unit length.</param>
+    /// <param name="rotatedChildPose">Pose of the child relative to the origin of the compound, along the axes of the world.</param>
+    public static void GetRotatedChildPose(in RigidPose localPose, Quaternion orientation, out RigidPose rotatedChildPose) =>
+        RigidPose.MultiplyWithoutOverlap(localPose, orientation, out rotatedChildPose);
+
+    /// <summary>Where a child is if its compound is at the origin and turned.</summary>
+    /// <param name="localPosition">Position of the child in the compound, m.</param>
+    /// <param name="localOrientation">Orientation of the child in the compound; unit length.</param>
+    /// <inheritdoc cref="GetRotatedChildPose(in RigidPose, Quaternion, out RigidPose)" path="/param[@name='orientation' or @name='rotatedChildPose']"/>
+    public static void GetRotatedChildPose(Vector3 localPosition, Quaternion localOrientation, Quaternion orientation, out RigidPose rotatedChildPose) =>
+        GetRotatedChildPose(new RigidPose(localPosition, localOrientation), orientation, out rotatedChildPose);
+
+    /// <summary>Where a child is in the world.</summary>
+    /// <param name="localPose">Pose of the child in the compound.</param>
+    /// <param name="transform">Pose of the compound.</param>
+    /// <param name="worldPose">Pose of the child.</param>
+    public static void GetWorldPose(in RigidPose localPose, in RigidPose transform, out RigidPose worldPose) =>
+        RigidPose.MultiplyWithoutOverlap(localPose, transform, out worldPose);
+
     /// <inheritdoc cref="CompoundBuilder.ComputeInertia(Span{CompoundChild}, Span{float}, Shapes)"/>
     public readonly BodyInertia ComputeInertia(Span<float> childMasses, Shapes shapes) =>
         CompoundBuilder.ComputeInertia(CompoundChildren.Span(Children), childMasses, shapes);

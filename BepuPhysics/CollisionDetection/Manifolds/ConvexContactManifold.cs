@@ -56,10 +56,10 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public readonly int GetFeatureId(int index) => Read(index).FeatureId;
+    public readonly int GetFeatureId(int contactIndex) => Read(contactIndex).FeatureId;
 
     /// <inheritdoc/>
-    public readonly float GetDepth(int index) => Read(index).Depth;
+    public readonly float GetDepth(int contactIndex) => Read(contactIndex).Depth;
 
     /// <summary>Depth of the deepest contact, m; of no contacts there is none, and it means nothing.</summary>
     internal readonly float GreatestDepth
@@ -124,15 +124,15 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public readonly Vector3 GetNormal(int index) => Normal;
+    public readonly Vector3 GetNormal(int contactIndex) => Normal;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetOffset(int index) => Read(index).Offset;
+    public readonly Vector3 GetOffset(int contactIndex) => Read(contactIndex).Offset;
 
     /// <inheritdoc/>
-    public readonly void GetContact(int index, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
+    public readonly void GetContact(int contactIndex, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
     {
-        ref readonly var contact = ref Read(index);
+        ref readonly var contact = ref Read(contactIndex);
         offset = contact.Offset;
         normal = Normal;
         depth = contact.Depth;
@@ -140,8 +140,8 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public readonly void GetContact(int index, out Contact contactData) =>
-        GetContact(index, out contactData.Offset, out contactData.Normal, out contactData.Depth, out contactData.FeatureId);
+    public readonly void GetContact(int contactIndex, out Contact contactData) =>
+        GetContact(contactIndex, out contactData.Offset, out contactData.Normal, out contactData.Depth, out contactData.FeatureId);
 
     /// <summary>Removes a contact; the last one takes its index.</summary>
     public static void FastRemoveAt(ref ConvexContactManifold manifold, int index)
@@ -152,30 +152,30 @@ public struct ConvexContactManifold : IContactManifold<ConvexContactManifold>
     }
 
     /// <inheritdoc/>
-    public static ref float GetDepthReference(ref ConvexContactManifold manifold, int index) =>
-        ref GetConvexContactReference(ref manifold, index).Depth;
+    public static ref float GetDepthReference(ref ConvexContactManifold manifold, int contactIndex) =>
+        ref GetConvexContactReference(ref manifold, contactIndex).Depth;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetNormalReference(ref ConvexContactManifold manifold, int index) => ref manifold.Normal;
+    public static ref Vector3 GetNormalReference(ref ConvexContactManifold manifold, int contactIndex) => ref manifold.Normal;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetOffsetReference(ref ConvexContactManifold manifold, int index) =>
-        ref GetConvexContactReference(ref manifold, index).Offset;
+    public static ref Vector3 GetOffsetReference(ref ConvexContactManifold manifold, int contactIndex) =>
+        ref GetConvexContactReference(ref manifold, contactIndex).Offset;
 
     /// <inheritdoc/>
-    public static ref int GetFeatureIdReference(ref ConvexContactManifold manifold, int index) =>
-        ref GetConvexContactReference(ref manifold, index).FeatureId;
+    public static ref int GetFeatureIdReference(ref ConvexContactManifold manifold, int contactIndex) =>
+        ref GetConvexContactReference(ref manifold, contactIndex).FeatureId;
 
     /// <inheritdoc/>
-    public static ref Contact GetNonconvexContactReference(ref ConvexContactManifold manifold, int index) =>
+    public static ref Contact GetNonconvexContactReference(ref ConvexContactManifold manifold, int contactIndex) =>
         throw new InvalidOperationException("The contacts of a convex manifold have no normals of their own.");
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static ref ConvexContact GetConvexContactReference(ref ConvexContactManifold manifold, int index)
+    public static ref ConvexContact GetConvexContactReference(ref ConvexContactManifold manifold, int contactIndex)
     {
-        Check.That((uint)index < MaximumContactCount);
-        return ref Unsafe.Add(ref manifold.Contact0, index);
+        Check.That((uint)contactIndex < MaximumContactCount);
+        return ref Unsafe.Add(ref manifold.Contact0, contactIndex);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -16,40 +16,40 @@ public interface IContactManifold<TManifold> where TManifold : struct, IContactM
     bool Convex { get; }
 
     /// <summary>Place of a contact relative to A's centre, in world axes, m.</summary>
-    Vector3 GetOffset(int index);
+    Vector3 GetOffset(int contactIndex);
 
     /// <summary>Unit normal of a contact in world axes, from B to A.</summary>
-    Vector3 GetNormal(int index);
+    Vector3 GetNormal(int contactIndex);
 
     /// <summary>Penetration of a contact, m; negative where the surfaces are apart.</summary>
-    float GetDepth(int index);
+    float GetDepth(int contactIndex);
 
     /// <summary>Names the features that touch.</summary>
-    int GetFeatureId(int index);
+    int GetFeatureId(int contactIndex);
 
     /// <summary>A contact with its normal.</summary>
-    void GetContact(int index, out Contact contactData);
+    void GetContact(int contactIndex, out Contact contactData);
 
     /// <summary>All parts of a contact.</summary>
-    void GetContact(int index, out Vector3 offset, out Vector3 normal, out float depth, out int featureId);
+    void GetContact(int contactIndex, out Vector3 offset, out Vector3 normal, out float depth, out int featureId);
 
     /// <summary>The place of a contact, to be changed.</summary>
-    static abstract ref Vector3 GetOffsetReference(ref TManifold manifold, int index);
+    static abstract ref Vector3 GetOffsetReference(ref TManifold manifold, int contactIndex);
 
     /// <summary>The depth of a contact, to be changed.</summary>
-    static abstract ref float GetDepthReference(ref TManifold manifold, int index);
+    static abstract ref float GetDepthReference(ref TManifold manifold, int contactIndex);
 
     /// <summary>The normal of a contact, to be changed; in a convex manifold that of all contacts.</summary>
-    static abstract ref Vector3 GetNormalReference(ref TManifold manifold, int index);
+    static abstract ref Vector3 GetNormalReference(ref TManifold manifold, int contactIndex);
 
     /// <summary>The feature id of a contact, to be changed.</summary>
-    static abstract ref int GetFeatureIdReference(ref TManifold manifold, int index);
+    static abstract ref int GetFeatureIdReference(ref TManifold manifold, int contactIndex);
 
     /// <summary>A contact of a convex manifold, to be changed.</summary>
     /// <exception cref="System.InvalidOperationException">The manifold is not convex.</exception>
-    static abstract ref ConvexContact GetConvexContactReference(ref TManifold manifold, int index);
+    static abstract ref ConvexContact GetConvexContactReference(ref TManifold manifold, int contactIndex);
 
     /// <summary>A contact of a nonconvex manifold, to be changed.</summary>
     /// <exception cref="System.InvalidOperationException">The manifold is convex.</exception>
-    static abstract ref Contact GetNonconvexContactReference(ref TManifold manifold, int index);
+    static abstract ref Contact GetNonconvexContactReference(ref TManifold manifold, int contactIndex);
 }

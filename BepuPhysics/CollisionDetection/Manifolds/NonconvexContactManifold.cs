@@ -45,21 +45,21 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <inheritdoc/>
-    public readonly int GetFeatureId(int index) => Read(index).FeatureId;
+    public readonly int GetFeatureId(int contactIndex) => Read(contactIndex).FeatureId;
 
     /// <inheritdoc/>
-    public readonly float GetDepth(int index) => Read(index).Depth;
+    public readonly float GetDepth(int contactIndex) => Read(contactIndex).Depth;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetNormal(int index) => Read(index).Normal;
+    public readonly Vector3 GetNormal(int contactIndex) => Read(contactIndex).Normal;
 
     /// <inheritdoc/>
-    public readonly Vector3 GetOffset(int index) => Read(index).Offset;
+    public readonly Vector3 GetOffset(int contactIndex) => Read(contactIndex).Offset;
 
     /// <inheritdoc/>
-    public readonly void GetContact(int index, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
+    public readonly void GetContact(int contactIndex, out Vector3 offset, out Vector3 normal, out float depth, out int featureId)
     {
-        ref readonly var contact = ref Read(index);
+        ref readonly var contact = ref Read(contactIndex);
         offset = contact.Offset;
         normal = contact.Normal;
         depth = contact.Depth;
@@ -67,7 +67,7 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <inheritdoc/>
-    public readonly void GetContact(int index, out Contact contactData) => contactData = Read(index);
+    public readonly void GetContact(int contactIndex, out Contact contactData) => contactData = Read(contactIndex);
 
     /// <summary>Removes a contact; the last one takes its index.</summary>
     public static void FastRemoveAt(NonconvexContactManifold* manifold, int index)
@@ -97,31 +97,31 @@ public unsafe struct NonconvexContactManifold : IContactManifold<NonconvexContac
     }
 
     /// <inheritdoc/>
-    public static ref float GetDepthReference(ref NonconvexContactManifold manifold, int index) =>
-        ref GetNonconvexContactReference(ref manifold, index).Depth;
+    public static ref float GetDepthReference(ref NonconvexContactManifold manifold, int contactIndex) =>
+        ref GetNonconvexContactReference(ref manifold, contactIndex).Depth;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetNormalReference(ref NonconvexContactManifold manifold, int index) =>
-        ref GetNonconvexContactReference(ref manifold, index).Normal;
+    public static ref Vector3 GetNormalReference(ref NonconvexContactManifold manifold, int contactIndex) =>
+        ref GetNonconvexContactReference(ref manifold, contactIndex).Normal;
 
     /// <inheritdoc/>
-    public static ref Vector3 GetOffsetReference(ref NonconvexContactManifold manifold, int index) =>
-        ref GetNonconvexContactReference(ref manifold, index).Offset;
+    public static ref Vector3 GetOffsetReference(ref NonconvexContactManifold manifold, int contactIndex) =>
+        ref GetNonconvexContactReference(ref manifold, contactIndex).Offset;
 
     /// <inheritdoc/>
-    public static ref int GetFeatureIdReference(ref NonconvexContactManifold manifold, int index) =>
-        ref GetNonconvexContactReference(ref manifold, index).FeatureId;
+    public static ref int GetFeatureIdReference(ref NonconvexContactManifold manifold, int contactIndex) =>
+        ref GetNonconvexContactReference(ref manifold, contactIndex).FeatureId;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static ref Contact GetNonconvexContactReference(ref NonconvexContactManifold manifold, int index)
+    public static ref Contact GetNonconvexContactReference(ref NonconvexContactManifold manifold, int contactIndex)
     {
-        Check.That((uint)index < MaximumContactCount);
-        return ref Unsafe.Add(ref manifold.Contact0, index);
+        Check.That((uint)contactIndex < MaximumContactCount);
+        return ref Unsafe.Add(ref manifold.Contact0, contactIndex);
     }
 
     /// <inheritdoc/>
-    public static ref ConvexContact GetConvexContactReference(ref NonconvexContactManifold manifold, int index) =>
+    public static ref ConvexContact GetConvexContactReference(ref NonconvexContactManifold manifold, int contactIndex) =>
         throw new InvalidOperationException("The contacts of a nonconvex manifold have normals of their own.");
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
