@@ -110,6 +110,11 @@ public sealed unsafe partial class BroadPhase
         FindOverlapping(new(min, max), ref overlapEnumerator);
     }
 
+    /// <inheritdoc cref="GetOverlaps{TOverlapEnumerator}(Vector3, Vector3, BufferPool, ref TOverlapEnumerator)"/>
+    public void GetOverlaps<TOverlapEnumerator>(Vector3 min, Vector3 max, ref TOverlapEnumerator overlapEnumerator)
+        where TOverlapEnumerator : IBreakableForEach<CollidableReference> =>
+        GetOverlaps(min, max, null!, ref overlapEnumerator);
+
     internal void FindOverlapping<TOverlapEnumerator>(in BoundingBox bounds, ref TOverlapEnumerator overlapEnumerator)
         where TOverlapEnumerator : IBreakableForEach<CollidableReference>
     {
@@ -129,6 +134,11 @@ public sealed unsafe partial class BroadPhase
     public void GetOverlaps<TOverlapEnumerator>(in BoundingBox boundingBox, BufferPool pool, ref TOverlapEnumerator overlapEnumerator)
         where TOverlapEnumerator : IBreakableForEach<CollidableReference> =>
         GetOverlaps(boundingBox.Min, boundingBox.Max, pool, ref overlapEnumerator);
+
+    /// <inheritdoc cref="GetOverlaps{TOverlapEnumerator}(Vector3, Vector3, BufferPool, ref TOverlapEnumerator)"/>
+    public void GetOverlaps<TOverlapEnumerator>(in BoundingBox boundingBox, ref TOverlapEnumerator overlapEnumerator)
+        where TOverlapEnumerator : IBreakableForEach<CollidableReference> =>
+        GetOverlaps(boundingBox.Min, boundingBox.Max, null!, ref overlapEnumerator);
 
     struct RayLeafTester<TRayTester> : IRayLeafTester where TRayTester : IBroadPhaseRayTester
     {

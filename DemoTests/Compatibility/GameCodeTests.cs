@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
@@ -134,6 +135,32 @@ public class GameCodeTests
         tree.Refine(pool);
         Assert.Equal(new Vector3(100), tree.GetBounds(7).Min);
         tree.Dispose(pool);
+    }
+
+    // As in version 2.4.
+    [Fact]
+    public void Overlaps_are_found_without_a_pool()
+    {
+        using var world = new TestWorld();
+        var body = world.AddDynamic(new Sphere(1), 1, RigidPose.Identity);
+        world.AddStatic(new Sphere(1), new RigidPose(new Vector3(2, 0, 0)));
+        world.AddStatic(new Sphere(1), new RigidPose(new Vector3(9, 0, 0)));
+        var (some, all) = (new Found([]), new Found([]));
+        world.Simulation.BroadPhase.GetOverlaps(new Vector3(-1), new Vector3(2), ref some);
+        world.Simulation.BroadPhase.GetOverlaps(new BoundingBox(new Vector3(-20), new Vector3(20)), ref all);
+        Assert.Equal((2, 3), (some.References.Count, all.References.Count));
+        Assert.Equal(body, some.References[0].BodyHandle);
+    }
+
+    readonly struct Found(List<CollidableReference> references) : IBreakableForEach<CollidableReference>
+    {
+        internal List<CollidableReference> References { get; } = references;
+
+        public bool LoopBody(CollidableReference i)
+        {
+            References.Add(i);
+            return true;
+        }
     }
 
     [Fact]

@@ -68,6 +68,7 @@ public partial class MigrationPageTests
         ["a shape is removed before"] = "ShapeUseTests.A_shape_may_be_removed_before_those_who_have_it",
         ["a shape is removed twice"] = "ShapeUseTests.A_shape_may_be_removed_before_those_who_have_it",
         ["values of a CollidableProperty"] = "CollidablePropertyTests.There_is_room_for_what_the_simulation_has_room_for",
+        ["a step of more than"] = "LimitsTests.BeyondTheLimitsEachValueIsRefusedAndNothingChanges",
         ["ref var triangle"] = "GameCodeTests.Triangles_of_a_mesh_are_as_they_were_given",
         ["tree.RefitAndRefine"] = "GameCodeTests.A_tree_is_refitted_and_refined",
         ["a game's own RayHit"] = "GameCodeTests.A_name_that_a_game_has_too_is_chosen_by_an_alias",

@@ -123,11 +123,11 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
     }
 
     /// <inheritdoc/>
-    public readonly void RayTest<TRayHitHandler>(in RigidPose pose, in RayData ray, ref float maximumT, Shapes shapes, BufferPool pool,
+    public readonly void RayTest<TRayHitHandler>(in RigidPose pose, in RayData ray, ref float maximumT, Shapes shapeBatches, BufferPool pool,
         ref TRayHitHandler hitHandler) where TRayHitHandler : struct, IShapeRayHitHandler
     {
         var handler = hitHandler;
-        var tester = new ChildRayTester(Children, pose, ray, shapes, PieceHits.For(ref handler));
+        var tester = new ChildRayTester(Children, pose, ray, shapeBatches, PieceHits.For(ref handler));
         RigidPose.TransformByInverse(ray.Origin, pose, out var origin);
         Tree.RayCast(origin, Exact.RotateByInverse(ray.Direction, pose.Orientation), ref maximumT, pool, ref tester);
         hitHandler = handler;

@@ -97,7 +97,8 @@ public unsafe struct Compound : ICompoundShape, IContainer
     /// <summary>Where a child is if its compound is at the origin and turned.</summary>
     /// <param name="localPosition">Position of the child in the compound, m.</param>
     /// <param name="localOrientation">Orientation of the child in the compound; unit length.</param>
-    /// <inheritdoc cref="GetRotatedChildPose(in RigidPose, Quaternion, out RigidPose)" path="/param[@name='orientation' or @name='rotatedChildPose']"/>
+    /// <param name="orientation">Orientation of the compound; unit length.</param>
+    /// <param name="rotatedChildPose">Pose of the child relative to the origin of the compound, along the axes of the world.</param>
     public static void GetRotatedChildPose(Vector3 localPosition, Quaternion localOrientation, Quaternion orientation, out RigidPose rotatedChildPose) =>
         GetRotatedChildPose(new RigidPose(localPosition, localOrientation), orientation, out rotatedChildPose);
 
