@@ -120,24 +120,47 @@ run_tests() {
     printf '%-44s %d passed, %d failed  %4d s\n' "tests" "$good" "$bad" $((SECONDS - start))
 }
 
-demos() { dotnet artifacts/bin/Demos/release/Demos.dll "$@"; }
+demos=artifacts/bin/Demos/release/Demos.dll
+scenes=()
+
+demos() { dotnet "$demos" "$@"; }
+
+# begin_scenes KIND DEMOS SCENE...: runs scenes in the background, in one process that compiles the engine once; each is a result, as if begun by itself.
+begin_scenes() {
+    local kind="$1" runner="$2" first=${#names[@]} scene
+    shift 2
+    for scene in "$@"; do
+        rm -f "$work/${#names[@]}.result" "$work/${#names[@]}.log"
+        names+=("scene $(basename "$scene")$kind")
+    done
+    while (($(jobs -rp | wc -l) >= processors)); do sleep 0.05; done
+    {
+        id=$first start=$SECONDS
+        printf 'run "%s" --steps 20\n' "$@" | dotnet "$runner" batch 2>&1 | while IFS= read -r line; do
+            if [[ "$line" =~ ^exit\ status\ ([0-9]+)$ ]]; then
+                echo "${BASH_REMATCH[1]} $((SECONDS - start))" > "$work/$id.result"
+                id=$((id + 1)) start=$SECONDS
+            else
+                echo "$line" >> "$work/$id.log"
+            fi
+        done
+    } &
+}
 
 run_scenes() {
-    local name file folder="${SCENES:-}"
+    local folder="${SCENES:-}" files
     demos list > "$work/list" || { fail "list of scenes"; return; }
-    [[ -s "$work/list" ]] || fail "list of scenes is empty"
-    for name in $(awk '{ print $1 }' "$work/list"); do
-        begin "scene $name" demos run "$name" --steps 20
-    done
+    [[ -s "$work/list" ]] || { fail "list of scenes is empty"; return; }
+    mapfile -t scenes < <(awk '{ print $1 }' "$work/list")
+    begin_scenes "" "$demos" "${scenes[@]}"
     settle
     if [[ -z "$folder" && -f ../shared/tools/make-scenes ]] && command -v python3 > "$work/which"; then
         folder="$work/scenes"
         step "make scenes" python3 ../shared/tools/make-scenes "$folder" || return
     fi
     [[ -n "$folder" ]] || return
-    for file in "$folder"/*.scene; do
-        [[ -f "$file" ]] && begin "scene $(basename "$file")" demos run "$file" --steps 20
-    done
+    mapfile -t files < <(compgen -G "$folder/*.scene")
+    ((${#files[@]} == 0)) || begin_scenes "" "$demos" "${files[@]}"
     settle
 }
 
@@ -167,14 +190,6 @@ run_debug_build() {
         --property:GenerateDocumentationFile=false -- "$@"
 }
 
-# Most of these use one processor each.
-run_scenes_with_checks() {
-    local name
-    for name in $(awk '{ print $1 }' "$work/list"); do
-        begin "scene $name with checks" dotnet "$checks/Demos.dll" run "$name" --steps 20
-    done
-}
-
 # Every benchmark once, in one process: whether it runs, not how fast it is.
 run_benchmarks() { dotnet artifacts/bin/Benchmarks/release/Benchmarks.dll smoke; }
 
@@ -189,7 +204,7 @@ begin "benchmarks, once each" run_benchmarks
 # Without optimization too, as somebody who looks for a fault would.
 begin "scene in a debug build" run_debug_build run pile --steps 5
 run_scenes
-step "tests with checks" test_with_checks
-run_scenes_with_checks
+begin "tests with checks" test_with_checks
+((${#scenes[@]} == 0)) || begin_scenes " with checks" "$checks/Demos.dll" "${scenes[@]}"
 settle
 finish
