@@ -72,12 +72,10 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     static void IConstraint<TBodies, TPrestep, TRows>.ReadArms(
-        in TBodies bodies, in TPrestep prestep, in TRows impulses, out Vector<float> squareA, out Vector<float> squareB)
+        in TBodies bodies, in TPrestep prestep, in TRows impulses, out Vector3Wide armA, out Vector3Wide armB)
     {
         TJoint.Prepare(bodies, prestep, out var geometry);
-        TJoint.PointLoad(geometry, impulses, out _, out var offsetA, out var offsetB);
-        squareA = offsetA.LengthSquared();
-        squareB = offsetB.LengthSquared();
+        TJoint.PointLoad(geometry, impulses, out _, out armA, out armB);
     }
 
     // Whether an error may be corrected otherwise than a game asked for: springs and speeds that it chose are what it gets.

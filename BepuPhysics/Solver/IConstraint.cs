@@ -59,15 +59,14 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Moves the velocities of the bodies towards satisfying the constraint.</summary>
     static abstract void Solve(ref TBodies bodies, in Substep substep, ref TPrestep prestep, ref TImpulses impulses);
 
-    // What light bodies between heavy ones are found by (LinkInertia.cs): whether turning a body takes the other one along, squares of the arms on which it
+    // What light bodies between heavy ones are found by (LinkInertia.cs): whether turning a body takes the other one along, the arms on which it
     // does, and lanes in which it does whatever they weigh.
     internal static virtual bool TakesAlong => false;
 
     internal static virtual Vector<int> IsFirm(in TPrestep prestep) => Vector<int>.Zero;
 
     internal static virtual void ReadArms(
-        in TBodies bodies, in TPrestep prestep, in TImpulses impulses, out Vector<float> squareA, out Vector<float> squareB) =>
-        squareA = squareB = Vector<float>.Zero;
+        in TBodies bodies, in TPrestep prestep, in TImpulses impulses, out Vector3Wide armA, out Vector3Wide armB) => armA = armB = default;
 
     // What errors, separations and rigid errors below are told by; of the last, velocities besides.
     internal static virtual BodyAccess ErrorAccess => BodyAccess.None;

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuUtilities;
@@ -13,6 +14,9 @@ namespace BepuPhysics.Constraints;
 // inertia about its centre, M r^2, its own is nothing, whatever it is. So it is taken to be a small part of the second greatest of these: what is more
 // than that has to be moved anyway, and the greatest of them may be that of something that never moves. Neither mass nor weight change.
 //
+// Turning the link about the one anchor moves the other by the distance of the two. Where both are on the same side of the centre, as in the short end of
+// a lever, that is less than the arm, and counts in its place: a weight near the pivot of a long beam is not what the beam has to move at its end.
+//
 // Joints between the same two bodies count once: a door that hangs in two of them turns. All that is kinematic counts as one. They
 // are found in each step anew, when geometric stiffness is.
 static class LinkInertia
@@ -21,6 +25,9 @@ static class LinkInertia
     const float Part = 0.1f;
     // What a neighbour weighs is counted beyond so many times the body's own mass: bodies of like masses move as they should, on any arms.
     const float OwnMasses = 2;
+    // Part of its own mass at the end of its arm that a body has in any case, if that is more than its greatest moment. Of a beam of length L that is
+    // m L^2 / 12, as much as a third of its mass at either end.
+    const float OwnShare = 0.33f;
     // More would leave nothing of the inverse.
     const float GreatestFactor = 1e6f;
 
@@ -54,6 +61,45 @@ static class LinkInertia
         var product = inverseMass * inverseMassOfNeighbour;
         return armSquared * trace * (Part / 3) * beyond > product ? MathHelper.Min(armSquared * beyond / product, float.MaxValue) : 0;
     }
+
+    /// <summary>The inertia of a neighbour about the anchor of another one, where that is less than about the centre, kg m2.</summary>
+    /// <param name="inertia">That about the centre, kg m2.</param>
+    /// <param name="arm">Arm of the neighbour, m.</param>
+    /// <param name="other">Arm of the other one, m.</param>
+    /// <param name="inverseMass">Inverse mass of the body.</param>
+    /// <param name="leastInverse">Inverse of the greatest moment of the body.</param>
+    // A body that is small beside its arm has to make up for that, however near the two anchors are. A beam that has them within its length does not.
+    internal static float Against(float inertia, Vector3 arm, Vector3 other, float inverseMass, float leastInverse)
+    {
+        var armSquared = Exact.LengthSquared(arm);
+        var own = OwnShare * armSquared / inverseMass;
+        var least = own * leastInverse > 1 ? own / Part : 0;
+        return MathHelper.Min(inertia, MathHelper.Max(inertia * (Exact.LengthSquared(arm - other) / armSquared), least));
+    }
+
+    /// <summary>An arm in as many bits as are left over, to a hundredth of its length.</summary>
+    // The exponent of the longest component, and a byte for each.
+    internal static int Pack(Vector3 arm)
+    {
+        var longest = MathHelper.Max(MathHelper.Max(MathF.Abs(arm.X), MathF.Abs(arm.Y)), MathF.Abs(arm.Z));
+        var exponent = Math.Clamp(BitConverter.SingleToInt32Bits(longest) >> MantissaBits, LeastExponent, GreatestExponent);
+        var scaled = arm / UnitOf(exponent);
+        return exponent << 24 | Round(scaled.X) << 16 | Round(scaled.Y) << 8 | Round(scaled.Z);
+    }
+
+    /// <summary>What <see cref="Pack"/> has made of an arm.</summary>
+    internal static Vector3 Unpack(int arm) =>
+        new Vector3((arm >> 16 & 0xff) - Middle, (arm >> 8 & 0xff) - Middle, (arm & 0xff) - Middle) * UnitOf((int)((uint)arm >> 24));
+
+    const int MantissaBits = 23;
+    // What the last bit of a byte is worth is not to be less or more than a float can hold.
+    const int LeastExponent = 8, GreatestExponent = 253;
+    const int Middle = 128;
+
+    // The longest component is 64 to 127 of these.
+    static float UnitOf(int exponent) => BitConverter.Int32BitsToSingle(exponent << MantissaBits) * (1 / 64f);
+
+    static int Round(float value) => Math.Clamp((int)(value + (Middle + 0.5f)), 1, 255);
 
     /// <summary>Adds to the inertia of bodies what they lack.</summary>
     /// <param name="second">The second greatest inertia of a neighbour, kg m2; zero of others.</param>

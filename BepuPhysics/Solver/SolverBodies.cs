@@ -105,29 +105,32 @@ unsafe readonly struct SolverBodies(
     /// <summary>Takes note of a neighbour of a dynamic body (LinkInertia.cs), in any order.</summary>
     // Float by float: of a bundle it is hardly ever more than one or two. All of it has what is left over in rows that the integrator reads and writes anyway:
     // what the second is worth in that of displacements, until the next step begins, what the heaviest is in that of inertias, until the next substep. Both
-    // are zero before the first warm start. Whose that is stands beside the position, and means nothing where it is zero.
-    internal void AddNeighbour(int body, float armSquared, float inverseMass, int neighbour, float inverseMassOfNeighbour)
+    // are zero before the first warm start. Whose that is stands beside the position, on which arm beside the stiffness, and means nothing where it is zero.
+    internal void AddNeighbour(int body, Vector3 arm, float inverseMass, int neighbour, float inverseMassOfNeighbour)
     {
         var row = body * FloatsPerRow;
         var own = localInertias + row;
-        var inertia = LinkInertia.Of(armSquared, own[0] + own[2] + own[5], inverseMass, inverseMassOfNeighbour);
+        var inertia = LinkInertia.Of(Exact.LengthSquared(arm), own[0] + own[2] + own[5], inverseMass, inverseMassOfNeighbour);
         if (inertia == 0)
             return;
         ref var heaviest = ref inertias[row + 7];
         ref var nameOfHeaviest = ref ((int*)motions)[body * FloatsPerMotion + 7];
+        ref var armOfHeaviest = ref ((int*)stiffness)[row + 7];
         ref var second = ref displacements[row + 7];
         var name = LinkInertia.NameOf(neighbour);
         var isSame = name == nameOfHeaviest;
+        var leastInverse = MathHelper.Min(MathHelper.Min(own[0], own[2]), own[5]);
         if (inertia > heaviest)
         {
-            if (!isSame)
-                second = heaviest;
+            if (!isSame && heaviest != 0)
+                second = MathHelper.Max(second, LinkInertia.Against(heaviest, LinkInertia.Unpack(armOfHeaviest), arm, inverseMass, leastInverse));
             heaviest = inertia;
             nameOfHeaviest = name;
+            armOfHeaviest = LinkInertia.Pack(arm);
         }
-        else if (!isSame && inertia > second)
+        else if (!isSame)
         {
-            second = inertia;
+            second = MathHelper.Max(second, LinkInertia.Against(inertia, arm, LinkInertia.Unpack(armOfHeaviest), inverseMass, leastInverse));
         }
     }
 

@@ -144,9 +144,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         in TBodies slots, in TPrestep prestep, in TImpulses impulses, in Symmetric3x3Wide stiffnessA, in Symmetric3x3Wide stiffnessB,
         out Vector<float> squareA, out Vector<float> squareB)
     {
-        TConstraint.ReadArms(slots, prestep, impulses, out squareA, out squareB);
-        squareA = Wide.Mask(IsLoaded(stiffnessA), squareA);
-        squareB = Wide.Mask(IsLoaded(stiffnessB), squareB);
+        TConstraint.ReadArms(slots, prestep, impulses, out var armA, out var armB);
+        squareA = Wide.Mask(IsLoaded(stiffnessA), armA.LengthSquared());
+        squareB = Wide.Mask(IsLoaded(stiffnessB), armB.LengthSquared());
     }
 
     static Vector<int> IsLoaded(in Symmetric3x3Wide stiffness) => Vector.GreaterThan(stiffness.XX + stiffness.YY + stiffness.ZZ, Vector<float>.Zero);
@@ -172,7 +172,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         lightB &= isFirm;
         if (Vector.EqualsAll(lightA | lightB, Vector<int>.Zero))
             return;
-        TConstraint.ReadArms(slots, prestep, impulses, out var squareA, out var squareB);
+        TConstraint.ReadArms(slots, prestep, impulses, out var armA, out var armB);
         ref var bodyA = ref BodySlots.At(ref Unsafe.AsRef(in slots), 0);
         ref var bodyB = ref BodySlots.At(ref Unsafe.AsRef(in slots), TBodies.Count - 1);
         var referencesA = references[0] & PlaceMask;
@@ -180,12 +180,14 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         for (var lanes = Wide.Bits(lightA); lanes != 0; lanes &= lanes - 1)
         {
             var lane = BitOperations.TrailingZeroCount(lanes);
-            bodies.AddNeighbour(referencesA[lane], squareA[lane], bodyA.InverseMass[lane], referencesB[lane], bodyB.InverseMass[lane]);
+            var arm = Lanes.Read<Vector3, Vector3Wide>(ref armA, lane);
+            bodies.AddNeighbour(referencesA[lane], arm, bodyA.InverseMass[lane], referencesB[lane], bodyB.InverseMass[lane]);
         }
         for (var lanes = Wide.Bits(lightB); lanes != 0; lanes &= lanes - 1)
         {
             var lane = BitOperations.TrailingZeroCount(lanes);
-            bodies.AddNeighbour(referencesB[lane], squareB[lane], bodyB.InverseMass[lane], referencesA[lane], bodyA.InverseMass[lane]);
+            var arm = Lanes.Read<Vector3, Vector3Wide>(ref armB, lane);
+            bodies.AddNeighbour(referencesB[lane], arm, bodyB.InverseMass[lane], referencesA[lane], bodyA.InverseMass[lane]);
         }
     }
 

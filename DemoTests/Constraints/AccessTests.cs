@@ -57,12 +57,12 @@ public unsafe class AccessTests
                 if (!TConstraint.CarriesPointLoad)
                     continue;
                 TConstraint.TryGetGeometricStiffness(bodies, substep, prestep, impulses, out var a, out var b, out var turns);
-                TConstraint.ReadArms(bodies, prestep, impulses, out var squareA, out var squareB);
+                TConstraint.ReadArms(bodies, prestep, impulses, out var armA, out var armB);
                 var poisoned = Poison(bodies, TConstraint.WarmStartAccess);
                 TConstraint.TryGetGeometricStiffness(poisoned, substep, prestep, impulses, out var otherA, out var otherB, out var otherTurns);
                 Assert.True(Bits(ref a).SequenceEqual(Bits(ref otherA)) && Bits(ref b).SequenceEqual(Bits(ref otherB)) && turns == otherTurns);
-                TConstraint.ReadArms(poisoned, prestep, impulses, out var otherSquareA, out var otherSquareB);
-                Assert.True(squareA == otherSquareA && squareB == otherSquareB);
+                TConstraint.ReadArms(poisoned, prestep, impulses, out var otherArmA, out var otherArmB);
+                Assert.True(Bits(ref armA).SequenceEqual(Bits(ref otherArmA)) && Bits(ref armB).SequenceEqual(Bits(ref otherArmB)));
             }
         }
     }

@@ -110,6 +110,47 @@ public class LinkInertiaTests
         AssertAdded(world, link, 0);
     }
 
+    /// <summary>What hangs on the same side as something heavier counts by how far they are apart, in either order.</summary>
+    [Theory]
+    [InlineData(true, false)]
+    [InlineData(true, true)]
+    [InlineData(false, false)]
+    [InlineData(false, true)]
+    public void A_weight_near_the_pivot_of_a_lever_counts_by_its_lever(bool isHung, bool weightIsFirst)
+    {
+        foreach (var weight in new[] { above + new Vector3(0.1f, 0.5f, 0), above * 0.7f, new Vector3(-0.2f, 1.1f, 0.3f), above })
+        {
+            using var world = New(out var link);
+            var pivot = isHung ? Kinematic(world, above) : Body(world, above, 50_000);
+            var body = Body(world, weight, 400);
+            if (weightIsFirst)
+                Join(world, link, body, weight);
+            Join(world, link, pivot, above);
+            if (!weightIsFirst)
+                Join(world, link, body, weight);
+            // Arms of others are known to a hundredth.
+            // The link is small beside its arms, and has a part of its own mass there at least.
+            var own = 0.33 / 0.1 * LinkMass * weight.LengthSquared();
+            AssertAdded(world, link, Added(Math.Max(own, Math.Min(Worth(400, weight), Worth(400, weight - above)))), tolerance: 0.04);
+        }
+    }
+
+    /// <summary>To a hundredth of the longest component, at any length.</summary>
+    [Fact]
+    public void An_arm_is_kept_in_32_bits()
+    {
+        var random = new Random(3);
+        for (int i = 0; i < 10_000; ++i)
+        {
+            var arm = new Vector3(random.NextSingle() - 0.5f, random.NextSingle() - 0.5f, random.NextSingle() - 0.5f) *
+                MathF.Pow(10, random.NextSingle() * 40 - 20);
+            var kept = LinkInertia.Unpack(LinkInertia.Pack(arm));
+            var longest = Math.Max(Math.Max(Math.Abs(arm.X), Math.Abs(arm.Y)), Math.Abs(arm.Z));
+            var off = (kept - arm) / longest;
+            Assert.InRange(Math.Max(Math.Max(Math.Abs(off.X), Math.Abs(off.Y)), Math.Abs(off.Z)), 0, 0.01f);
+        }
+    }
+
     static TestWorld New(out BodyHandle link)
     {
         var world = new TestWorld(new AccuracySettings { Gravity = default, Contacts = ContactScope.None });
@@ -125,14 +166,14 @@ public class LinkInertiaTests
         world.Solver.Add(link, other, new BallSocket { LocalOffsetA = arm, LocalOffsetB = arm - world.Bodies[other].Pose.Position });
 
     // Everything is at rest where its joints hold it, so that the world's axes stay those of the link.
-    static void AssertAdded(TestWorld world, BodyHandle link, double added)
+    static void AssertAdded(TestWorld world, BodyHandle link, double added, double tolerance = 1e-4)
     {
         world.Step(2);
         var inverse = world.Bodies.ActiveSet.WorldInertias[world.Bodies[link].MemoryLocation.Index].InverseInertiaTensor;
         var (x, y, z) = Own();
-        Assert.Equal(1, inverse.XX * (x + added), 1e-4);
-        Assert.Equal(1, inverse.YY * (y + added), 1e-4);
-        Assert.Equal(1, inverse.ZZ * (z + added), 1e-4);
+        Assert.Equal(1, inverse.XX * (x + added), tolerance);
+        Assert.Equal(1, inverse.YY * (y + added), tolerance);
+        Assert.Equal(1, inverse.ZZ * (z + added), tolerance);
         Assert.True(Math.Abs(inverse.YX) + Math.Abs(inverse.ZX) + Math.Abs(inverse.ZY) < 1e-4f * inverse.XX);
     }
 }
