@@ -19,11 +19,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         rimTime = (dt - Simulation.Solver.ForeseeSubstepDt(dt)) * 0.5f;
     }
 
-    // The compound that was asked about last, and whether it has a cylinder: a level is asked about again and again.
+    // The compound that was asked about last, and whether it has any: a level is asked about again and again.
     struct RimMemory
     {
         public TypedIndex Compound;
-        public bool HasCylinder;
+        public bool HasRims;
     }
 
     // Contacts where a pair will touch are those of another time.
@@ -32,18 +32,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     // Of a compound its children say it. Those of many children are not looked at: there are too many.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    bool MayHaveRims(ref RimMemory memory, TypedIndex shape) => shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasCylinder(ref memory, shape));
+    bool MayHaveRims(ref RimMemory memory, TypedIndex shape) => shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasRims(ref memory, shape));
 
-    bool HasCylinder(ref RimMemory memory, TypedIndex shape)
+    bool HasRims(ref RimMemory memory, TypedIndex shape)
     {
         if (memory.Compound.Packed == shape.Packed)
-            return memory.HasCylinder;
+            return memory.HasRims;
         memory.Compound = shape;
-        memory.HasCylinder = false;
+        memory.HasRims = false;
         ref var compound = ref Simulation.Shapes.GetShape<Compound>(shape.Index);
         for (int i = 0; i < compound.Children.Length; ++i)
-            memory.HasCylinder |= compound.Children[i].ShapeIndex.Type == Cylinder.Id;
-        return memory.HasCylinder;
+            memory.HasRims |= IsRound(compound.Children[i].ShapeIndex);
+        return memory.HasRims;
     }
 
     /// <summary>The contacts of a pair as the solver is to have them.</summary>
@@ -69,19 +69,32 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void MoveRims(in ConvexContactManifold found, TypedIndex shape, in Quaternion orientation, in Vector3 center, in Vector3 normal, in Vector3 turn,
         ref ConvexContactManifold moved)
     {
-        var shapes = Simulation.Shapes;
-        if (shape.Type == Cylinder.Id)
-            RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(shape.Index), new(default, orientation), center, normal, turn, ref moved);
         if (shape.Type != Compound.Id)
+        {
+            MoveRims(found, shape, new RigidPose(default, orientation), center, normal, turn, ref moved);
             return;
-        ref var compound = ref shapes.GetShape<Compound>(shape.Index);
+        }
+        ref var compound = ref Simulation.Shapes.GetShape<Compound>(shape.Index);
         for (int i = 0; i < compound.Children.Length; ++i)
         {
             ref var child = ref compound.Children[i];
-            if (child.ShapeIndex.Type != Cylinder.Id)
+            if (!IsRound(child.ShapeIndex))
                 continue;
             var pose = new RigidPose(Exact.Rotate(child.LocalPosition, orientation), Exact.Concatenate(child.LocalOrientation, orientation));
-            RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(child.ShapeIndex.Index), pose, center, normal, turn, ref moved);
+            MoveRims(found, child.ShapeIndex, pose, center, normal, turn, ref moved);
         }
+    }
+
+    static bool IsRound(TypedIndex child) => child.Type is Cylinder.Id or Sphere.Id;
+
+    // What is a sphere by itself turns in its place.
+    void MoveRims(in ConvexContactManifold found, TypedIndex shape, in RigidPose pose, in Vector3 center, in Vector3 normal, in Vector3 turn,
+        ref ConvexContactManifold moved)
+    {
+        var shapes = Simulation.Shapes;
+        if (shape.Type == Cylinder.Id)
+            RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(shape.Index), pose, center, normal, turn, ref moved);
+        else if (shape.Type == Sphere.Id)
+            RimContacts.MoveAhead(found, shapes.GetShape<Sphere>(shape.Index).Radius, pose.Position, center, normal, turn, ref moved);
     }
 }

@@ -5,7 +5,7 @@ using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>Contacts at the rims of a cylinder, where they will be a part of the step later.</summary>
+/// <summary>Contacts at the rims of a cylinder, and at balls that are not where their body turns, where they will be a part of the step later.</summary>
 // What rolls on a rim touches at a point that runs around it, by an angle W t within the step. The solver keeps the arm of the contact; with that of the
 // beginning it sees the surfaces part by w r sin(W t) too slowly or too fast, lets the body sink in by half of w r W dt^2 in each step, and pushes it out
 // again: that is energy. With the arm of a later time it errs to the other side before that, and what is left over a step is of a higher order.
@@ -17,6 +17,9 @@ namespace BepuPhysics.CollisionDetection;
 //
 // With the axis of later that is m. The solver sees the depth d less n . (t x m) there when the cylinder has turned by t against the other body; what it is
 // to see is what the rim has, d less n . (m - l). So the contact at l goes to m with the depth d + n . (t x m) - n . (m - l).
+//
+// So it is with a ball whose middle is at q from the centre of its body, as a child of a compound: l = q - R n. A toy that rights itself, with its weight
+// below the middle of a ball, rocked ever higher on the arms of the beginning.
 static class RimContacts
 {
     /// <summary>Greatest number of contacts of a manifold that has some at rims: with more an end lies flat, and with all of its rim.</summary>
@@ -58,20 +61,46 @@ static class RimContacts
         for (int i = 0; i < found.Count; ++i)
         {
             ref readonly var contact = ref found.Read(i);
-            var place = contact.Offset - center;
-            var end = pose.Position + axis * (Exact.Dot(place - pose.Position, axis) < 0 ? -cylinder.HalfLength : cylinder.HalfLength);
-            var beside = place - (end + lowest);
-            // Tests of pairs put contacts anywhere between the surfaces.
-            var above = Exact.Dot(beside, normal);
-            beside -= normal * above;
-            ref var target = ref ConvexContactManifold.GetConvexContactReference(ref moved, i);
-            if (Exact.LengthSquared(beside) > bound * bound || MathF.Abs(above) > MathF.Abs(contact.Depth) + bound || target.Offset != contact.Offset)
-                continue;
-            var arm = Turn(end, turn) + lowestLater;
-            var shift = arm - (end + lowest);
-            target.Offset += shift;
-            target.Depth += Exact.Dot(normal, Exact.Cross(turn, arm) - shift);
+            var along = Exact.Dot(contact.Offset - center - pose.Position, axis);
+            var end = pose.Position + axis * (along < 0 ? -cylinder.HalfLength : cylinder.HalfLength);
+            Move(contact, end + lowest, Turn(end, turn) + lowestLater, center, normal, turn, bound, ref moved, i);
         }
+    }
+
+    /// <summary>Moves those contacts that are the lowest points of a ball.</summary>
+    /// <param name="found">Contacts as they were found.</param>
+    /// <param name="radius">Radius of the ball.</param>
+    /// <param name="middle">Where it is, from the centre of its body.</param>
+    /// <param name="center">Centre of its body less that of A.</param>
+    /// <param name="normal">The normal of the contacts, from the other body to the ball.</param>
+    /// <param name="turn">By how much its body will have turned against the other one until then, rad.</param>
+    /// <param name="moved">The same contacts, of which some may have been moved already, and are left where they are.</param>
+    public static void MoveAhead(in ConvexContactManifold found, float radius, in Vector3 middle, in Vector3 center, in Vector3 normal, in Vector3 turn,
+        ref ConvexContactManifold moved)
+    {
+        var least = LeastTurn * radius;
+        if (!(Exact.LengthSquared(Exact.Cross(turn, middle)) > least * least))
+            return;
+        var lowest = normal * -radius;
+        var later = Turn(middle, turn);
+        for (int i = 0; i < found.Count; ++i)
+            Move(found.Read(i), middle + lowest, later + lowest, center, normal, turn, Tolerance * radius, ref moved, i);
+    }
+
+    // From the lowest point to that of later, if it is there.
+    static void Move(in ConvexContact contact, in Vector3 lowest, in Vector3 later, in Vector3 center, in Vector3 normal, in Vector3 turn, float bound,
+        ref ConvexContactManifold moved, int index)
+    {
+        var beside = contact.Offset - center - lowest;
+        // Tests of pairs put contacts anywhere between the surfaces.
+        var above = Exact.Dot(beside, normal);
+        beside -= normal * above;
+        ref var target = ref ConvexContactManifold.GetConvexContactReference(ref moved, index);
+        if (Exact.LengthSquared(beside) > bound * bound || MathF.Abs(above) > MathF.Abs(contact.Depth) + bound || target.Offset != contact.Offset)
+            return;
+        var shift = later - lowest;
+        target.Offset += shift;
+        target.Depth += Exact.Dot(normal, Exact.Cross(turn, later) - shift);
     }
 
     // By 2 atan(|turn| / 2), which is |turn| to third order, and needs no sine.

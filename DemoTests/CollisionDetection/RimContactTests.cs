@@ -42,6 +42,33 @@ public class RimContactTests
     }
 
     [Fact]
+    public void The_contact_of_a_ball_beside_the_centre_goes_to_where_it_will_be_lowest_and_others_stay()
+    {
+        for (int i = 0; i < 2000; ++i)
+        {
+            var place = RandomPlace();
+            var radius = place.Cylinder.Radius;
+            Double3 middle = place.Position;
+            var below = (Double3)place.Normal * radius;
+            var lowest = middle - below;
+            var later = Rotation(place).Rotate(middle) - below;
+            var manifold = Contact(place, lowest, depth: .01f);
+            var found = manifold;
+            RimContacts.MoveAhead(found, radius, place.Position, place.Center, place.Normal, place.Turn, ref manifold);
+            double size = radius + middle.Length;
+            var way = (Double3)manifold.Contact0.Offset - found.Contact0.Offset;
+            Assert.InRange((way - (later - lowest)).Length / size, 0, 5 * Tolerance);
+            Double3 arm = manifold.Contact0.Offset - place.Center;
+            double seen = manifold.Contact0.Depth - Double3.Dot(place.Normal, Double3.Cross(place.Turn, arm));
+            double there = found.Contact0.Depth - Double3.Dot(place.Normal, later - lowest);
+            Assert.InRange(Math.Abs(seen - there) / size, 0, Tolerance);
+            var beside = Double3.Cross(place.Normal, place.Turn);
+            StaysAt(place, lowest + beside * (.2 * radius / beside.Length), isBall: true);
+            StaysAt(place with { Turn = Vector3.Normalize(place.Position) * .1f }, lowest, isBall: true);
+        }
+    }
+
+    [Fact]
     public void Contacts_that_are_not_the_lowest_points_of_rims_stay_where_they_are()
     {
         for (int i = 0; i < 500; ++i)
@@ -87,11 +114,14 @@ public class RimContactTests
         StaysAt(place, new Double3(0, -place.Cylinder.HalfLength, 0));
     }
 
-    void StaysAt(in Place place, Double3 offset)
+    void StaysAt(in Place place, Double3 offset, bool isBall = false)
     {
         var manifold = Contact(place, offset, depth: .02f);
         var found = manifold.Contact0;
-        Move(place, ref manifold);
+        if (isBall)
+            RimContacts.MoveAhead(manifold, place.Cylinder.Radius, place.Position, place.Center, place.Normal, place.Turn, ref manifold);
+        else
+            Move(place, ref manifold);
         Assert.Equal(found.Offset, manifold.Contact0.Offset);
         Assert.Equal(found.Depth, manifold.Contact0.Depth);
     }
