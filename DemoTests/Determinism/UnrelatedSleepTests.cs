@@ -102,7 +102,7 @@ public class UnrelatedSleepTests
         Assert.InRange(sleptAlone, Landed, int.MaxValue);
     }
 
-    const int Gone = 66, Landed = 85;
+    const int Gone = 66, Landed = 80;
 
     static List<(int, RigidPose, BodyVelocity, bool)> RunPlatform(bool? othersAreFirst, out int asleepFrom)
     {

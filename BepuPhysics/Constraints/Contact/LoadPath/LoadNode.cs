@@ -29,6 +29,10 @@ struct LoadNode
     public bool IsActive;
     /// <summary>Of the first body of an island: whether the island is to be worked on in this substep.</summary>
     public bool NeedsWork;
+    /// <summary>Whether it overlaps what carries it, so far that it is worth waiting until it has been pushed out.</summary>
+    public bool IsSunken;
+    /// <summary>Of the first body of an island: whether any of the island does.</summary>
+    public bool HasSunken;
     /// <summary>Whether it leans on others: its load goes down by no order.</summary>
     public bool Leans;
     /// <summary>Of the first body of an island: whether any of the island leans, or is of a structure that sways.</summary>

@@ -28,18 +28,22 @@ sealed unsafe partial class LoadPathStage
     // others, so that all of it takes twenty times as long: at four substeps of a sixtieth, two seconds.
     const float JoinedShare = 0.95f;
 
-    // Half the width of the band in which a patch knows no overlap.
-    float BandOf(in SupportLink link, int node)
+    // Half the width of the band in which a patch that overlaps by some depth at most knows none.
+    float BandOf(in SupportLink link, int node, float depth)
     {
-        var width = Vector<float>.Count;
-        float depth = 0;
-        for (int i = 0; i < link.Count; ++i)
-            depth = MathHelper.Max(depth, link.Prestep[(i * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth) * width]);
         if (!(depth > link.Band))
             return link.Band;
         if (IsClamped(link, node))
             return depth;
         return IsOfJoinedHeap(link) ? MathHelper.Max(link.Band, JoinedShare * depth) : link.Band;
+    }
+
+    static float GreatestDepth(in SupportLink link)
+    {
+        float depth = 0;
+        for (int i = 0; i < link.Count; ++i)
+            depth = MathHelper.Max(depth, DepthOf(link, i));
+        return depth;
     }
 
     // A foot on the ground, that nobody else touches, is lifted as others are: by its joints it bears what it bore before.
@@ -59,6 +63,9 @@ sealed unsafe partial class LoadPathStage
         }
         return false;
     }
+
+    static float DepthOf(in SupportLink link, int contact) =>
+        link.Prestep[(contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth) * Vector<float>.Count];
 
     // Most patches are not, and need to know but a few bodies for it.
     bool IsClamped(in SupportLink link, int node)

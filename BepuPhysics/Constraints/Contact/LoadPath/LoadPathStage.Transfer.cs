@@ -6,17 +6,19 @@ namespace BepuPhysics.Constraints.Contact;
 // What is done with an island that has something to hand down.
 sealed unsafe partial class LoadPathStage
 {
-    void Transfer(int island, int block, float dt)
+    void Transfer(int island, int block, in Substep substep)
     {
         var start = graph.Islands[island];
         var end = graph.Islands[island + 1];
         ref var first = ref graph.Nodes[start];
+        if (substep.Index == 0 && first.HasSunken)
+            KeepAwake(start, end);
         first.IsActive = first.NeedsWork;
         first.NeedsWork = false;
         if (!first.IsActive)
             return;
         var firstSupport = first.FirstSupport;
-        var floor = MotionOf(first, dt);
+        var floor = MotionOf(first, substep.Dt);
         var supports = ReadSupports(island, block);
         for (int i = end - 1; i >= start; --i)
         {

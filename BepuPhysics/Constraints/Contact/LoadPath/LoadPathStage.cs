@@ -120,7 +120,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 break;
             case SolverPoint.LastAfterWarmStart:
                 for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                    Transfer(island, block, substep.Dt);
+                    Transfer(island, block, substep);
                 break;
             case SolverPoint.AfterSubsteps:
                 if (HasFloors || hasTipped.AsSpan(0, blockCount).Contains(true))
@@ -247,7 +247,13 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 FindFloorChange(ref node);
             var turns = Turns(node);
             for (int j = node.FirstSupport; j < node.FirstSupport + node.SupportCount; ++j)
-                graph.Links[j].Spring = ContactMaterialWide.HeldSpring(BandOf(graph.Links[j], i), turns);
+            {
+                ref var link = ref graph.Links[j];
+                var depth = GreatestDepth(link);
+                var band = BandOf(link, i, depth);
+                link.Spring = ContactMaterialWide.HeldSpring(band, turns);
+                node.IsSunken |= depth > LeastOverlap * band && IsSunken(link, band);
+            }
         }
     }
 
@@ -282,6 +288,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             ref var first = ref graph.Nodes[graph.Islands[island]];
             var endOfIsland = Math.Min(end, graph.Islands[island + 1]);
+            if (substep.Index == 0 && AnyIsSunken(start, endOfIsland))
+                first.HasSunken = true;
             // Who has the others of the island can but say the same.
             if (HasLoads(start, endOfIsland, first.IsActive, MotionOf(first, substep.Dt)))
                 first.NeedsWork = true;
