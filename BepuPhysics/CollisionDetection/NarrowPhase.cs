@@ -53,6 +53,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         simulation.Solver.OptionalStages.Add(loadPath);
     }
 
+    /// <summary>See <see cref="LoadPathStage.RelaxedCount"/>.</summary>
+    internal int RelaxedCount => loadPath.RelaxedCount;
+
     /// <summary>See <see cref="LoadPathStage.MostWalked"/>.</summary>
     internal int MostWalkedFromFloors
     {

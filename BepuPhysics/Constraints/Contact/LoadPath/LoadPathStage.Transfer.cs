@@ -134,7 +134,7 @@ sealed unsafe partial class LoadPathStage
         if (isColumn)
             relaxation.RunColumn(new Span<ColumnBlock>(columns.Memory + block * graph.LongestColumn, end - start));
         else
-            relaxation.Run(Mode == LoadPathMode.Always ? LoadRelaxation.RoundsOfTipping : LoadRelaxation.RoundsOfStructure);
+            relaxed[block] += supports.Length * relaxation.Run(Mode == LoadPathMode.Always ? LoadRelaxation.RoundsOfTipping : LoadRelaxation.RoundsOfStructure);
     }
 
     static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>

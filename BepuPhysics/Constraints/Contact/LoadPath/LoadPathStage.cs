@@ -53,7 +53,21 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     readonly bool[] holdsLone = new bool[MaximumBlocks];
     // Whether any island that each block has worked on tips over.
     readonly bool[] hasTipped = new bool[MaximumBlocks];
+    // Of each block: patches that were relaxed, once for each round.
+    readonly int[] relaxed = new int[MaximumBlocks];
     bool hasBegun;
+
+    /// <summary>Patches that were relaxed in the last step, once for each round: what that costs.</summary>
+    internal int RelaxedCount
+    {
+        get
+        {
+            var sum = 0;
+            foreach (var count in relaxed)
+                sum += count;
+            return sum;
+        }
+    }
 
     LoadPathMode Mode => solver.LoadPath;
 
@@ -61,6 +75,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
 
     bool ISolverStage.BeginStep()
     {
+        relaxed.AsSpan().Clear();
         if (Mode == LoadPathMode.Off)
             return false;
         bundleCount = ContactBundles.Count(solver.ActiveSet);

@@ -26,6 +26,7 @@ readonly unsafe ref partial struct LoadRelaxation(
     // stands takes few. With fewer a small arch of thirteen creeps by what they leave.
     const int MaximumRounds = 192;
     // The same where none leans: what was handed down before has left little. With 48 a wall that rocked took three times as long, and stood no better.
+    // And of what leans in no row, as rubble does: that moves on in the next substep, and was never at rest after any number.
     internal const int RoundsOfStructure = 16;
     // And for who asks for what tips over: a wall of 16 rows tips over in its time with eight of them, one of 30 rows with 32.
     internal const int RoundsOfTipping = 32;
@@ -52,12 +53,14 @@ readonly unsafe ref partial struct LoadRelaxation(
     }
 
     /// <summary>Relaxes the island; what that changes is in the nodes and supports.</summary>
-    internal void Run(int roundsOfStructure)
+    /// <param name="roundsOfOthers">Most rounds of what does not lean in a row.</param>
+    /// <returns>How many rounds it took.</returns>
+    internal int Run(int roundsOfOthers)
     {
         for (int i = 0; i < patches.Length; ++i)
             Prepare(i);
         float before = 0, first = 0;
-        var most = Leans() ? MaximumRounds : roundsOfStructure;
+        var most = LeansInARow() ? MaximumRounds : roundsOfOthers;
         for (int round = 1; ; ++round)
         {
             for (int i = 0; i < patches.Length; ++i)
@@ -67,27 +70,31 @@ readonly unsafe ref partial struct LoadRelaxation(
             for (int i = 0; i < patches.Length; ++i)
                 Solve(i);
             if (round == most)
-                return;
+                return round;
             var change = Change();
             if (round == 1)
                 first = change;
             if (!(change > LeastChange * first))
-                return;
+                return round;
             // Where rounds change more and more, what went before was no good direction.
             Follow(round > 1 && change < before ? change / before : 0);
             before = change;
         }
     }
 
-    bool Leans()
+    // Whether bodies lean as the stones of an arch, each on one on either side: what stands on some of them is let be. Each patch then has one way on, and a
+    // load goes all along. Of rubble that leans each body has three neighbours or four.
+    bool LeansInARow()
     {
+        int bodies = 0, neighbours = 0;
         foreach (ref readonly var node in nodes)
-        {
-            if (node.Leans)
-                return true;
-        }
-        return false;
+            bodies += node.Leans ? 1 : 0;
+        foreach (ref readonly var patch in patches)
+            neighbours += Leans(patch.Upper) + Leans(patch.Lower);
+        return bodies > 0 && 2 * neighbours <= 5 * bodies;
     }
+
+    int Leans(int node) => node >= 0 && nodes[node].Leans ? 1 : 0;
 
     void Prepare(int index)
     {
