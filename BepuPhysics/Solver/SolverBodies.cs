@@ -102,7 +102,7 @@ unsafe readonly struct SolverBodies(
         Transpose.Scatter(row, stiffness, FloatsPerRow, references);
     }
 
-    /// <summary>Takes note of a neighbour of a dynamic body (LinkInertia.cs), in any order.</summary>
+    /// <summary>Takes note of a neighbour of a dynamic body (LinkInertia.cs), in the order of the batches.</summary>
     // Float by float: of a bundle it is hardly ever more than one or two. All of it has what is left over in rows that the integrator reads and writes anyway:
     // what the second is worth in that of displacements, until the next step begins, what the heaviest is in that of inertias, until the next substep. Both
     // are zero before the first warm start. Whose that is stands beside the position, on which arm beside the stiffness, and means nothing where it is zero.
