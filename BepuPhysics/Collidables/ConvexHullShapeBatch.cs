@@ -6,4 +6,6 @@ namespace BepuPhysics.Collidables;
 sealed class ConvexHullShapeBatch(BufferPool pool, int initialCapacity) : ConvexShapeBatch<ConvexHull, ConvexHullWide>(pool, initialCapacity)
 {
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
+
+    private protected override bool HasMemory => true;
 }

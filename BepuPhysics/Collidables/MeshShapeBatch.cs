@@ -31,4 +31,6 @@ sealed class MeshShapeBatch(BufferPool pool, int initialCapacity, Shapes collect
     }
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
+
+    private protected override bool HasMemory => true;
 }

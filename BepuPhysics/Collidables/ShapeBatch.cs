@@ -126,7 +126,9 @@ public abstract unsafe partial class ShapeBatch
     /// <summary>Removes a shape. What it owns itself stays its owner's. Bodies and statics that have it keep it.</summary>
     /// <param name="index">Index of the shape.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// A compound uses it, or it has memory of its own and a body or static uses it; nothing was changed.
+    /// </exception>
     public void Remove(int index)
     {
         using var change = BeginChange("ShapeBatch.Remove");
@@ -136,6 +138,9 @@ public abstract unsafe partial class ShapeBatch
     internal void RemoveUnlocked(int shapeIndex)
     {
         CheckRemovable(shapeIndex);
+        // Its owner may dispose of it now, and would take it from under those who have it.
+        if (HasMemory)
+            CheckNoUser(shapeIndex);
         RemoveOrKeep(shapeIndex, null);
     }
 
@@ -279,6 +284,9 @@ public abstract unsafe partial class ShapeBatch
 
     /// <summary>Returns the memory that a shape owns.</summary>
     private protected virtual void DisposeShape(int shapeIndex, BufferPool pool) { }
+
+    /// <summary>Whether shapes have memory of their own, which somebody disposes.</summary>
+    private protected virtual bool HasMemory => false;
 
     /// <summary>Removes the children of a shape and returns the memory that they own.</summary>
     private protected virtual void RemoveAndDisposeChildren(int shapeIndex, Shapes shapes, BufferPool pool) { }

@@ -90,11 +90,14 @@ public sealed partial class Shapes
     /// <summary>Removes a shape. What it owns itself stays its owner's.</summary>
     /// <remarks>
     /// Bodies and statics that have it keep it until they are gone or get another one, so it may be removed before them. For all else it is gone at
-    /// once: nothing can get it any more.
+    /// once: nothing can get it any more. Shapes with memory of their own are removed after them, as whoever disposes of it would take it from under
+    /// them, or by <see cref="RemoveAndDispose"/>.
     /// </remarks>
     /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>
-    /// <exception cref="InvalidOperationException">A compound uses it; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// A compound uses it, or it has memory of its own and a body or static uses it; nothing was changed.
+    /// </exception>
     public void Remove(TypedIndex shapeIndex)
     {
         using var change = Change("Shapes.Remove");
@@ -104,7 +107,10 @@ public sealed partial class Shapes
 
     /// <summary>Removes a shape and returns the memory that it owns: once no body and no static has it any more, at the next change of its type's
     /// shapes.</summary>
-    /// <inheritdoc cref="Remove" path="/remarks"/>
+    /// <remarks>
+    /// Bodies and statics that have it keep it until they are gone or get another one, so it may be removed before them. For all else it is gone at
+    /// once: nothing can get it any more.
+    /// </remarks>
     /// <param name="shapeIndex">Name of the shape; nothing is removed for the default, which bodies without a shape have.</param>
     /// <param name="pool">Pool that the shape's own memory was taken from; to be kept as long as those who have the shape.</param>
     /// <exception cref="ArgumentException">There is no such shape.</exception>

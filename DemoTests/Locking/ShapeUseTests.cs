@@ -14,10 +14,13 @@ public sealed class ShapeUseTests : IDisposable
 
     public void Dispose() => pool.Dispose();
 
-    /// <summary>Ways to get rid of a shape that want it to be unused.</summary>
-    public static TheoryData<string> Removals => ["RecursivelyRemoveAndDispose", "batch Recursively", "Clear", "batch Clear", "Dispose"];
+    /// <summary>Ways to get rid of a hull that want it to be unused.</summary>
+    public static TheoryData<string> Removals =>
+        ["Remove", "batch Remove", "RecursivelyRemoveAndDispose", "batch Recursively", "Clear", "batch Clear", "Dispose"];
 
-    /// <summary>Ways to get rid of a shape that leave it to those who have it.</summary>
+    /// <summary>
+    /// Ways to get rid of a shape that leave it to those who have it; where its memory is not disposed with it, of one that has none.
+    /// </summary>
     public static TheoryData<string> EarlyRemovals => ["Remove", "RemoveAndDispose", "batch Remove", "batch RemoveAndDispose"];
 
     [Theory]
@@ -28,9 +31,7 @@ public sealed class ShapeUseTests : IDisposable
         using (var simulation = NewSimulation(shapes))
         using (var other = NewSimulation(shapes))
         {
-            Span<Vector3> corners = [new(0, 0, 0), new(1, 0, 0), new(0, 1, 0), new(0, 0, 1)];
-            var shape = shapes.Add(new ConvexHull(corners, pool, out _));
-            var hull = shapes.GetShape<ConvexHull>(shape.Index);
+            var shape = AddOne();
             var sphere = shapes.Add(new Sphere(1));
             var first = AddBody(simulation, shape);
             var second = AddBody(simulation, shape);
@@ -48,17 +49,19 @@ public sealed class ShapeUseTests : IDisposable
             Steps();
 
             // Another shape of its type does not take its place while anyone has it.
-            var next = AddHull(shapes);
+            var next = AddOne();
             Assert.NotEqual(shape, next);
             simulation.Bodies.Remove(first);
             simulation.Bodies.SetShape(second, sphere);
-            Assert.NotEqual(shape, AddHull(shapes));
+            Assert.NotEqual(shape, AddOne());
             Steps();
             other.Statics.Remove(still);
-            Assert.Equal(shape, AddHull(shapes));
+            Assert.Equal(shape, AddOne());
             Steps();
-            if (!removal.Contains("ispose", StringComparison.Ordinal))
-                hull.Dispose(pool);
+            for (int i = 0; i < 3; ++i)
+                shapes.RemoveAndDispose(new TypedIndex(shape.Type, i), pool);
+
+            TypedIndex AddOne() => removal.Contains("ispose", StringComparison.Ordinal) ? AddHull(shapes) : shapes.Add(new Box(1, 1, 1));
 
             void Steps()
             {
@@ -68,8 +71,6 @@ public sealed class ShapeUseTests : IDisposable
                 other.Validate();
             }
         }
-        for (int i = 0; i < 3; ++i)
-            shapes.RemoveAndDispose(new TypedIndex(ConvexHull.Id, i), pool);
         shapes.Dispose();
         pool.AssertEmpty();
     }

@@ -72,6 +72,8 @@ sealed unsafe class CompoundShapeBatch<TCompound>(BufferPool source, int initial
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
 
+    private protected override bool HasMemory => true;
+
     private protected override void RemoveAndDisposeChildren(int shapeIndex, Shapes shapes, BufferPool pool)
     {
         ReleaseChildren(shapeIndex);

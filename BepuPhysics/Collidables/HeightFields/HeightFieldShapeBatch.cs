@@ -29,4 +29,6 @@ sealed class HeightFieldShapeBatch(BufferPool pool, int initialCapacity, Shapes 
     }
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
+
+    private protected override bool HasMemory => true;
 }
