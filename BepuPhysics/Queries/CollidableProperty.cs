@@ -91,10 +91,10 @@ public sealed class CollidableProperty<T> : IDisposable, IBufferPoolUser where T
     /// <summary>Makes room for a static's value, sets it to its default and returns it; valid until room is made again.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The handle's value is none that a static can have.</exception>
     /// <exception cref="ArgumentException">The static was removed.</exception>
-    public ref T Allocate(StaticHandle bodyHandle)
+    public ref T Allocate(StaticHandle handle)
     {
-        CheckNotStale(bodyHandle);
-        return ref Allocate(ref staticData, bodyHandle.Value, bodyHandle.Slot);
+        CheckNotStale(handle);
+        return ref Allocate(ref staticData, handle.Value, handle.Slot);
     }
 
     /// <summary>Makes room for the value of a body or static, sets it to its default and returns it; valid until room is made again.</summary>
