@@ -25,6 +25,8 @@ fail() {
     echo "FAILED: $1"
 }
 
+await_processor() { while (($(jobs -rp | wc -l) >= processors)); do sleep 0.05; done; }
+
 # begin NAME COMMAND...: runs in the background as soon as a processor is free; settle waits for all and shows them in order, each with
 # its time, and its output where it fails.
 begin() {
@@ -32,7 +34,7 @@ begin() {
     names+=("$1")
     shift
     rm -f "$work/$id.result"
-    while (($(jobs -rp | wc -l) >= processors)); do sleep 0.05; done
+    await_processor
     {
         local start=$SECONDS status=0
         "$@" > "$work/$id.log" 2>&1 || status=$?
@@ -133,7 +135,7 @@ begin_scenes() {
         rm -f "$work/${#names[@]}.result" "$work/${#names[@]}.log"
         names+=("scene $(basename "$scene")$kind")
     done
-    while (($(jobs -rp | wc -l) >= processors)); do sleep 0.05; done
+    await_processor
     {
         id=$first start=$SECONDS
         printf 'run "%s" --steps 20\n' "$@" | dotnet "$runner" batch 2>&1 | while IFS= read -r line; do

@@ -64,8 +64,7 @@ public abstract unsafe partial class ShapeBatch
     // Bodies and statics do not hold a removal up: they keep the shape.
     void CheckRemovable(int shapeIndex)
     {
-        if (!Exists(shapeIndex))
-            throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
+        CheckIsThere(Exists(shapeIndex), shapeIndex);
         CheckNoPart(shapeIndex);
     }
 

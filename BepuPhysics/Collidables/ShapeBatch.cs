@@ -362,9 +362,11 @@ public abstract unsafe partial class ShapeBatch
     }
 
     // A shape that was removed can be read by those who still have it.
-    private protected void CheckExists(int shapeIndex)
+    private protected void CheckExists(int shapeIndex) => CheckIsThere(Holds(shapeIndex), shapeIndex);
+
+    void CheckIsThere(bool isThere, int shapeIndex)
     {
-        if (!Holds(shapeIndex))
+        if (!isThere)
             throw new ArgumentOutOfRangeException(nameof(shapeIndex), shapeIndex, $"There is no shape {shapeIndex} of type {TypeId}.");
     }
 

@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Constraints;
-using BepuUtilities.Memory;
 using Xunit;
 
 namespace DemoTests.LoadPath;
@@ -11,9 +10,7 @@ namespace DemoTests.LoadPath;
 /// <summary>Heaps of what hangs together by joints come to rest, as heaps of what does not.</summary>
 public class JoinedHeapTests
 {
-    const float Dt = 1 / 60f;
-
-    // Lifted out of their overlaps as fast as what is not joined, all six of these stirred for ever. Some heap may do so by the luck of its contacts.
+    // Lifted out of their overlaps as fast as what is not joined, four of these six stirred for ever. Some heap may do so by the luck of its contacts.
     [Fact]
     public void Heaps_of_chains_fall_asleep()
     {
@@ -25,21 +22,15 @@ public class JoinedHeapTests
 
     static bool IsAsleep(int chains, int seed, float frequency)
     {
-        using var pool = new BufferPool();
-        bool isAsleep;
-        using (var simulation = Simulation.Create(
-            pool, new DefaultNarrowPhaseCallbacks(), new DefaultPoseIntegratorCallbacks(new Vector3(0, -9.81f, 0)), SolveDescription.Default))
+        using var world = new LoadPathWorld(LoadPathMode.WhereNeeded);
+        var random = new Random(seed);
+        for (int i = 0; i < chains; ++i)
         {
-            simulation.Statics.Add(new StaticDescription(new Vector3(0, -.5f, 0), simulation.Shapes.Add(new Box(200, 1, 200))));
-            var random = new Random(seed);
-            for (int i = 0; i < chains; ++i)
-                AddChain(simulation, new Vector3((random.NextSingle() - .5f) * 2, 1 + i * .5f, (random.NextSingle() - .5f) * 2), frequency, random);
-            for (int step = 0; step < 1200; ++step)
-                simulation.Timestep(Dt);
-            isAsleep = simulation.Bodies.ActiveSet.Count == 0;
+            var start = new Vector3((random.NextSingle() - .5f) * 2, 1 + i * .5f, (random.NextSingle() - .5f) * 2);
+            AddChain(world.Simulation, start, frequency, random);
         }
-        pool.AssertEmpty();
-        return isAsleep;
+        world.Run(20);
+        return world.Simulation.Bodies.ActiveSet.Count == 0;
     }
 
     // Boxes of 1 and 8 kg by turns, with ball joints, and servos where they have a frequency.

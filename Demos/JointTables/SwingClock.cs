@@ -11,6 +11,9 @@ sealed class SwingClock
     /// <summary>Mean duration of the first swings; not a number before there are so many.</summary>
     public double Mean(int count) => crossings.Count > count ? (crossings[count] - crossings[0]) / count : double.NaN;
 
+    /// <summary>Mean duration of all swings; not a number before the first has ended.</summary>
+    public double Mean() => crossings.Count > 1 ? Mean(crossings.Count - 1) : double.NaN;
+
     public void Observe(double time, double value)
     {
         // It is fastest there, so between two looks the crossing is linear to third order.

@@ -54,10 +54,9 @@ sealed unsafe partial class LoadPathStage
 
     bool TouchesOthers(int body)
     {
-        var list = bodies.Awake.Constraints[body];
-        for (int i = 0, edge = list.First; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+        foreach (var constraint in new BodyConstraints(solver, bodies.Awake.Constraints[body]))
         {
-            var typeId = solver.Locations[solver.Edges.ConstraintSlot(edge)].TypeId;
+            var typeId = solver.Locations[constraint.ConnectingConstraintHandle.Slot].TypeId;
             if (typeId is >= ConstraintTypeIds.ContactTwoBody and < ConstraintTypeIds.ContactTypeCount)
                 return true;
         }
