@@ -8,16 +8,16 @@ public static partial class DefaultTypes
 {
     static void RegisterContainers(CollisionTaskRegistry registry)
     {
-        RegisterContainer<Compound>(registry);
-        RegisterContainer<BigCompound>(registry);
-        RegisterContainer<Mesh>(registry);
+        registry.RegisterWithConvex<Compound>();
+        registry.RegisterWithConvex<BigCompound>();
+        registry.RegisterWithConvex<Mesh>();
         registry.Register(new ContainerPairTask<Compound, Compound>());
         registry.Register(new ContainerPairTask<Compound, BigCompound>());
         registry.Register(new ContainerPairTask<BigCompound, BigCompound>());
         registry.Register(new ContainerPairTask<Compound, Mesh>());
         registry.Register(new ContainerPairTask<BigCompound, Mesh>());
         registry.Register(new ContainerPairTask<Mesh, Mesh>());
-        RegisterContainer<HeightField>(registry);
+        registry.RegisterWithConvex<HeightField>();
         RegisterOnGround<Compound>(registry);
         RegisterOnGround<BigCompound>(registry);
         RegisterOnGround<Mesh>(registry);
@@ -28,15 +28,5 @@ public static partial class DefaultTypes
     {
         registry.Register(new ContainerPairTask<TContainer, HeightField>());
         registry.Register(new ContainerPlaneTask<TContainer>());
-    }
-
-    static void RegisterContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer
-    {
-        registry.Register(new ConvexContainerTask<Sphere, SphereWide, TContainer>());
-        registry.Register(new ConvexContainerTask<Capsule, CapsuleWide, TContainer>());
-        registry.Register(new ConvexContainerTask<Box, BoxWide, TContainer>());
-        registry.Register(new ConvexContainerTask<Triangle, TriangleWide, TContainer>());
-        registry.Register(new ConvexContainerTask<Cylinder, CylinderWide, TContainer>());
-        registry.Register(new ConvexContainerTask<ConvexHull, ConvexHullWide, TContainer>());
     }
 }

@@ -3,7 +3,6 @@ using System.Numerics;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
-using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -27,13 +26,6 @@ unsafe interface IContainerBatch
     void GetChild(int shapeIndex, int index, void* scratch, out ContainerChild child);
 }
 
-/// <summary>How far a container reaches, its centre at the origin, m.</summary>
-/// <param name="Min">Lower corner of its box.</param>
-/// <param name="Max">Upper corner of its box.</param>
-/// <param name="MaximumRadius">Distance to its farthest point.</param>
-/// <param name="MaximumAngularExpansion">Greatest way that a turn carries its surface out of the box.</param>
-readonly record struct ContainerExtent(Vector3 Min, Vector3 Max, float MaximumRadius, float MaximumAngularExpansion);
-
 /// <summary>Shapes of one type that are made of children.</summary>
 abstract unsafe class ContainerShapeBatch<TContainer>(BufferPool source, int initialCapacity, Shapes all)
     : ShapeBatch<TContainer>(source, initialCapacity), IContainerBatch where TContainer : unmanaged, IContainer
@@ -43,29 +35,11 @@ abstract unsafe class ContainerShapeBatch<TContainer>(BufferPool source, int ini
 
     public sealed override bool Compound => true;
 
-    /// <summary>Measures a shape, its centre at the origin.</summary>
-    private protected abstract ContainerExtent Measure(int shapeIndex, in Quaternion orientation);
-
     internal override float MaximumRadius(int shapeIndex) => Measure(shapeIndex, Quaternion.Identity).MaximumRadius;
 
     internal sealed override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
-        out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max)
-    {
-        Check.That(shapeIndices.Length <= Vector<float>.Count);
-        maximumRadius = maximumAngularExpansion = default;
-        min = max = default;
-        var turns = orientations;
-        for (int lane = 0; lane < shapeIndices.Length; ++lane)
-        {
-            if (shapeIndices[lane] < 0)
-                continue;
-            var extent = Measure(shapeIndices[lane], Lanes.Read<Quaternion, QuaternionWide>(ref turns, lane));
-            GatherScatter.Get(ref maximumRadius, lane) = extent.MaximumRadius;
-            GatherScatter.Get(ref maximumAngularExpansion, lane) = extent.MaximumAngularExpansion;
-            Lanes.Write(extent.Min, ref min, lane);
-            Lanes.Write(extent.Max, ref max, lane);
-        }
-    }
+        out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max) =>
+        GetBoundsOneByOne(shapeIndices, orientations, out maximumRadius, out maximumAngularExpansion, out min, out max);
 
     int IContainerBatch.ChildCount(int shapeIndex) => Get(shapeIndex).ChildCount;
 

@@ -65,6 +65,12 @@ unsafe interface IContainer : IShape
     /// <summary>Whether the children are in a list. Their boxes are then measured once for all that may touch it, one after the other.</summary>
     static abstract bool IsList { get; }
 
+    /// <summary>
+    /// Whether there are nodes. Of a container without any, children are found by boxes alone: <see cref="Open"/> then writes one box around all of
+    /// them, which is not opened any further.
+    /// </summary>
+    static virtual bool HasNodes => true;
+
     /// <summary>Number of children: their numbers are below it. So are the indices of nodes, of which there are no more.</summary>
     int ChildCount { get; }
 
@@ -126,6 +132,12 @@ unsafe interface IContainer : IShape
         way = default;
         return false;
     }
+
+    /// <summary>Box around a child, its centre at the origin; of containers without nodes only.</summary>
+    /// <param name="child">The child, as it was got.</param>
+    /// <param name="min">Lower corner in the container's frame, m.</param>
+    /// <param name="max">Upper corner, m.</param>
+    static virtual void ComputeChildBounds(in ContainerChild child, out Vector3 min, out Vector3 max) => throw new UnreachableException();
 
     /// <summary>Gets a child.</summary>
     /// <param name="index">Number of the child.</param>

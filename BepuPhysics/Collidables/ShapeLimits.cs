@@ -11,6 +11,9 @@ namespace BepuPhysics.Collidables;
 /// </remarks>
 static class ShapeLimits
 {
+    /// <summary>Greatest type id of the library's own shapes.</summary>
+    public const int LastTypeId = HalfSpace.Id;
+
     /// <summary>Least radius or half extent, m.</summary>
     public const float MinimumSize = Limits.MinimumSize;
     /// <summary>Greatest radius or half extent, m.</summary>

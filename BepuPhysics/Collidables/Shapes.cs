@@ -224,6 +224,9 @@ public sealed partial class Shapes
     /// <summary>Whether there is any shape of a type, be it one that was removed and that bodies or statics still have.</summary>
     internal bool HasAny(int typeIndex) => typeIndex < batches.Length && batches[typeIndex] is { HeldCount: > 0 };
 
+    /// <summary>The shapes of a type; null when none was ever added.</summary>
+    internal ShapeBatch? FindBatch(int typeIndex) => (uint)typeIndex < (uint)batches.Length ? batches[typeIndex] : null;
+
     /// <summary>The batch of a shape that is known to exist, for inner loops.</summary>
     internal ShapeBatch GetBatch(int typeIndex) => batches[typeIndex]!;
 

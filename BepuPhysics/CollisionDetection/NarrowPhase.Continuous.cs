@@ -78,7 +78,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         // A sensor is passed: nothing is foreseen of it.
         tested.IsExact = !tested.IsSensor;
         tested.LeastHit = LeastHitPart * inner;
-        if (!SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+        if (!SweepPairs.IsKnown(shapeA.Type, Simulation.Shapes) || !SweepPairs.IsKnown(shapeB.Type, Simulation.Shapes))
             return false;
         Note(ref workers[workerIndex].Fast, new() { Pair = tested.Pair, Inner = inner, IsSensor = tested.IsSensor }, workers[workerIndex].Pool);
         if (tested.IsSensor)
@@ -205,7 +205,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ContinuityOf(pair.B).Mode != ContinuousDetectionMode.Continuous))
             return false;
         if (!IsFast(shapeA, shapeB, velocityA, velocityB, dt, LateFastPart, out inner, out _, out _) ||
-            !SweepPairs.IsKnown(shapeA.Type) || !SweepPairs.IsKnown(shapeB.Type))
+            !SweepPairs.IsKnown(shapeA.Type, Simulation.Shapes) || !SweepPairs.IsKnown(shapeB.Type, Simulation.Shapes))
             return false;
         if ((Simulation.Layers.IsUsed && !CollisionLayers.MayMeet(Simulation.Layers.Of(pair.A), Simulation.Layers.Of(pair.B))) ||
             (Simulation.Events.UsesSensors && Simulation.Events.CountSensors(pair.A, pair.B) > 0))

@@ -33,7 +33,7 @@ unsafe struct WorldQuery
         Simulation.GetPoseAndShape(collidable, out var pose, out var shape);
         type = shape.Type;
         data = null;
-        if (!SweepPairs.IsKnown(type))
+        if (!SweepPairs.IsKnown(type, Simulation.Shapes))
             return false;
         Collidable = collidable;
         Motion->OrientationB = DoubleMatrix3x3.FromQuaternion(pose.Orientation);

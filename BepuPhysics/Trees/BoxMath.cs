@@ -3,6 +3,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using System.Runtime.Intrinsics.X86;
+using BepuUtilities;
 
 namespace BepuPhysics.Trees;
 
@@ -129,4 +130,14 @@ static unsafe class BoxMath
 
     static void ThrowBox(Vector3 min, Vector3 max) =>
         throw new ArgumentException($"A box must be finite with min <= max on every axis, was min {min}, max {max}.");
+
+    /// <summary>Of coordinates and ways: beyond what boxes lose that are moved or widened.</summary>
+    public const float ReachRounding = 4e-6f;
+
+    /// <summary>Length of the longest side of a box.</summary>
+    public static float GreatestExtent(Vector128<float> min, Vector128<float> max)
+    {
+        var extent = max - min;
+        return MathHelper.Max(extent[0], MathHelper.Max(extent[1], extent[2]));
+    }
 }

@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using System.Runtime.Intrinsics.X86;
+using BepuUtilities;
 
 namespace BepuPhysics.Trees;
 
@@ -16,7 +17,7 @@ namespace BepuPhysics.Trees;
 /// below to zero or above, one on which they are apart a time that is beyond any use. Nothing can become NaN, since nothing is infinite
 /// times zero.
 /// </remarks>
-readonly unsafe struct SlabTest : IBoxTest
+readonly unsafe struct SlabTest : IReachTest
 {
     // Two roundings on each side of the comparison, each half an ulp: a box that is met exactly at an edge must not be lost.
     internal const float Slack = 1 + 4 * 1.1920929e-7f;
@@ -97,4 +98,29 @@ readonly unsafe struct SlabTest : IBoxTest
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector128<float> TurnBack(Vector128<float> value) => Vector128.Shuffle(value, Vector128.Create(2, 0, 1, 3));
+
+    /// <inheritdoc/>
+    public static float Growth => 1;
+
+    /// <inheritdoc/>
+    public readonly float Farther(float length)
+    {
+        var inverse = Vector128.Abs(inverseDirection);
+        return length * MathHelper.Min(inverse[0], MathHelper.Min(inverse[1], inverse[2]));
+    }
+
+    /// <inheritdoc/>
+    public readonly float Extent => BoxMath.GreatestExtent(lower, upper);
+
+    /// <inheritdoc/>
+    public readonly void Reach(float from, float to, out Vector3 min, out Vector3 max)
+    {
+        min = lower.AsVector3();
+        max = upper.AsVector3();
+        var direction = Vector3.One / inverseDirection.AsVector3();
+        Vector3 begin = direction * from, end = direction * to;
+        var rounding = (Vector3.Abs(min) + Vector3.Abs(max) + Vector3.Abs(end)) * BoxMath.ReachRounding;
+        min += Exact.Min(begin, end) - rounding;
+        max += Exact.Max(begin, end) + rounding;
+    }
 }

@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using BepuUtilities;
+using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Trees;
@@ -19,6 +20,30 @@ public unsafe partial struct Tree
     {
         RequireQuery(min, max);
         FindOverlapping(min.AsVector128(), max.AsVector128(), ref leafEnumerator);
+    }
+
+    /// <summary>Appends the leaves whose boxes overlap or touch a box, in no particular order, but in the same one for the same tree.</summary>
+    /// <param name="min">Lower corner of the box; no component may be NaN.</param>
+    /// <param name="max">Upper corner of the box, nowhere below the lower; infinite components are allowed.</param>
+    /// <param name="overlaps">Receives the indices of the leaves, behind those that are in it.</param>
+    /// <param name="pool">Source of the list's memory.</param>
+    public readonly void GetOverlaps(Vector3 min, Vector3 max, ref QuickList<int> overlaps, BufferPool pool)
+    {
+        var collector = new LeafCollector { Leaves = overlaps, Pool = pool };
+        GetOverlaps(min, max, pool, ref collector);
+        overlaps = collector.Leaves;
+    }
+
+    struct LeafCollector : IBreakableForEach<int>
+    {
+        public QuickList<int> Leaves;
+        public BufferPool Pool;
+
+        public bool LoopBody(int i)
+        {
+            Leaves.Add(i, Pool);
+            return true;
+        }
     }
 
     /// <summary>As a box that was checked: of one that is looked for in several trees once.</summary>

@@ -164,9 +164,7 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
         Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
     {
         int first = found.Count;
-        var collector = new Collector { Found = found, Pool = pool };
-        Tree.GetOverlaps(min, max, pool, ref collector);
-        found = collector.Found;
+        Tree.GetOverlaps(min, max, ref found, pool);
         // From the last on, so that what is added behind is not looked at.
         for (int i = found.Count - 1; i >= first; --i)
         {
@@ -181,16 +179,4 @@ public unsafe struct BigCompound : ICompoundShape, IContainer
 
     readonly void IContainer.GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child) =>
         ContainerChildren.Get(Children, index, shapes, scratch, out child);
-
-    struct Collector : IBreakableForEach<int>
-    {
-        public QuickList<int> Found;
-        public BufferPool Pool;
-
-        public bool LoopBody(int i)
-        {
-            Found.Add(i, Pool);
-            return true;
-        }
-    }
 }

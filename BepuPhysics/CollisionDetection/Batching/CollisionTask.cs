@@ -30,7 +30,7 @@ public abstract unsafe class CollisionTask
                 $"Name {shapeB.Name} (type id {ShapeTypeIndexB}) before {shapeA.Name} (type id {ShapeTypeIndexA}).");
     }
 
-    /// <summary>Type id of the first shape, no greater than that of the second.</summary>
+    /// <summary>Type id of the first shape; no greater than that of the second, unless one of the two is a game's own.</summary>
     public int ShapeTypeIndexA { get; }
 
     /// <summary>Type id of the second shape.</summary>

@@ -6,7 +6,7 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>Knows which task tests which pair of shape types.</summary>
 /// <remarks>Any number of threads may read at once; register tasks before the registry is used.</remarks>
-public sealed class CollisionTaskRegistry
+public sealed partial class CollisionTaskRegistry
 {
     CollisionTask[] tasks = [];
     // By first and second type id: the index of the task, twice, plus one where the task has the types in the other order; -1 for none.
@@ -32,19 +32,17 @@ public sealed class CollisionTaskRegistry
     public int Register(CollisionTask task)
     {
         ArgumentNullException.ThrowIfNull(task);
-        Grow(task.ShapeTypeIndexB + 1);
-        ref var reference = ref references[task.ShapeTypeIndexA * typeSpan + task.ShapeTypeIndexB];
-        if (reference >= 0)
+        Grow(Math.Max(task.ShapeTypeIndexA, task.ShapeTypeIndexB) + 1);
+        var taskIndex = Find(task.ShapeTypeIndexA, task.ShapeTypeIndexB) >> 1;
+        if (taskIndex < 0)
         {
-            tasks[reference >> 1] = task;
-            return reference >> 1;
+            taskIndex = tasks.Length;
+            Array.Resize(ref tasks, taskIndex + 1);
         }
-        var taskIndex = tasks.Length;
-        Array.Resize(ref tasks, taskIndex + 1);
         tasks[taskIndex] = task;
         // The second line first: for two shapes of one type it is the same element, which is in order.
         references[task.ShapeTypeIndexB * typeSpan + task.ShapeTypeIndexA] = (short)(taskIndex * 2 + 1);
-        reference = (short)(taskIndex * 2);
+        references[task.ShapeTypeIndexA * typeSpan + task.ShapeTypeIndexB] = (short)(taskIndex * 2);
         return taskIndex;
     }
 
@@ -101,7 +99,7 @@ public sealed class CollisionTaskRegistry
 
     [DoesNotReturn]
     void ThrowUnregistered(int shapeTypeA, int shapeTypeB) => throw new InvalidOperationException(
-        $"No collision task is registered for {Describe(shapeTypeA)} and {Describe(shapeTypeB)}.");
+        $"No collision task is registered for {Describe(shapeTypeA)} and {Describe(shapeTypeB)}.{Advise(Math.Max(shapeTypeA, shapeTypeB))}");
 
     string Describe(int shapeType)
     {

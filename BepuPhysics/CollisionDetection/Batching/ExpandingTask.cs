@@ -1,6 +1,5 @@
 using System.Diagnostics;
 using System.Numerics;
-using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -101,7 +100,7 @@ abstract unsafe class ExpandingTask : CollisionTask
 }
 
 /// <summary>Keeps the parents of two shape types.</summary>
-/// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
+/// <typeparam name="TShapeA">First shape; of any type id.</typeparam>
 /// <typeparam name="TShapeB">Second shape.</typeparam>
 abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.TypeId, TShapeB.TypeId, Describe(typeof(TShapeA), typeof(TShapeB)))
     where TShapeA : unmanaged, IShape where TShapeB : unmanaged, IShape
@@ -122,7 +121,7 @@ abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.
     internal sealed override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {
-        WriteDirectly(ref batch, Find<TShapeA>(shapes, shapeIndexA), Find<TShapeB>(shapes, shapeIndexB), offsetB, orientationA, orientationB, pair);
+        WriteDirectly(ref batch, Find(shapes, TShapeA.TypeId, shapeIndexA), Find(shapes, TShapeB.TypeId, shapeIndexB), offsetB, orientationA, orientationB, pair);
         ref var parent = ref Parent(batch, batch.Count - 1);
         parent.NameA = new(TShapeA.TypeId, shapeIndexA);
         parent.NameB = new(TShapeB.TypeId, shapeIndexB);
@@ -130,8 +129,8 @@ abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.
             (parent.NameA, parent.NameB) = (parent.NameB, parent.NameA);
     }
 
-    static void* Find<TShape>(Shapes shapes, int index) where TShape : unmanaged, IShape =>
-        Unsafe.AsPointer(ref Unsafe.As<ShapeBatch<TShape>>(shapes.GetBatch(TShape.TypeId)).Get(index));
+    // Not by its type, which is another one than that of the batch where it is a game's own.
+    static void* Find(Shapes shapes, int typeId, int index) => shapes.GetBatch(typeId).GetPointer(index);
 
     internal sealed override void WriteDirectly(ref PairBatch batch, void* shapeA, void* shapeB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)

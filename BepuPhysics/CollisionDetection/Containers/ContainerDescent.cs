@@ -1,4 +1,5 @@
 using System;
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
@@ -11,7 +12,8 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Finds which children of two containers may touch, by going down both at once, in the frame of the first.</summary>
 /// <remarks>
 /// Of two nodes that overlap the one with more children below is opened. So all children of one are never tried against the other, unless
-/// one of the two is a list. A node is opened anew for each it meets, and each two children meet once.
+/// one of the two is a list. A node is opened anew for each it meets, and each two children meet once. Of a first container without nodes those children
+/// are a list that are in the box of the other; where one of two has none it is the first.
 /// The children of a list ask the tree of the other, each with a box in the tree's own frame: a tree is searched by a box in a tenth of the
 /// time that it takes to bring the nodes on the way into the frame of the list.
 /// </remarks>
@@ -28,7 +30,7 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
     const int QuestionCapacity = 8;
 
     /// <summary>Whether children of A ask B.</summary>
-    public static bool IsAsked => TContainerA.IsList && !TContainerB.IsList;
+    public static bool IsAsked => (TContainerA.IsList || !TContainerA.HasNodes) && !TContainerB.IsList;
 
     QuickList<NodePair> stack;
     Buffer<NodeChild> belowA, belowB;
@@ -50,7 +52,9 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
         Shapes shapes, ref QuickList<FoundChild> found, BufferPool pool)
     {
         var descent = new ContainerDescent<TContainerA, TContainerB> { pool = pool, parent = parent, flipped = flipped };
-        var countA = ContainerPlaces.Open(a, 0, shapes, ref descent.belowA, pool);
+        var countA = TContainerA.HasNodes
+            ? ContainerPlaces.Open(a, 0, shapes, ref descent.belowA, pool)
+            : descent.ListNear(a, b, placementB, shapes);
         if (IsAsked)
             countA = descent.Ask(b, placementA, countA, shapes, ref found);
         if (countA > 0)
@@ -60,7 +64,21 @@ unsafe ref struct ContainerDescent<TContainerA, TContainerB>
             descent.stack.Dispose(pool);
             pool.Return(ref descent.belowB);
         }
-        pool.Return(ref descent.belowA);
+        pool.ReturnIfTaken(ref descent.belowA);
+    }
+
+    // Of a container without nodes, the children that are near the other one: they are a list.
+    int ListNear(in TContainerA a, in TContainerB b, in NodePlacement placement, Shapes shapes)
+    {
+        Vector3 min = new(float.MaxValue), max = new(-float.MaxValue);
+        for (int i = OpenB(b, 0, placement, shapes) - 1; i >= 0; --i)
+        {
+            min = Exact.Min(min, belowB[i].Min);
+            max = Exact.Max(max, belowB[i].Max);
+        }
+        var count = min.X <= max.X ? ContainerReach.ListOverlaps(a, min, max, shapes, ref belowA, pool) : 0;
+        pool.ReturnIfTaken(ref belowB);
+        return count;
     }
 
     // What is made of children itself is left at the front of the list.

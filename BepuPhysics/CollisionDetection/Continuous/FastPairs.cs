@@ -220,7 +220,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
             // A game may have removed one of them since collisions were detected, or given it another shape.
             pair.Passes = !TryFind(pair.Pair.A, out pair.ShapeA, out pair.PoseA, out pair.A) ||
                 !TryFind(pair.Pair.B, out pair.ShapeB, out pair.PoseB, out pair.B) ||
-                !SweepPairs.IsKnown(pair.ShapeA.Type) || !SweepPairs.IsKnown(pair.ShapeB.Type);
+                !SweepPairs.IsKnown(pair.ShapeA.Type, simulation.Shapes) || !SweepPairs.IsKnown(pair.ShapeB.Type, simulation.Shapes);
             if (pair.Passes)
                 pair.A = pair.B = -1;
             pair.NextOfA = Link(ref pair.A, i);

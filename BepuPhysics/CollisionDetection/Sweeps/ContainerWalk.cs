@@ -32,9 +32,14 @@ static unsafe class ContainerWalk
     /// <param name="shapes">Shapes that children refer to.</param>
     /// <param name="pool">Source of temporary memory.</param>
     public static void Visit<TContainer, TTest, TVisitor>(in TContainer container, ref TVisitor visitor, Shapes shapes, BufferPool pool)
-        where TContainer : unmanaged, IContainer where TTest : struct, IBoxTest
+        where TContainer : unmanaged, IContainer where TTest : struct, IReachTest
         where TVisitor : struct, IChildVisitor<TTest>, allows ref struct
     {
+        if (!TContainer.HasNodes)
+        {
+            VisitByReach<TContainer, TTest, TVisitor>(container, ref visitor, shapes, pool);
+            return;
+        }
         var stack = new QuickList<Pending>(InitialCapacity, pool);
         var below = default(Buffer<NodeChild>);
         try
@@ -50,7 +55,7 @@ static unsafe class ContainerWalk
 
     static void Visit<TContainer, TTest, TVisitor>(in TContainer container, ref TVisitor visitor, Shapes shapes,
         ref QuickList<Pending> stack, ref Buffer<NodeChild> below, BufferPool pool)
-        where TContainer : unmanaged, IContainer where TTest : struct, IBoxTest
+        where TContainer : unmanaged, IContainer where TTest : struct, IReachTest
         where TVisitor : struct, IChildVisitor<TTest>, allows ref struct
     {
         var count = ContainerPlaces.Open(container, 0, shapes, ref below, pool);
@@ -68,19 +73,56 @@ static unsafe class ContainerWalk
                 Push(test, below, count, visitor.Maximum, ref stack, pool);
                 continue;
             }
-            var index = ~pending.Index;
-            if (!visitor.Allows(index))
-                continue;
-            container.GetChild(index, shapes, (byte*)scratch, out var child);
-            if (ImpactCore.Exists(child.TypeId))
-                visitor.Visit(index, child);
+            VisitChild<TContainer, TTest, TVisitor>(container, ~pending.Index, ref visitor, shapes, scratch);
         }
+    }
+
+    // Of a container without nodes.
+    static void VisitByReach<TContainer, TTest, TVisitor>(in TContainer container, ref TVisitor visitor, Shapes shapes, BufferPool pool)
+        where TContainer : unmanaged, IContainer where TTest : struct, IReachTest
+        where TVisitor : struct, IChildVisitor<TTest>, allows ref struct
+    {
+        NodeChild root;
+        var count = container.Open(0, shapes, &root);
+        var test = visitor.CreateTest(new(&root, 1), count);
+        if (count == 0)
+            return;
+        var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
+        var reached = new Reached<TContainer, TTest, TVisitor>(container, visitor, shapes, scratch);
+        ContainerReach.Visit(container, test, root, ref reached, shapes, pool);
+    }
+
+    // A visitor is a copy of itself: what it finds is elsewhere.
+    ref struct Reached<TContainer, TTest, TVisitor>(in TContainer container, in TVisitor visitor, Shapes shapes, void* scratch) : IReachVisitor
+        where TContainer : unmanaged, IContainer where TTest : struct, IReachTest
+        where TVisitor : struct, IChildVisitor<TTest>, allows ref struct
+    {
+        readonly ref readonly TContainer container = ref container;
+        TVisitor visitor = visitor;
+        readonly void* scratch = scratch;
+
+        public readonly float Maximum => visitor.Maximum;
+
+        public readonly bool IsDone => visitor.IsDone;
+
+        public void Visit(int index) => VisitChild<TContainer, TTest, TVisitor>(container, index, ref visitor, shapes, scratch);
+    }
+
+    static void VisitChild<TContainer, TTest, TVisitor>(in TContainer container, int index, ref TVisitor visitor, Shapes shapes, void* scratch)
+        where TContainer : unmanaged, IContainer where TTest : struct, IReachTest
+        where TVisitor : struct, IChildVisitor<TTest>, allows ref struct
+    {
+        if (!visitor.Allows(index))
+            return;
+        container.GetChild(index, shapes, scratch, out var child);
+        if (ImpactCore.Exists(child.TypeId))
+            visitor.Visit(index, child);
     }
 
     // The nearest last, so that it is taken first.
     static void Push<TTest>(
         in TTest test, Buffer<NodeChild> below, int count, float maximum, ref QuickList<Pending> stack, BufferPool pool)
-        where TTest : struct, IBoxTest
+        where TTest : struct, IReachTest
     {
         var first = stack.Count;
         stack.EnsureCapacity(first + count, pool);

@@ -19,7 +19,7 @@ static unsafe class DistancePairs
         Shapes shapes, BufferPool pool, ref NearestPart nearest) where TFilter : ISweepFilter
     {
         var distance = new ContainerDistance<TFilter>(motion, ref a, ref filter, shapes, pool, ref nearest);
-        if (!ContainerTypes.TryUse(typeB, b, ref distance))
+        if (!ContainerTypes.TryUse(typeB, b, shapes, ref distance))
             nearest.Test(motion, ref a, ImpactCore.Of(typeB, b), RigidPose.Identity, 0);
     }
 }

@@ -6,7 +6,7 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>What is asked of the children of a container, near ones first.</summary>
 /// <typeparam name="TTest">What is asked of their boxes.</typeparam>
-interface IChildVisitor<TTest> where TTest : struct, IBoxTest
+interface IChildVisitor<TTest> where TTest : struct, IReachTest
 {
     /// <summary>Makes the test of boxes.</summary>
     /// <param name="root">What is below the root of the container.</param>

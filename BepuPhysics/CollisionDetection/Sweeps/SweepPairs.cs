@@ -12,6 +12,10 @@ static unsafe class SweepPairs
     /// <summary>Whether shapes of a type can be swept, or met by what is swept.</summary>
     public static bool IsKnown(int typeId) => ImpactCore.Exists(typeId) || ContainerChildren.IsContainer(typeId);
 
+    /// <summary>Whether shapes of a type, which may be a game's own, can be swept, or met by what is swept.</summary>
+    public static bool IsKnown(int typeId, Shapes shapes) =>
+        typeId <= ShapeLimits.LastTypeId ? IsKnown(typeId) : shapes.FindBatch(typeId) is IHomogeneousBatch;
+
     /// <summary>Tests two shapes.</summary>
     /// <param name="motion">How the bodies move.</param>
     /// <param name="typeA">Type of the first shape.</param>
@@ -35,7 +39,7 @@ static unsafe class SweepPairs
         if (!ImpactCore.Exists(typeB))
         {
             var children = new Children<TFilter>(motion, typeB, b, ref filter, shapes, pool, ref hit);
-            ContainerTypes.TryUse(typeA, a, ref children);
+            ContainerTypes.TryUse(typeA, a, shapes, ref children);
             return;
         }
         var flipped = motion with
@@ -69,7 +73,7 @@ static unsafe class SweepPairs
         ref TFilter filter, bool isFlipped, Shapes shapes, BufferPool pool, ref SweepHit hit) where TFilter : ISweepFilter
     {
         var sweep = new ContainerSweep<TFilter>(motion, ref part, partIndex, ref filter, isFlipped, shapes, pool, ref hit);
-        if (ContainerTypes.TryUse(typeB, b, ref sweep))
+        if (ContainerTypes.TryUse(typeB, b, shapes, ref sweep))
             return;
         var core = motion.CoreOf(typeB, b);
         part.Restart();

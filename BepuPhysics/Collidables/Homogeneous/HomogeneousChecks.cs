@@ -1,0 +1,45 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>What is refused of shapes of a game's own. Not in what is generic, where it would be compiled for each type.</summary>
+static class HomogeneousChecks
+{
+    /// <summary>Refuses the id of a type of a game's own.</summary>
+    /// <param name="type">The type.</param>
+    /// <param name="typeId">Its id.</param>
+    public static void TypeId(Type type, int typeId)
+    {
+        if (typeId is <= ShapeLimits.LastTypeId or >= TypedIndex.MaximumTypeCount)
+        {
+            throw new InvalidOperationException($"{type.Name} has type id {typeId}. Those from 0 to {ShapeLimits.LastTypeId} are the library's: give it one from " +
+                $"{ShapeLimits.LastTypeId + 1} to {TypedIndex.MaximumTypeCount - 1} that no other type of shape has.");
+        }
+    }
+
+    /// <summary>Refuses children that are too large, or have no end.</summary>
+    /// <param name="type">Type of the shape.</param>
+    /// <param name="child">Type of its children.</param>
+    /// <param name="childTypeId">Its id.</param>
+    /// <param name="childByteCount">Size of a child.</param>
+    public static void Child(Type type, Type child, int childTypeId, int childByteCount)
+    {
+        if (childByteCount > IContainer.ScratchByteCount)
+        {
+            throw new InvalidOperationException(
+                $"A {child.Name} is of {childByteCount} bytes: children of a {type.Name} may be of {IContainer.ScratchByteCount} at most. " +
+                "What they have in common, or is long, may lie in memory that they point to.");
+        }
+        if (childTypeId == HalfSpace.Id)
+            throw new InvalidOperationException($"Children of a {type.Name} are of type {child.Name}, which has no end: a child must have one.");
+    }
+
+    [DoesNotReturn]
+    public static void ThrowNoChild(Type type, int index, int childCount) => throw new InvalidOperationException(
+        $"{type.Name}.FindLocalOverlaps told of child {index} of {childCount}. Children have the numbers below ChildCount.");
+
+    [DoesNotReturn]
+    public static void ThrowTaken(Type type) => throw new InvalidOperationException(
+        $"{type.Name}.FindLocalOverlaps took children out of the list: it only adds those that it finds.");
+}

@@ -1,0 +1,79 @@
+using System;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Trees;
+using BepuUtilities;
+using BepuUtilities.Collections;
+using BepuUtilities.Memory;
+
+namespace BepuPhysics.Collidables;
+
+/// <summary>A shape of a game's own as the library knows shapes made of children. It is the shape, and nothing else: a pointer to one is a pointer to
+/// the other.</summary>
+/// <remarks>It has no nodes, as the game is not asked for any: how it finds its children is its own business.</remarks>
+unsafe struct HomogeneousContainer<TShape, TChildShape, TChildShapeWide> : IContainer
+    where TShape : unmanaged, IHomogeneousCompoundShape<TChildShape, TChildShapeWide>
+    where TChildShape : unmanaged, IConvexShape where TChildShapeWide : unmanaged, IShapeWide<TChildShape>
+{
+    /// <summary>The shape.</summary>
+    public TShape Shape;
+
+    public static int TypeId => TShape.TypeId;
+
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        TShape.CreateShapeBatch(pool, initialCapacity, shapes);
+
+    public readonly void Validate() => Shape.Validate();
+
+    public static bool IsList => false;
+
+    public static bool HasNodes => false;
+
+    public readonly int ChildCount => Shape.ChildCount;
+
+    public readonly int FanOut(int node, Shapes shapes) => 1;
+
+    public readonly int Open(int node, Shapes shapes, NodeChild* below)
+    {
+        if (Shape.ChildCount == 0)
+            return 0;
+        *below = new() { LeafCount = Shape.ChildCount };
+        Shape.ComputeBounds(Quaternion.Identity, out below->Min, out below->Max);
+        return 1;
+    }
+
+    public readonly void FindOverlaps(
+        Vector3 min, Vector3 max, in ShapeOutline outline, Shapes shapes, NodeChild* list, ref QuickList<int> found, BufferPool pool)
+    {
+        var first = found.Count;
+        Shape.FindLocalOverlaps(min, max, ref found, pool);
+        // Before a number that is none leads to memory that is none.
+        var childCount = (uint)Shape.ChildCount;
+        if (found.Count < first)
+            HomogeneousChecks.ThrowTaken(typeof(TShape));
+        for (int i = first; i < found.Count; ++i)
+        {
+            if ((uint)found[i] >= childCount)
+                HomogeneousChecks.ThrowNoChild(typeof(TShape), found[i], (int)childCount);
+        }
+    }
+
+    // A box of the child's own is exact to a few roundings; what it touches is to be found all the same.
+    public static void ComputeChildBounds(in ContainerChild child, out Vector3 min, out Vector3 max)
+    {
+        const float Rounding = 2e-6f;
+        ((TChildShape*)child.Shape)->ComputeBounds(child.Pose.Orientation, out min, out max);
+        var rounding = (Exact.Max(Vector3.Abs(min), Vector3.Abs(max)) + Vector3.Abs(child.Pose.Position)) * Rounding;
+        min -= rounding;
+        max += rounding;
+    }
+
+    public readonly void GetChild(int index, Shapes shapes, void* scratch, out ContainerChild child)
+    {
+        child.TypeId = TChildShape.TypeId;
+        child.Shape = scratch;
+        child.Name = default;
+        child.Cone = default;
+        Shape.GetPosedLocalChild(index, out Unsafe.AsRef<TChildShape>(scratch), out child.Pose);
+    }
+}

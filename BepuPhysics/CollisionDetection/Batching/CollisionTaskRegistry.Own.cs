@@ -1,0 +1,87 @@
+using System;
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+// Types of shapes that games make.
+public sealed partial class CollisionTaskRegistry
+{
+    OwnShapeType[] ownTypes = [];
+
+    /// <summary>
+    /// Registers a type of shapes of a game's own that are made of children of one type, with tasks for it and every other type of shape: the library's, and
+    /// those that were registered before it. A type that is registered already stays as it is.
+    /// </summary>
+    /// <typeparam name="TShape">Type of the shapes; of an id from 11 to 127.</typeparam>
+    /// <typeparam name="TChildShape">Type of their children: one of the library's, or one that is registered too.</typeparam>
+    /// <typeparam name="TChildShapeWide">Wide form of the children.</typeparam>
+    /// <exception cref="InvalidOperationException">
+    /// The type has the id of another one, or its children are none that a shape can have; nothing was changed.
+    /// </exception>
+    public unsafe void RegisterHomogeneousCompound<TShape, TChildShape, TChildShapeWide>()
+        where TShape : unmanaged, IHomogeneousCompoundShape<TChildShape, TChildShapeWide>
+        where TChildShape : unmanaged, IConvexShape where TChildShapeWide : unmanaged, IShapeWide<TChildShape>
+    {
+        HomogeneousChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
+        var own = new OwnContainerType<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(typeof(TShape));
+        if (TryAdd(own))
+            RegisterOwnContainer<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(own);
+    }
+
+    void RegisterOwnContainer<TContainer>(OwnShapeType own) where TContainer : unmanaged, IContainer
+    {
+        RegisterWithConvex<TContainer>();
+        Register(new ContainerPlaneTask<TContainer>());
+        own.MeetContainer<Compound>(this);
+        own.MeetContainer<BigCompound>(this);
+        own.MeetContainer<Mesh>(this);
+        own.MeetContainer<HeightField>(this);
+        MeetOwn(own);
+    }
+
+    /// <summary>Registers what tests pairs of a type that is made of children and each of the library's convex types, but half-spaces.</summary>
+    internal void RegisterWithConvex<TContainer>() where TContainer : unmanaged, IContainer
+    {
+        Register(new ConvexContainerTask<Sphere, SphereWide, TContainer>());
+        Register(new ConvexContainerTask<Capsule, CapsuleWide, TContainer>());
+        Register(new ConvexContainerTask<Box, BoxWide, TContainer>());
+        Register(new ConvexContainerTask<Triangle, TriangleWide, TContainer>());
+        Register(new ConvexContainerTask<Cylinder, CylinderWide, TContainer>());
+        Register(new ConvexContainerTask<ConvexHull, ConvexHullWide, TContainer>());
+    }
+
+    // Itself is among those that there are.
+    void MeetOwn(OwnShapeType own)
+    {
+        foreach (var other in ownTypes)
+            own.Meet(other, this);
+    }
+
+    bool TryAdd(OwnShapeType own)
+    {
+        HomogeneousChecks.TypeId(own.Type, own.TypeId);
+        foreach (var other in ownTypes)
+        {
+            if (other.TypeId != own.TypeId)
+                continue;
+            if (other.Type == own.Type)
+                return false;
+            throw new InvalidOperationException($"{own.Type.Name} has type id {own.TypeId}, which {other.Type.Name} already has. Each type needs one of its own.");
+        }
+        ownTypes = [.. ownTypes, own];
+        return true;
+    }
+
+    // What to do about a type that nothing is registered for.
+    string Advise(int shapeType)
+    {
+        if (shapeType <= ShapeLimits.LastTypeId)
+            return "";
+        foreach (var own in ownTypes)
+        {
+            if (own.TypeId == shapeType)
+                return "";
+        }
+        return $" Register the type of id {shapeType} before the first step, by {nameof(CollisionTaskRegistry)}.{nameof(RegisterHomogeneousCompound)}.";
+    }
+}

@@ -1,0 +1,29 @@
+using System;
+using BepuPhysics.Collidables;
+
+namespace BepuPhysics.CollisionDetection;
+
+/// <summary>A type of shapes that a game has made, and how it meets others: of two such types each knows only its own shape at compile time.</summary>
+abstract class OwnShapeType(Type type, int typeId)
+{
+    /// <summary>The type of the shapes.</summary>
+    public Type Type { get; } = type;
+
+    /// <summary>Its id.</summary>
+    public int TypeId { get; } = typeId;
+
+    /// <summary>Registers what tests pairs of this type and another one that a game has made.</summary>
+    public abstract void Meet(OwnShapeType other, CollisionTaskRegistry registry);
+
+    /// <summary>Registers what tests pairs of this type and a type that is made of children.</summary>
+    public abstract void MeetContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer;
+}
+
+/// <summary>A type whose shapes are made of children.</summary>
+sealed class OwnContainerType<TContainer>(Type type) : OwnShapeType(type, TContainer.TypeId) where TContainer : unmanaged, IContainer
+{
+    public override void Meet(OwnShapeType other, CollisionTaskRegistry registry) => other.MeetContainer<TContainer>(registry);
+
+    // It has no nodes, so it is the first.
+    public override void MeetContainer<TOther>(CollisionTaskRegistry registry) => registry.Register(new ContainerPairTask<TContainer, TOther>());
+}
