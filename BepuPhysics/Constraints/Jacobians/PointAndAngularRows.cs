@@ -11,7 +11,7 @@ namespace BepuPhysics.Constraints;
 struct PointAndAngularRows : IPointJacobian<PointAndAngularRows, TwoBodies, Rows6, RowMatrix6>
 {
     /// <inheritdoc/>
-    public static BodyAccess Access => BodyAccess.Orientation | BodyAccess.Velocity | BodyAccess.Mass;
+    public static BodyAccess Access => BodyAccess.Pose | BodyAccess.Velocity | BodyAccess.Mass;
 
     /// <inheritdoc/>
     public static bool IsLinear(int row) => row < 3;
