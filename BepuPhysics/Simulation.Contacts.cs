@@ -33,7 +33,7 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THandler : struct, IShapeContactHandler
     {
         using var reading = world.Read("Simulation.FindContacts");
-        SweepChecks.Shape(shape, "have no contacts");
+        SweepChecks.Shape(shape, Shapes, "have no contacts");
         BodyChecks.Pose(pose);
         BoxMath.RequireLength(margin);
         ArgumentOutOfRangeException.ThrowIfEqual(margin, float.PositiveInfinity);

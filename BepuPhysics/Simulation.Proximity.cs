@@ -32,9 +32,9 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THandler : IProximityHandler
     {
         using var reading = world.Read("Simulation.FindNear");
-        SweepChecks.Shape(shape, "have no distances");
+        SweepChecks.Shape(shape, Shapes, "have no distances");
         var near = shape;
-        FindNear(ImpactCore.Of(TShape.TypeId, &near), pose, maximumDistance, pool, ref handler, layers);
+        FindNear(ImpactCore.Of(TShape.TypeId, &near, Shapes), pose, maximumDistance, pool, ref handler, layers);
     }
 
     /// <summary>Finds what is within a distance of a point.</summary>

@@ -82,7 +82,7 @@ public sealed unsafe partial class Simulation
         where TShape : unmanaged, IConvexShape where THitHandler : ISweepHitHandler
     {
         using var reading = world.Read("Simulation.Sweep");
-        SweepChecks.Shape(shape, "cannot be swept");
+        SweepChecks.Shape(shape, Shapes, "cannot be swept");
         BodyChecks.Pose(pose);
         BodyChecks.Velocity(velocity);
         SweepChecks.Length(maximumT, pool);
@@ -95,7 +95,7 @@ public sealed unsafe partial class Simulation
             MaximumT = maximumT,
             Accuracy = accuracy,
         };
-        var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &swept), motion.OrientationA, motion.AngularA);
+        var body = new ImpactBody(ImpactCore.Of(TShape.TypeId, &swept, Shapes), motion.OrientationA, motion.AngularA);
         var tester = new WorldSweep<THitHandler>
         {
             Handler = hitHandler,

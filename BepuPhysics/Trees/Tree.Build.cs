@@ -22,6 +22,12 @@ public unsafe partial struct Tree
     /// <summary>Replaces the content of the tree: leaf i gets box i. Leaves the nodes in depth-first order.</summary>
     public void BinnedBuild(ReadOnlySpan<BoundingBox> leafBounds, BufferPool pool) => BinnedBuild(leafBounds, pool, null);
 
+    /// <summary>As <see cref="BinnedBuild(ReadOnlySpan{BoundingBox}, BufferPool)"/>: there is one way to build a tree.</summary>
+    /// <param name="pool">Source of memory.</param>
+    /// <param name="leafBounds">Boxes of the leaves.</param>
+    public void SweepBuild(BufferPool pool, Buffer<BoundingBox> leafBounds) =>
+        BinnedBuild(new ReadOnlySpan<BoundingBox>(leafBounds.Memory, leafBounds.Length), pool);
+
     /// <summary>As <see cref="BinnedBuild(ReadOnlySpan{BoundingBox}, BufferPool)"/>, on many threads if the tree is large: the same tree.</summary>
     internal void BinnedBuild(ReadOnlySpan<BoundingBox> leafBounds, BufferPool pool, IThreadDispatcher? dispatcher)
     {

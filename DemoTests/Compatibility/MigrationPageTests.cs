@@ -56,6 +56,8 @@ public partial class MigrationPageTests
         ["ContactEvents"] = "ContactEventHandlerTests",
         ["deep overlaps"] = "DepthSearchAccuracyTests",
         ["shapes without a size"] = "BadInputTests.X13_IsRefused",
+        ["a game's own voxels"] = "VoxelMotionTests.What_falls_on_them_moves_as_on_a_compound_of_cubes",
+        ["a game's own convex shape"] = "OwnConvexTests.A_cone_stands_on_its_base",
         ["a pair of shapes"] = "BatchingTests.UnregisteredPairIsRefusedByName",
         ["bad numbers"] = "BadInputTests.X13_IsRefused",
         ["handle.Value"] = "HandleGenerationTests.A_slot_is_given_out_again_under_another_value_and_is_found_by_it",

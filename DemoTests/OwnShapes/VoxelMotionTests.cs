@@ -130,6 +130,28 @@ public class VoxelMotionTests
         Assert.InRange(Vector3.Transform(Vector3.UnitY, reference.Pose.Orientation).Y, 1 - 1e-6f, 1);
     }
 
+    /// <summary>Over the seams of voxels; not turned, so that the seams of both are along each other, and turned.</summary>
+    [Theory, InlineData(0), InlineData(.3f)]
+    public void Voxels_that_slide_on_voxels_keep_their_speed(float turn)
+    {
+        using var world = new VoxelWorld();
+        world.AddStatic(world.Create(30, 1, 30, 1, new Vector3(-15, -1, -15), (_, _, _) => true), RigidPose.Identity);
+        var way = Vector3.Transform(Vector3.UnitX, Quaternion.CreateFromAxisAngle(Vector3.UnitY, turn));
+        var body = world.AddBody(world.Create(3, 1, 2, .5f, default, (_, _, _) => true),
+            new RigidPose(new Vector3(0, .25f, 0) - way * 5, Quaternion.CreateFromAxisAngle(Vector3.UnitY, turn)), new BodyVelocity(way * 5));
+        var reference = world.Simulation.Bodies[body];
+        var box = world.AddBody(new Box(1.5f, .5f, 1), new RigidPose(new Vector3(0, .25f, 8)), new BodyVelocity(Vector3.UnitX * 5));
+        for (int i = 0; i < 60; ++i)
+        {
+            world.Step();
+            var expected = world.Simulation.Bodies[box];
+            // The box is on voxels too, and has no seams of its own.
+            Assert.Equal(expected.Velocity.Linear.X, Vector3.Dot(reference.Velocity.Linear, way), .05f);
+            Assert.Equal(expected.Velocity.Linear.Y, reference.Velocity.Linear.Y, .005f);
+            Assert.Equal(expected.Pose.Position.Y, reference.Pose.Position.Y, 3e-4f);
+        }
+    }
+
     [Fact]
     public void Inertia_of_a_cube_of_cubes_is_that_of_one()
     {

@@ -1,7 +1,9 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
+using BepuPhysics.CollisionDetection;
 using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
@@ -124,5 +126,125 @@ static partial class DocSamples
         voxels[x, y, z] = false;
         // What sleeps on it wakes up.
         simulation.Statics.ApplyDescription(land, simulation.Statics.GetDescription(land));
+    }
+
+    public static BodyHandle AddCone(Simulation simulation, Vector3 place)
+    {
+        simulation.NarrowPhase.CollisionTaskRegistry.RegisterConvex<Cone, ConeWide, ConeSupport, ConeFeature>();
+        var cone = new Cone(.4f, 1);
+        return simulation.Bodies.Add(BodyDescription.CreateDynamic(place, cone.ComputeInertia(1), simulation.Shapes.Add(cone), .01f));
+    }
+}
+
+/// <summary>A cone around the Y axis, whose tip is up. Its centre of mass is a quarter of its height above the base.</summary>
+public struct Cone(float radius, float height) : IConvexShape
+{
+    public float Radius = radius, Height = height;
+
+    public static int TypeId => 21;
+
+    public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+        new SupportShapeBatch<Cone, ConeWide, ConeSupport>(pool, initialCapacity);
+
+    public readonly void Validate()
+    {
+        if (!(Radius > 0 && Radius < 1e6f && Height > 0 && Height < 1e6f))
+            throw new ArgumentException($"A cone of radius {Radius} m and height {Height} m cannot be simulated.");
+    }
+
+    public readonly BodyInertia ComputeInertia(float mass)
+    {
+        Validate();
+        var across = (4 * Radius * Radius + Height * Height) * (3f / 80);
+        var around = Radius * Radius * (3f / 10);
+        var inertia = new BodyInertia { InverseMass = 1 / mass };
+        inertia.InverseInertiaTensor.XX = inertia.InverseInertiaTensor.ZZ = inertia.InverseMass / across;
+        inertia.InverseInertiaTensor.YY = inertia.InverseMass / around;
+        return inertia;
+    }
+
+    readonly ConeWide Wide => Lanes.Broadcast<Cone, ConeWide>(this);
+
+    public readonly void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max) =>
+        ConvexSupport<ConeWide, ConeSupport>.GetBounds(Wide, orientation, out min, out max);
+
+    public readonly void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion) =>
+        ConvexSupport<ConeWide, ConeSupport>.ComputeAngularExpansionData(Wide, out maximumRadius, out maximumAngularExpansion);
+
+    public readonly bool RayTest(in RigidPose pose, Vector3 origin, Vector3 direction, out float t, out Vector3 normal) =>
+        ConvexSupport<ConeWide, ConeSupport>.RayTest(Wide, pose, origin, direction, out t, out normal);
+}
+
+/// <summary>As many cones as a vector has lanes: the same fields in the same order.</summary>
+public struct ConeWide : IShapeWide<Cone>
+{
+    public Vector<float> Radius, Height;
+
+    public readonly Vector<float> Base => Height * new Vector<float>(-.25f);
+
+    public readonly Vector<float> Tip => Height * new Vector<float>(.75f);
+
+    public readonly void GetBounds(in QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
+        out Vector3Wide min, out Vector3Wide max) =>
+        ConvexSupport<ConeWide, ConeSupport>.GetBounds(this, orientation, out maximumRadius, out maximumAngularExpansion, out min, out max);
+
+    public readonly void RayTest(in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out Vector3Wide normal) =>
+        ConvexSupport<ConeWide, ConeSupport>.RayTest(this, pose, ray, out hitMask, out t, out normal);
+}
+
+/// <summary>The farthest point of a cone is its tip, or on the rim of its base.</summary>
+public struct ConeSupport : ISupport<ConeWide>
+{
+    public static Vector<float> Margin(in ConeWide shape) => Vector<float>.Zero;
+
+    public static void GetExtents(in ConeWide shape, out Vector3Wide center, out Vector<float> inner, out Vector<float> outer)
+    {
+        center = Vector3Wide.Zero;
+        var side = Vector.SquareRoot(shape.Radius * shape.Radius + shape.Height * shape.Height);
+        inner = Wide.Min(-shape.Base, shape.Tip * shape.Radius / side) * new Vector<float>(.999f);
+        outer = Wide.Max(shape.Tip, Vector.SquareRoot(shape.Radius * shape.Radius + shape.Base * shape.Base)) * new Vector<float>(1.001f);
+    }
+
+    public static Vector3Wide Support(in ConeWide shape, in Vector3Wide direction, Vector<int> doneMask)
+    {
+        var across = Vector.SquareRoot(direction.X * direction.X + direction.Z * direction.Z);
+        var isTip = Vector.GreaterThan(direction.Y * shape.Height, across * shape.Radius);
+        var toRim = Wide.DivideOrZero(shape.Radius, across);
+        return new(
+            Wide.Select(isTip, Vector<float>.Zero, direction.X * toRim), Wide.Select(isTip, shape.Tip, shape.Base),
+            Wide.Select(isTip, Vector<float>.Zero, direction.Z * toRim));
+    }
+}
+
+/// <summary>What of a cone touches: its base as a disc, or the line of its side that faces the direction.</summary>
+public struct ConeFeature : IContactFeature<ConeWide>
+{
+    public static int MaximumVertexCount => 16;
+
+    public static bool IsRound => true;
+
+    public static bool IsDisc => true;
+
+    public static Vector<float> DiscRadius(in ConeWide shape) => shape.Radius;
+
+    public static void Find(in ConeWide shape, in Vector3Wide direction, Vector<int> done, ref Vector3Wide vertices, out ContactFeatureWide feature)
+    {
+        var zero = Vector<float>.Zero;
+        var across = Vector.SquareRoot(direction.X * direction.X + direction.Z * direction.Z);
+        var away = Vector.Equals(across, zero);
+        var (x, z) = (Wide.Select(away, Vector<float>.One, direction.X / across), Wide.Select(away, zero, direction.Z / across));
+        // Of the normals of the two, the one that is nearer to the direction.
+        var side = Vector.SquareRoot(shape.Radius * shape.Radius + shape.Height * shape.Height);
+        var alongSide = (across * shape.Height + direction.Y * shape.Radius) / side;
+        var isBase = Vector.GreaterThan(-direction.Y, alongSide);
+        vertices = new(Wide.Select(isBase, zero, x * shape.Radius), shape.Base, Wide.Select(isBase, zero, z * shape.Radius));
+        Unsafe.Add(ref vertices, 1) = new(zero, shape.Tip, zero);
+        feature.VertexCount = Wide.Select(isBase, new Vector<int>(MaximumVertexCount), new Vector<int>(2));
+        feature.PlaneNormal = new(
+            Wide.Select(isBase, zero, x * shape.Height), Wide.Select(isBase, -side, shape.Radius), Wide.Select(isBase, zero, z * shape.Height));
+        feature.Id = isBase & Vector<int>.One;
+        feature.Margin = zero;
+        feature.Roundness = zero;
+        feature.Size = Wide.Max(shape.Tip, side);
     }
 }

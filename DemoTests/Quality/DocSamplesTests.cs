@@ -19,7 +19,7 @@ public sealed class DocSamplesTests : IDisposable
     static readonly string[] sampleFiles =
     [
         "DemoTests/Quality/DocSamples.cs",
-        .. new[] { "Characters", "Events", "FastThings", "LargeWorlds", "Nearby", "Rays", "Rollback", "Sweeps" }
+        .. new[] { "Characters", "Events", "FastThings", "LargeWorlds", "Nearby", "OwnShapes", "Rays", "Rollback", "Sweeps" }
             .Select(name => $"DemoTests/Quality/DocSamples.{name}.cs"),
     ];
 

@@ -81,6 +81,11 @@ static unsafe class CompoundChildren
             }
             return;
         }
+        if (batch is IHomogeneousBatch)
+        {
+            throw new ArgumentException($"Child {index} is {child.ShapeIndex}, of a type of the game's own that is made of children itself: children must be " +
+                "convex, or meshes, height fields or compounds. Make it a static or body of its own, or add its children instead.", nameof(child));
+        }
         if (batch is not IConvexShapeBatch)
             throw new ArgumentException($"Child {index} is {child.ShapeIndex}, which is neither convex nor made of convex children.", nameof(child));
         if (batch.IsForStaticsOnly(child.ShapeIndex.Index))

@@ -21,8 +21,8 @@ public sealed unsafe class HomogeneousCompoundShapeBatch<TShape, TChildShape, TC
     /// <exception cref="InvalidOperationException">The type has the id of a type of the library's, or its children are none that a shape can have.</exception>
     public HomogeneousCompoundShapeBatch(BufferPool pool, int initialCapacity) : base(pool, initialCapacity)
     {
-        HomogeneousChecks.TypeId(typeof(TShape), TShape.TypeId);
-        HomogeneousChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
+        OwnShapeChecks.TypeId(typeof(TShape), TShape.TypeId);
+        OwnShapeChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
     }
 
     /// <inheritdoc/>

@@ -50,11 +50,11 @@ unsafe struct HomogeneousContainer<TShape, TChildShape, TChildShapeWide> : ICont
         // Before a number that is none leads to memory that is none.
         var childCount = (uint)Shape.ChildCount;
         if (found.Count < first)
-            HomogeneousChecks.ThrowTaken(typeof(TShape));
+            OwnShapeChecks.ThrowTaken(typeof(TShape));
         for (int i = first; i < found.Count; ++i)
         {
             if ((uint)found[i] >= childCount)
-                HomogeneousChecks.ThrowNoChild(typeof(TShape), found[i], (int)childCount);
+                OwnShapeChecks.ThrowNoChild(typeof(TShape), found[i], (int)childCount);
         }
     }
 

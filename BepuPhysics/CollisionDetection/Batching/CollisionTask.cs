@@ -21,7 +21,12 @@ public abstract unsafe class CollisionTask
     }
 
     // Not in the generic classes, where it would be compiled for each pair of shapes.
-    private protected static string Describe(Type shapeA, Type shapeB) => $"{shapeA.Name} and {shapeB.Name}";
+    private protected static string Describe(Type shapeA, Type shapeB) => $"{NameOf(shapeA)} and {NameOf(shapeB)}";
+
+    // A shape of a game's own by its own name.
+    static string NameOf(Type shape) => shape.IsGenericType && shape.GetGenericTypeDefinition() == typeof(HomogeneousContainer<,,>)
+        ? shape.GenericTypeArguments[0].Name
+        : shape.Name;
 
     private protected void CheckOrder(Type shapeA, Type shapeB)
     {

@@ -1,5 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -22,21 +23,55 @@ public sealed partial class CollisionTaskRegistry
         where TShape : unmanaged, IHomogeneousCompoundShape<TChildShape, TChildShapeWide>
         where TChildShape : unmanaged, IConvexShape where TChildShapeWide : unmanaged, IShapeWide<TChildShape>
     {
-        HomogeneousChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
+        OwnShapeChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
         var own = new OwnContainerType<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(typeof(TShape));
         if (TryAdd(own))
             RegisterOwnContainer<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(own);
+    }
+
+    /// <summary>
+    /// Registers a type of convex shapes of a game's own, with tasks for it and every other type of shape: the library's, and those that were registered
+    /// before it. A type that is registered already stays as it is.
+    /// </summary>
+    /// <typeparam name="TShape">Type of the shapes; of an id from 11 to 127.</typeparam>
+    /// <typeparam name="TShapeWide">Wide form of the shapes.</typeparam>
+    /// <typeparam name="TSupport">Farthest points of the shapes.</typeparam>
+    /// <typeparam name="TFeature">
+    /// What of a shape faces a direction; of shapes without faces and edges <see cref="PointFeature{TShapeWide, TSupport}"/>.
+    /// </typeparam>
+    /// <exception cref="InvalidOperationException">The type has the id of another one; nothing was changed.</exception>
+    public void RegisterConvex<TShape, TShapeWide, TSupport, TFeature>()
+        where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+        where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
+        var own = new OwnConvexType<TShape, TShapeWide, TSupport, TFeature>();
+        if (!TryAdd(own))
+            return;
+        own.MeetConvex<Sphere, SphereWide, SphereSupport, SphereFeature>(this);
+        own.MeetConvex<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature>(this);
+        own.MeetConvex<Box, BoxWide, BoxSupport, BoxFeature>(this);
+        own.MeetConvex<Triangle, TriangleWide, TriangleSupport, TriangleFeature>(this);
+        own.MeetConvex<Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(this);
+        own.MeetConvex<ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(this);
+        Register(new SearchCollisionTask<TShape, TShapeWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
+            HalfSpaceFaceTester<TShapeWide, TSupport, TFeature>>());
+        MeetContainers(own);
+    }
+
+    void MeetContainers(OwnShapeType own)
+    {
+        own.MeetContainer<Compound>(this);
+        own.MeetContainer<BigCompound>(this);
+        own.MeetContainer<Mesh>(this);
+        own.MeetContainer<HeightField>(this);
+        MeetOwn(own);
     }
 
     void RegisterOwnContainer<TContainer>(OwnShapeType own) where TContainer : unmanaged, IContainer
     {
         RegisterWithConvex<TContainer>();
         Register(new ContainerPlaneTask<TContainer>());
-        own.MeetContainer<Compound>(this);
-        own.MeetContainer<BigCompound>(this);
-        own.MeetContainer<Mesh>(this);
-        own.MeetContainer<HeightField>(this);
-        MeetOwn(own);
+        MeetContainers(own);
     }
 
     /// <summary>Registers what tests pairs of a type that is made of children and each of the library's convex types, but half-spaces.</summary>
@@ -59,7 +94,7 @@ public sealed partial class CollisionTaskRegistry
 
     bool TryAdd(OwnShapeType own)
     {
-        HomogeneousChecks.TypeId(own.Type, own.TypeId);
+        OwnShapeChecks.TypeId(own.Type, own.TypeId);
         foreach (var other in ownTypes)
         {
             if (other.TypeId != own.TypeId)
@@ -82,6 +117,7 @@ public sealed partial class CollisionTaskRegistry
             if (own.TypeId == shapeType)
                 return "";
         }
-        return $" Register the type of id {shapeType} before the first step, by {nameof(CollisionTaskRegistry)}.{nameof(RegisterHomogeneousCompound)}.";
+        return $" Register the type of id {shapeType} before the first step, by {nameof(RegisterConvex)} or " +
+            $"{nameof(RegisterHomogeneousCompound)} of {nameof(CollisionTaskRegistry)}.";
     }
 }

@@ -22,8 +22,12 @@ public abstract unsafe class ConvexPairTask<TShapeA, TShapeWideA, TShapeB, TShap
     where TShapeB : unmanaged, IConvexShape where TShapeWideB : unmanaged, IShapeWide<TShapeB>
     where TContacts : unmanaged, IFew<ContactWide>
 {
-    private protected ConvexPairTask(bool keepsHistories)
-        : base(TShapeA.TypeId, TShapeB.TypeId, Describe(typeof(TShapeA), typeof(TShapeB)), keepsHistories) => CheckOrder(typeof(TShapeA), typeof(TShapeB));
+    private protected ConvexPairTask(bool keepsHistories, bool isOrdered = true)
+        : base(TShapeA.TypeId, TShapeB.TypeId, Describe(typeof(TShapeA), typeof(TShapeB)), keepsHistories)
+    {
+        if (isOrdered)
+            CheckOrder(typeof(TShapeA), typeof(TShapeB));
+    }
 
     // Behind the bundles is the room for their contacts: memory of the pool starts at a cache line, which vectors on the stack do not, and
     // half of those would lie across two.

@@ -1,5 +1,6 @@
 using System;
 using BepuPhysics.Collidables;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -15,6 +16,11 @@ abstract class OwnShapeType(Type type, int typeId)
     /// <summary>Registers what tests pairs of this type and another one that a game has made.</summary>
     public abstract void Meet(OwnShapeType other, CollisionTaskRegistry registry);
 
+    /// <summary>Registers what tests pairs of this type and a convex type.</summary>
+    public abstract void MeetConvex<TShape, TShapeWide, TSupport, TFeature>(CollisionTaskRegistry registry)
+        where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+        where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>;
+
     /// <summary>Registers what tests pairs of this type and a type that is made of children.</summary>
     public abstract void MeetContainer<TContainer>(CollisionTaskRegistry registry) where TContainer : unmanaged, IContainer;
 }
@@ -26,4 +32,23 @@ sealed class OwnContainerType<TContainer>(Type type) : OwnShapeType(type, TConta
 
     // It has no nodes, so it is the first.
     public override void MeetContainer<TOther>(CollisionTaskRegistry registry) => registry.Register(new ContainerPairTask<TContainer, TOther>());
+
+    public override void MeetConvex<TShape, TShapeWide, TSupport, TFeature>(CollisionTaskRegistry registry) =>
+        registry.Register(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
+}
+
+/// <summary>A type whose shapes are convex.</summary>
+sealed class OwnConvexType<TShape, TShapeWide, TSupport, TFeature>() : OwnShapeType(typeof(TShape), TShape.TypeId)
+    where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+    where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>
+{
+    public override void Meet(OwnShapeType other, CollisionTaskRegistry registry) =>
+        other.MeetConvex<TShape, TShapeWide, TSupport, TFeature>(registry);
+
+    public override void MeetConvex<TOther, TOtherWide, TOtherSupport, TOtherFeature>(CollisionTaskRegistry registry) =>
+        registry.Register(new SearchCollisionTask<TOther, TOtherWide, TShape, TShapeWide, Few4<ContactWide>,
+            SearchPairTester<TOtherWide, TOtherSupport, TOtherFeature, TShapeWide, TSupport, TFeature>>());
+
+    public override void MeetContainer<TContainer>(CollisionTaskRegistry registry) =>
+        registry.Register(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
 }

@@ -11,7 +11,7 @@ namespace BepuPhysics.CollisionDetection;
 /// edge takes ten support points, a face that rests on a face one. So batches are filled from both ends, from the last place on by
 /// pairs whose last search was slow.
 /// </remarks>
-/// <typeparam name="TShapeA">First shape; its type id is no greater than that of the second.</typeparam>
+/// <typeparam name="TShapeA">First shape.</typeparam>
 /// <typeparam name="TShapeWideA">Wide form of the first shape.</typeparam>
 /// <typeparam name="TShapeB">Second shape.</typeparam>
 /// <typeparam name="TShapeWideB">Wide form of the second shape.</typeparam>
@@ -24,7 +24,8 @@ sealed unsafe class SearchCollisionTask<TShapeA, TShapeWideA, TShapeB, TShapeWid
     where TContacts : unmanaged, IFew<ContactWide>
     where TTester : unmanaged, ISearchingPairTester<TShapeWideA, TShapeWideB, TContacts>
 {
-    public SearchCollisionTask() : base(keepsHistories: true) { }
+    // A half-space is the second even where the first is a game's own.
+    public SearchCollisionTask() : base(keepsHistories: true, isOrdered: false) { }
 
     // After the bundles and their contacts: the index of each pair's history, and the number of slow pairs.
     internal override int BatchByteCount => base.BatchByteCount + (PairBatch.Capacity + 1) * sizeof(int);

@@ -45,9 +45,9 @@ sealed unsafe partial class FastPairs
     // How far what is swept of a shape reaches from its centre.
     double ReachOf(in FastPair pair, TypedIndex shape)
     {
-        if (shape.Type == HalfSpace.Id || !ImpactCore.Exists(shape.Type))
+        if (shape.Type == HalfSpace.Id || !ImpactCore.Exists(shape.Type, simulation.Shapes))
             return narrowPhase.RadiiOf(shape).Radius;
-        var core = ImpactCore.Of(shape.Type, PointerTo(shape));
+        var core = ImpactCore.Of(shape.Type, PointerTo(shape), simulation.Shapes);
         if (!pair.IsSensor)
             core.Thin(SkinParts[0], pair.SmallerInner);
         return core.Margin + core.Reach;

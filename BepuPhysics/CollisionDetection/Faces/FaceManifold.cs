@@ -60,7 +60,12 @@ public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWi
         {
             manifold.Normal = Matrix3x3Wide.TransposeTimes(orientationA, normal);
             ref var contact = ref manifold.Contacts[0];
-            contact.OffsetA = Matrix3x3Wide.TransposeTimes(orientationA, pointOnA + normal * (depth * new Vector<float>(0.5f)));
+            var point = pointOnA;
+            if (TFeatureA.IsCurved)
+                point = Touching<TShapeWideA, TFeatureA>(a, -normal, exists);
+            else if (TFeatureB.IsCurved)
+                point = localOffsetB + Matrix3x3Wide.TransposeTimes(localOrientationB, Touching<TShapeWideB, TFeatureB>(b, normalB, exists)) - normal * depth;
+            contact.OffsetA = Matrix3x3Wide.TransposeTimes(orientationA, point + normal * (depth * new Vector<float>(0.5f)));
             contact.Depth = depth;
             contact.FeatureId = Vector<int>.Zero;
             return;
@@ -78,6 +83,16 @@ public static unsafe partial class FaceManifold<TShapeWideA, TFeatureA, TShapeWi
         else
             overlap.FindCandidates(exists, TFeatureA.IsDisc, TFeatureB.IsDisc);
         FaceReduction.Reduce(overlap, scratch.FrameA, orientationA, exists, ref remembered, ref manifold);
+    }
+
+    // The point of a curved surface that is farthest along a direction.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector3Wide Touching<TShapeWide, TFeature>(in TShapeWide shape, in Vector3Wide direction, Vector<int> exists)
+        where TShapeWide : unmanaged where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
+        Unsafe.SkipInit(out Vector3Wide vertex);
+        TFeature.Find(shape, direction, ~exists, ref vertex, out var feature);
+        return vertex + direction * feature.Margin;
     }
 
     /// <summary>What a bundle is worked on in; arrays follow it, the ones that are always used first.</summary>

@@ -15,7 +15,13 @@ public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
     static virtual bool IsRound => false;
 
     /// <summary>
-    /// Whether polygons are discs across the shape's Y axis, which have <see cref="MaximumVertexCount"/> corners around them. Only their centre
+    /// Whether features are points of a surface that is curved everywhere: the shape touches there, and not where the search for the normal has ended,
+    /// whose last points lie around.
+    /// </summary>
+    static virtual bool IsCurved => false;
+
+    /// <summary>
+    /// Whether polygons are discs across the shape's Y axis, which have 16 corners around them, as many as <see cref="MaximumVertexCount"/> says. Only their centre
     /// is asked for.
     /// </summary>
     static virtual bool IsDisc => false;

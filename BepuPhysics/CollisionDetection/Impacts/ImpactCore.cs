@@ -14,7 +14,7 @@ unsafe struct ImpactCore
 {
     enum Kind
     {
-        Point, Segment, Box, Cylinder, Hull, Triangle, Plane
+        Point, Segment, Box, Cylinder, Hull, Triangle, Plane, Own
     }
 
     // Within this part of the radius, a vertex that floats do not show as the farthest may be it.
@@ -24,8 +24,12 @@ unsafe struct ImpactCore
     // Half extents of a box; half length, and radius, of a segment or cylinder. Corners of a triangle. Normal of a plane.
     DoubleVector3 a, b, c;
     HullHeader* hull;
-    // Of a hull, about its origin.
+    // Of a hull, or a shape of a game's own, about its origin.
     double hullScale;
+    // Of such a shape: what is asked, how, and the radius of a ball about its origin that is in its core, m.
+    void* source;
+    delegate*<void*, DoubleVector3, DoubleVector3> farthest;
+    double innerRadius;
 
     /// <summary>Distance of the surface from the core, m.</summary>
     public double Margin;
@@ -64,6 +68,40 @@ unsafe struct ImpactCore
     /// <summary>Whether a shape type has a core.</summary>
     public static bool Exists(int typeId) =>
         typeId is Sphere.Id or Capsule.Id or Box.Id or Triangle.Id or Cylinder.Id or ConvexHull.Id or HalfSpace.Id;
+
+    /// <summary>Whether a shape type, which may be a game's own, has a core.</summary>
+    public static bool Exists(int typeId, Shapes shapes) =>
+        typeId <= ShapeLimits.LastTypeId ? Exists(typeId) : shapes.FindBatch(typeId) is IConvexCoreBatch;
+
+    /// <summary>The core of a shape that has one, and may be a game's own.</summary>
+    /// <param name="typeId">Type of the shape.</param>
+    /// <param name="shape">The shape, which stays where it is.</param>
+    /// <param name="shapes">Shapes that there are.</param>
+    public static ImpactCore Of(int typeId, void* shape, Shapes shapes) =>
+        typeId <= ShapeLimits.LastTypeId ? Of(typeId, shape) : ((IConvexCoreBatch)shapes.GetBatch(typeId)).CoreOf(shape);
+
+    /// <summary>The core of a shape of a game's own.</summary>
+    /// <param name="source">What is asked for farthest points; stays where it is.</param>
+    /// <param name="farthest">Finds a farthest point of the core along a unit direction.</param>
+    /// <param name="margin">Distance of the surface from the core, m.</param>
+    /// <param name="reach">Distance from the origin of the shape that no point of the core is beyond, m.</param>
+    /// <param name="innerRadius">Radius of a ball about the origin that is in the core, m; negative or zero where none is.</param>
+    public static ImpactCore Own(
+        void* source, delegate*<void*, DoubleVector3, DoubleVector3> farthest, double margin, double reach, double innerRadius)
+    {
+        var rounded = reach * (1 + VertexRounding);
+        return new()
+        {
+            kind = Kind.Own,
+            source = source,
+            farthest = farthest,
+            innerRadius = Math.Max(0, innerRadius),
+            hullScale = 1,
+            Margin = margin,
+            Reach = rounded,
+            Size = rounded + margin,
+        };
+    }
 
     /// <summary>The core of a shape that has one.</summary>
     /// <param name="typeId">Type of the shape.</param>
@@ -139,6 +177,11 @@ unsafe struct ImpactCore
                 Reach *= hullScale;
                 Size *= hullScale;
                 break;
+            case Kind.Own when innerRadius > 0:
+                hullScale = 1 - part * Math.Min(1, most / innerRadius);
+                Reach *= hullScale;
+                Size = Reach + Margin;
+                break;
         }
     }
 
@@ -158,7 +201,7 @@ unsafe struct ImpactCore
     /// <summary>Finds the point of the core that is nearest to a point, where there is a closed form.</summary>
     /// <param name="point">The point, in the frame of the shape.</param>
     /// <param name="nearest">The nearest point; the point itself where that is in the core.</param>
-    /// <returns>Whether there is a closed form: for all but hulls and half-spaces.</returns>
+    /// <returns>Whether there is a closed form: for all but hulls, half-spaces and what games make.</returns>
     public readonly bool TryGetNearest(in DoubleVector3 point, out DoubleVector3 nearest)
     {
         nearest = default;
@@ -207,6 +250,8 @@ unsafe struct ImpactCore
                 for (int i = 0; i < hull->VertexCount; ++i)
                     radius = Math.Max(radius, DistanceFrom(axis, new(hull->GetPoint(i))));
                 return radius * hullScale;
+            case Kind.Own:
+                return Reach;
             default:
                 return 0;
         }
@@ -233,6 +278,8 @@ unsafe struct ImpactCore
                 return onA >= onB ? onA >= onC ? a : c : onB >= onC ? b : c;
             case Kind.Hull:
                 return FarthestVertex(direction) * hullScale;
+            case Kind.Own:
+                return farthest(source, direction) * hullScale;
             default:
                 return default;
         }

@@ -34,7 +34,7 @@ ref struct ContainerDistance<TFilter>(in SweepMotion motion, ref ImpactBody a, r
     public readonly bool Allows(int index) => filter.AllowTest(0, index);
 
     public readonly unsafe void Visit(int index, in ContainerChild child) =>
-        nearest.Test(motion, ref a, ImpactCore.Of(child.TypeId, child.Shape), child.Pose, index);
+        nearest.Test(motion, ref a, ImpactCore.Of(child.TypeId, child.Shape, shapes), child.Pose, index);
 
     public readonly GapTest CreateTest(Buffer<NodeChild> root, int count)
     {

@@ -45,7 +45,7 @@ ref struct ContainerSweep<TFilter>(in SweepMotion motion, ref ImpactBody part, i
 
     public readonly unsafe void Visit(int index, in ContainerChild child)
     {
-        var core = motion.CoreOf(child.TypeId, child.Shape);
+        var core = motion.CoreOf(child.TypeId, child.Shape, shapes);
         part.Restart();
         if (!motion.BallsMeet(part, core, child.Pose.Position, hit.LatestT(motion)))
             return;

@@ -115,7 +115,7 @@ static unsafe class ContainerWalk
         if (!visitor.Allows(index))
             return;
         container.GetChild(index, shapes, scratch, out var child);
-        if (ImpactCore.Exists(child.TypeId))
+        if (ImpactCore.Exists(child.TypeId, shapes))
             visitor.Visit(index, child);
     }
 

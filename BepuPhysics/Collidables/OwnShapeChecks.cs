@@ -4,7 +4,7 @@ using System.Diagnostics.CodeAnalysis;
 namespace BepuPhysics.Collidables;
 
 /// <summary>What is refused of shapes of a game's own. Not in what is generic, where it would be compiled for each type.</summary>
-static class HomogeneousChecks
+static class OwnShapeChecks
 {
     /// <summary>Refuses the id of a type of a game's own.</summary>
     /// <param name="type">The type.</param>
