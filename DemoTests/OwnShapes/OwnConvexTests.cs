@@ -4,7 +4,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Quality;
 using DemoTests.Queries;

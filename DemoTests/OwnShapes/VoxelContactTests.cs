@@ -5,7 +5,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
-using BepuUtilities;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
 using DemoTests.Compounds;

@@ -5,7 +5,6 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 using DemoTests.Collidables.Meshes;
-using DemoTests.Support;
 using Xunit;
 using static DemoTests.Quality.DocSamples;
 
@@ -77,7 +76,7 @@ public class VoxelMotionTests
     [Theory, InlineData(false), InlineData(true)]
     public void Any_number_of_threads_gives_the_same_bits_and_nothing_falls_through(bool isTurned)
     {
-        var worlds = new[] { 1, 2, 3 }.Select(threads => Create(false, isTurned, withVoxels: true, threads)).ToArray();
+        var worlds = Enumerable.Range(1, 3).Select(threads => Create(false, isTurned, withVoxels: true, threads)).ToArray();
         for (int i = 0; i < 240; ++i)
         {
             foreach (var world in worlds)

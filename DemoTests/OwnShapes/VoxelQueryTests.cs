@@ -5,7 +5,6 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.Trees;
-using BepuUtilities.Memory;
 using DemoTests.Queries;
 using DemoTests.Support;
 using Xunit;

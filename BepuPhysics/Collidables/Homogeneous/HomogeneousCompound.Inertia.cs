@@ -1,6 +1,5 @@
 using System;
 using System.Numerics;
-using BepuPhysics.Trees;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 

@@ -1,5 +1,4 @@
 using System;
-using System.Numerics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;

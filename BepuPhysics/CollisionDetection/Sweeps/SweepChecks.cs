@@ -16,17 +16,17 @@ static class SweepChecks
     public static void Shape<TShape>(in TShape shape, Shapes shapes, string refusal) where TShape : unmanaged, IConvexShape
     {
         if (!ImpactCore.Exists(TShape.TypeId, shapes) || TShape.TypeId == HalfSpace.Id)
-            ThrowShape(typeof(TShape), TShape.TypeId, refusal);
+            ThrowShape(typeof(TShape), TShape.TypeId, refusal, nameof(shape));
         shape.Validate();
     }
 
     // Not in what is generic, where it would be compiled for each type.
-    static void ThrowShape(Type type, int typeId, string refusal)
+    static void ThrowShape(Type type, int typeId, string refusal, string name)
     {
         var advice = typeId > ShapeLimits.LastTypeId
             ? " Shapes of a game's own can where their batch is a SupportShapeBatch, and one of them was added to the shapes of the simulation."
             : "";
-        throw new ArgumentException($"Shapes of type {type.Name} {refusal}.{advice}", "shape");
+        throw new ArgumentException($"Shapes of type {type.Name} {refusal}.{advice}", name);
     }
 
     public static void Offset(Vector3 offset) => BodyChecks.Position(offset * .5f, nameof(offset));
