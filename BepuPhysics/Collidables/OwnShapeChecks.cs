@@ -13,8 +13,8 @@ static class OwnShapeChecks
     {
         if (typeId is <= ShapeLimits.LastTypeId or >= TypedIndex.MaximumTypeCount)
         {
-            throw new InvalidOperationException($"{type.Name} has type id {typeId}. Those from 0 to {ShapeLimits.LastTypeId} are the library's: give it one from " +
-                $"{ShapeLimits.LastTypeId + 1} to {TypedIndex.MaximumTypeCount - 1} that no other type of shape has.");
+            throw new InvalidOperationException($"{type.Name} has type id {typeId}. Those from 0 to {ShapeLimits.LastTypeId} are the library's: give it one " +
+                $"from {ShapeLimits.LastTypeId + 1} to {TypedIndex.MaximumTypeCount - 1} that no other type of shape has.");
         }
     }
 

@@ -107,7 +107,8 @@ public sealed class OwnConvexContactTests : IDisposable
             {
                 for (int i = 0; i < 12; ++i)
                 {
-                    double x = best.X + size * (noise.NextDouble() * 2 - 1), y = best.Y + size * (noise.NextDouble() * 2 - 1), z = best.Z + size * (noise.NextDouble() * 2 - 1);
+                    double Tilt() => size * (noise.NextDouble() * 2 - 1);
+                    double x = best.X + Tilt(), y = best.Y + Tilt(), z = best.Z + Tilt();
                     var length = Math.Sqrt(x * x + y * y + z * z);
                     var depth = Depth(x / length, y / length, z / length);
                     if (depth < best.Depth)
@@ -133,7 +134,7 @@ public sealed class OwnConvexContactTests : IDisposable
             for (int i = 0; i < 60; ++i)
             {
                 var (turnA, turnB) = (NextTurn(), NextTurn());
-                var offset = Vector3.Normalize(new(random.NextSingle() - .5f, random.NextSingle() - .5f, random.NextSingle() - .5f)) * (.2f + .8f * random.NextSingle());
+                var offset = Vector3.Transform(Vector3.UnitX, NextTurn()) * (.2f + .8f * random.NextSingle());
                 batcher.Add(a.Name, b.Name, offset, turnA, turnB, Margin, new(i));
                 expected.Add(LeastDepth(a.Reach, turnA, b.Reach, turnB, offset));
             }

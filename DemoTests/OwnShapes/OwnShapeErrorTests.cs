@@ -127,7 +127,8 @@ public sealed class OwnShapeErrorTests : IDisposable
         public readonly void GetBounds(in BepuUtilities.QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
             out BepuUtilities.Vector3Wide min, out BepuUtilities.Vector3Wide max) => throw new NotSupportedException();
 
-        public readonly void RayTest(in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out BepuUtilities.Vector3Wide normal) =>
+        public readonly void RayTest(
+            in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out BepuUtilities.Vector3Wide normal) =>
             throw new NotSupportedException();
     }
 

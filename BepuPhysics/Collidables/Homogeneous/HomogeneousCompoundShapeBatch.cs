@@ -7,7 +7,7 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
 
-/// <summary>Shapes of one type of a game's own that are made of children of one type; see <see cref="IHomogeneousCompoundShape{TChildShape, TChildShapeWide}"/>.</summary>
+/// <summary>Shapes of one type of a game's own; see <see cref="IHomogeneousCompoundShape{TChildShape, TChildShapeWide}"/>.</summary>
 /// <typeparam name="TShape">Type of the shapes.</typeparam>
 /// <typeparam name="TChildShape">Type of their children.</typeparam>
 /// <typeparam name="TChildShapeWide">Wide form of the children.</typeparam>

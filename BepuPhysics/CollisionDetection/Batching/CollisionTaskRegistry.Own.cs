@@ -101,7 +101,8 @@ public sealed partial class CollisionTaskRegistry
                 continue;
             if (other.Type == own.Type)
                 return false;
-            throw new InvalidOperationException($"{own.Type.Name} has type id {own.TypeId}, which {other.Type.Name} already has. Each type needs one of its own.");
+            throw new InvalidOperationException(
+                $"{own.Type.Name} has type id {own.TypeId}, which {other.Type.Name} already has. Each type needs one of its own.");
         }
         ownTypes = [.. ownTypes, own];
         return true;

@@ -121,7 +121,8 @@ abstract unsafe class ExpandingTask<TShapeA, TShapeB>() : ExpandingTask(TShapeA.
     internal sealed override void Write(ref PairBatch batch, Shapes shapes, int shapeIndexA, int shapeIndexB, in Vector3 offsetB,
         in Quaternion orientationA, in Quaternion orientationB, in PairInput pair)
     {
-        WriteDirectly(ref batch, Find(shapes, TShapeA.TypeId, shapeIndexA), Find(shapes, TShapeB.TypeId, shapeIndexB), offsetB, orientationA, orientationB, pair);
+        WriteDirectly(ref batch, Find(shapes, TShapeA.TypeId, shapeIndexA), Find(shapes, TShapeB.TypeId, shapeIndexB), offsetB, orientationA,
+            orientationB, pair);
         ref var parent = ref Parent(batch, batch.Count - 1);
         parent.NameA = new(TShapeA.TypeId, shapeIndexA);
         parent.NameB = new(TShapeB.TypeId, shapeIndexB);

@@ -21,8 +21,8 @@ public interface IContactFeature<TShapeWide> where TShapeWide : unmanaged
     static virtual bool IsCurved => false;
 
     /// <summary>
-    /// Whether polygons are discs across the shape's Y axis, which have 16 corners around them, as many as <see cref="MaximumVertexCount"/> says. Only their centre
-    /// is asked for.
+    /// Whether polygons are discs across the shape's Y axis, which have 16 corners around them, as many as <see cref="MaximumVertexCount"/> says.
+    /// Only their centre is asked for.
     /// </summary>
     static virtual bool IsDisc => false;
 
