@@ -100,12 +100,12 @@ public sealed class OwnConvexContactTests : IDisposable
         Array.Sort(starts, (p, q) => p.Depth.CompareTo(q.Depth));
         var least = double.MaxValue;
         var noise = new Random(1);
-        foreach (var start in starts.AsSpan(0, 12))
+        foreach (var start in starts.AsSpan(0, 16))
         {
             var best = start;
-            for (double size = .05; size > 1e-7; size *= .8)
+            for (double size = .05; size > 1e-6; size *= .85)
             {
-                for (int i = 0; i < 12; ++i)
+                for (int i = 0; i < 40; ++i)
                 {
                     double Tilt() => size * (noise.NextDouble() * 2 - 1);
                     double x = best.X + Tilt(), y = best.Y + Tilt(), z = best.Z + Tilt();
