@@ -24,10 +24,6 @@ sealed unsafe partial class LoadPathStage
     // The same of others. A foot bears by its joints what stands on it, and is to come out of the ground: a machine's of 80 kg on four of 1 kg some twenty.
     // A servo that presses a foot so that it stirs does it with more than 64, a press with more than 128.
     const float PressedShare = 32;
-    // Part of its overlap that a patch does not know where a joint holds one of its bodies, and others touch them. What is left is taken out as fast as that of
-    // others, so that all of it takes twenty times as long: at four substeps of a sixtieth, two seconds.
-    const float JoinedShare = 0.95f;
-
     // Half the width of the band in which a patch that overlaps by some depth at most knows none.
     float BandOf(in SupportLink link, int node, float depth)
     {
@@ -35,7 +31,7 @@ sealed unsafe partial class LoadPathStage
             return link.Band;
         if (IsClamped(link, node))
             return depth;
-        return IsOfJoinedHeap(link) ? MathHelper.Max(link.Band, JoinedShare * depth) : link.Band;
+        return IsOfHeap(link, node) ? MathHelper.Max(link.Band, HeapShare * depth) : link.Band;
     }
 
     static float GreatestDepth(in SupportLink link)
@@ -44,23 +40,6 @@ sealed unsafe partial class LoadPathStage
         for (int i = 0; i < link.Count; ++i)
             depth = MathHelper.Max(depth, DepthOf(link, i));
         return depth;
-    }
-
-    // A foot on the ground, that nobody else touches, is lifted as others are: by its joints it bears what it bore before.
-    bool IsOfJoinedHeap(in SupportLink link) =>
-        link.Lower >= 0 ? IsJoined(link.Upper) || IsJoined(link.Lower) : IsJoined(link.Upper) && TouchesOthers(link.Upper);
-
-    bool IsJoined(int body) => bodies.Awake.JointCounts.Allocated && bodies.Awake.JointCounts[body] > 0;
-
-    bool TouchesOthers(int body)
-    {
-        foreach (var constraint in new BodyConstraints(solver, bodies.Awake.Constraints[body]))
-        {
-            var typeId = solver.Locations[constraint.ConnectingConstraintHandle.Slot].TypeId;
-            if (typeId is >= ConstraintTypeIds.ContactTwoBody and < ConstraintTypeIds.ContactTypeCount)
-                return true;
-        }
-        return false;
     }
 
     static float DepthOf(in SupportLink link, int contact) =>

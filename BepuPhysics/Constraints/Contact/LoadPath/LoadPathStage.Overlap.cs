@@ -1,4 +1,5 @@
 using BepuUtilities;
+using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints.Contact;
 
@@ -9,17 +10,43 @@ namespace BepuPhysics.Constraints.Contact;
 // seconds, by some millimetres in each, and that is so slow that it would fall asleep long before, and stay as it was for ever.
 //
 // What is pushed out may be kept from it, by a neighbour that is in the way: that would never sleep. So it is asked only of islands in which nothing
-// touches or holds a body but what the graph knows, as it is with stacks and walls, and hardly ever with heaps.
+// touches or holds a body but what the graph knows, as it is with stacks and walls, and hardly ever with heaps. Those are pushed out slowly.
 sealed unsafe partial class LoadPathStage
 {
     // Overlap that is worth waiting for, in half widths of the band in which held contacts know none.
     const float LeastOverlap = 6;
 
-    // An island sleeps as a whole, so it is enough that one of its bodies does not.
-    void KeepAwake(int start, int end)
+    // Part of its overlap that a patch of a heap does not know. What is left is taken out as fast as that of others, so that all of it takes twenty times as
+    // long: at four substeps of a sixtieth, two seconds.
+    const float HeapShare = 0.95f;
+    // Of an island: whether the graph knows all that touches or holds its bodies.
+    const byte NotAsked = 0, Known = 1, Missed = 2;
+
+    Buffer<byte> knowledge;
+
+    // A heap is an island with more than the graph knows: an edge, a side or a joint that is in the way. Held contacts are rigid, so what they push out as fast
+    // as elsewhere presses those with ever more force, until its body is no longer quiet and is let go; it sinks in on its soft contacts, rests, is held again,
+    // and so on for ever. Pushed out slowly the others give way in time.
+    //
+    // A body that touches the ground alone is pushed out of it as fast as anywhere: what stands on feet by its joints bears down on them as before.
+    bool IsOfHeap(in SupportLink link, int node) => (link.Lower >= 0 || TouchesOthers(link.Upper)) && !Knows(graph.IslandOf(node));
+
+    bool TouchesOthers(int body)
     {
-        if (KnowsAll(start, end))
-            bodies.Awake.Activity[graph.Nodes[start].Body].TimestepsUnderThresholdCount = 0;
+        foreach (var constraint in new BodyConstraints(solver, bodies.Awake.Constraints[body]))
+        {
+            var typeId = solver.Locations[constraint.ConnectingConstraintHandle.Slot].TypeId;
+            if (typeId is >= ConstraintTypeIds.ContactTwoBody and < ConstraintTypeIds.ContactTypeCount)
+                return true;
+        }
+        return false;
+    }
+
+    // An island sleeps as a whole, so it is enough that one of its bodies does not.
+    void KeepAwake(int island)
+    {
+        if (Knows(island))
+            bodies.Awake.Activity[graph.Nodes[graph.Islands[island]].Body].TimestepsUnderThresholdCount = 0;
     }
 
     bool AnyIsSunken(int start, int end)
@@ -45,17 +72,23 @@ sealed unsafe partial class LoadPathStage
         return (link.HasTwoBodies ? sum / link.Count : least) > LeastOverlap * band;
     }
 
-    // Each patch is a constraint of its upper body, and of the lower one if it has any.
-    bool KnowsAll(int start, int end)
+    // Whoever asks finds the same. What others write meanwhile, as each begins with its nodes, leaves their bodies what they are.
+    bool Knows(int island)
     {
-        int patches = 0, constraints = 0;
-        for (int node = start; node < end; ++node)
+        ref var known = ref knowledge[island];
+        if (known == NotAsked)
+            known = CountUnknown(island) == 0 ? Known : Missed;
+        return known == Known;
+    }
+
+    int CountUnknown(int island)
+    {
+        int count = 0;
+        for (int node = graph.Islands[island]; node < graph.Islands[island + 1]; ++node)
         {
-            ref var carried = ref graph.Nodes[node];
-            constraints += bodies.Awake.Constraints[carried.Body].Count;
-            for (int i = carried.FirstSupport; i < carried.FirstSupport + carried.SupportCount; ++i)
-                patches += graph.Links[i].Lower >= 0 ? 2 : 1;
+            var body = graph.Nodes[node].Body;
+            count += bodies.Awake.Constraints[body].Count - graph.CountEnds(body);
         }
-        return patches == constraints;
+        return count;
     }
 }

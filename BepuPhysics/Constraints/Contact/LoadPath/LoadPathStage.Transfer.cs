@@ -12,7 +12,7 @@ sealed unsafe partial class LoadPathStage
         var end = graph.Islands[island + 1];
         ref var first = ref graph.Nodes[start];
         if (substep.Index == 0 && first.HasSunken)
-            KeepAwake(start, end);
+            KeepAwake(island);
         first.IsActive = first.NeedsWork;
         first.NeedsWork = false;
         if (!first.IsActive)

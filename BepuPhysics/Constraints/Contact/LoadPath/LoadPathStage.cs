@@ -235,6 +235,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             count += largest;
         }
         pool.TakeAtLeast(Math.Max(1, count), out supports);
+        pool.TakeAtLeast(graph.Islands.Count, out knowledge);
+        knowledge.Clear(0, graph.Islands.Count);
         if (graph.MayRelaxAny || graph.LongestColumn > 0 || (Mode == LoadPathMode.Always && graph.MayTipAny))
             pool.TakeAtLeast(Math.Max(1, count), out patches);
         if (graph.LongestColumn > 0)
@@ -354,6 +356,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         // Last taken, first returned: in the next step each gets the block that it had, and touches no other.
         pool.ReturnIfTaken(ref columns);
         pool.ReturnIfTaken(ref patches);
+        pool.ReturnIfTaken(ref knowledge);
         pool.ReturnIfTaken(ref supports);
         if (!reached.Allocated)
             jointSets.Dispose(pool);

@@ -119,6 +119,18 @@ unsafe partial struct SupportGraph
         }
     }
 
+    /// <summary>How often the links that carry a body name a body: each is a constraint of its upper body, and of the lower one if it has any.</summary>
+    internal readonly int CountEnds(int body)
+    {
+        int count = 0;
+        for (int i = starts[body]; i < starts[body + 1]; ++i)
+        {
+            if (byUpper[i].Carries)
+                count += byUpper[i].Lower >= 0 ? 2 : 1;
+        }
+        return count;
+    }
+
     /// <summary>Island of a node.</summary>
     internal readonly int IslandOf(int node)
     {
