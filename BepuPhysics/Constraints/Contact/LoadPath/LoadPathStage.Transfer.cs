@@ -44,7 +44,7 @@ sealed unsafe partial class LoadPathStage
             Shorten(start, end, supports, floor);
         }
         if (first.IsRelaxed || isColumn || tips)
-            Relax(start, end, supports, new Span<PatchRelaxation>(patches.Memory + rooms[block], supports.Length), block, isColumn, floor);
+            Relax(start, end, supports, block, isColumn, floor);
         Apply(start, end, supports, floor);
     }
 
@@ -111,9 +111,9 @@ sealed unsafe partial class LoadPathStage
     }
 
     // All of its bodies at once, and all of its patches: those through which nothing was handed down are read here.
-    void Relax(int start, int end, Span<LoadSupport> supports, Span<PatchRelaxation> patches, int block, bool isColumn,
-        in FloorMotion floor)
+    void Relax(int start, int end, Span<LoadSupport> supports, int block, bool isColumn, in FloorMotion floor)
     {
+        var patches = this.patches.Memory + patchRooms[block];
         var firstSupport = graph.Nodes[start].FirstSupport;
         for (int i = start; i < end; ++i)
         {
@@ -130,11 +130,12 @@ sealed unsafe partial class LoadPathStage
         }
         ref var set = ref bodies.Awake;
         var relaxation = new LoadRelaxation(
-            new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, set.MotionStates, set.WorldInertias, floor);
+            new Span<LoadNode>(graph.Nodes.Span.Memory + start, end - start), supports, patches, relaxedBodies.Memory + bodyRooms[block],
+            set.MotionStates, set.WorldInertias, floor);
         if (isColumn)
             relaxation.RunColumn(new Span<ColumnBlock>(columns.Memory + block * graph.LongestColumn, end - start));
         else
-            relaxed[block] += supports.Length * relaxation.Run(Mode == LoadPathMode.Always ? LoadRelaxation.RoundsOfTipping : LoadRelaxation.RoundsOfStructure);
+            relaxed[block] += supports.Length * relaxation.Run(Mode == LoadPathMode.Always);
     }
 
     static Span<LoadSupport> SupportsOf(in LoadNode node, Span<LoadSupport> ofIsland, int firstOfIsland) =>

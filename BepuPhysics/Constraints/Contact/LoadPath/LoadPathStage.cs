@@ -42,12 +42,15 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     // What carries the nodes of the island that a block is working on. Only one at a time: in the first step of a scene each island has something to
     // hand down, and all of their supports would be more memory than the contacts themselves.
     Buffer<LoadSupport> supports;
-    // The same for what is relaxed; not there if nothing is.
+    // The same for what is relaxed, and for its bodies; not there if nothing is.
     Buffer<PatchRelaxation> patches;
+    Buffer<BodyRelaxation> relaxedBodies;
     // The same for columns; not there if none sways.
     Buffer<ColumnBlock> columns;
-    // Where each block reads the supports of an island.
+    // Where each block reads the supports of an island, and where it relaxes its patches and bodies.
     readonly int[] rooms = new int[MaximumBlocks];
+    readonly int[] patchRooms = new int[MaximumBlocks];
+    readonly int[] bodyRooms = new int[MaximumBlocks];
     // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
     readonly bool[] holdsLone = new bool[MaximumBlocks];
@@ -225,23 +228,45 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
 
     void MakeRooms()
     {
-        int count = 0;
+        int supportCount = 0, patchCount = 0, relaxedCount = 0;
         for (int block = 0; block < blockCount; ++block)
         {
-            int largest = 0;
+            int mostSupports = 0, mostPatches = 0, mostBodies = 0;
             for (int island = block; island < graph.Islands.Count - 1; island += blockCount)
-                largest = Math.Max(largest, EndOfSupports(island) - FirstSupport(island));
-            rooms[block] = count;
-            count += largest;
+            {
+                var count = EndOfSupports(island) - FirstSupport(island);
+                mostSupports = Math.Max(mostSupports, count);
+                if (!MayRelax(island))
+                    continue;
+                mostPatches = Math.Max(mostPatches, count);
+                // And one for what does not move.
+                mostBodies = Math.Max(mostBodies, BodiesOf(island) + 1);
+            }
+            (rooms[block], patchRooms[block], bodyRooms[block]) = (supportCount, patchCount, relaxedCount);
+            supportCount += mostSupports;
+            patchCount += mostPatches;
+            relaxedCount += mostBodies;
         }
-        pool.TakeAtLeast(Math.Max(1, count), out supports);
+        pool.TakeAtLeast(Math.Max(1, supportCount), out supports);
         pool.TakeAtLeast(graph.Islands.Count, out knowledge);
         knowledge.Clear(0, graph.Islands.Count);
-        if (graph.MayRelaxAny || graph.LongestColumn > 0 || (Mode == LoadPathMode.Always && graph.MayTipAny))
-            pool.TakeAtLeast(Math.Max(1, count), out patches);
+        if (relaxedCount > 0)
+        {
+            pool.TakeAtLeast(Math.Max(1, patchCount), out patches);
+            pool.TakeAtLeast(relaxedCount, out relaxedBodies);
+        }
         if (graph.LongestColumn > 0)
             pool.TakeAtLeast(blockCount * graph.LongestColumn, out columns);
     }
+
+    bool MayRelax(int island)
+    {
+        ref var first = ref graph.Nodes[graph.Islands[island]];
+        return first.IsRelaxed || first.IsOfColumn || first.MayBeColumn ||
+            (Mode == LoadPathMode.Always && SupportGraph.MayTip(BodiesOf(island)));
+    }
+
+    int BodiesOf(int island) => graph.Islands[island + 1] - graph.Islands[island];
 
     int FirstSupport(int island) => graph.Nodes[graph.Islands[island]].FirstSupport;
 
@@ -355,6 +380,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         hasBegun = false;
         // Last taken, first returned: in the next step each gets the block that it had, and touches no other.
         pool.ReturnIfTaken(ref columns);
+        pool.ReturnIfTaken(ref relaxedBodies);
         pool.ReturnIfTaken(ref patches);
         pool.ReturnIfTaken(ref knowledge);
         pool.ReturnIfTaken(ref supports);

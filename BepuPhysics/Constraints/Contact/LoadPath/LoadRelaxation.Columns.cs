@@ -1,5 +1,6 @@
 using System;
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
@@ -23,8 +24,7 @@ readonly unsafe ref partial struct LoadRelaxation
     /// <param name="blocks">Room for one per body.</param>
     internal void RunColumn(Span<ColumnBlock> blocks)
     {
-        for (int i = 0; i < patches.Length; ++i)
-            Prepare(i);
+        Begin();
         OrderUpwards(blocks);
         fixed (ColumnBlock* column = blocks)
         {
@@ -42,18 +42,19 @@ readonly unsafe ref partial struct LoadRelaxation
                     break;
             }
         }
+        End();
     }
 
     // There and back. Says what that has changed.
     [MethodImpl(MethodImplOptions.NoInlining)]
     float Sweep(ColumnBlock* column, int count)
     {
-        for (int i = 0; i < patches.Length; ++i)
-            patches[i].Start = supports[i].Present;
-        for (int i = count - 1; i >= 0; --i)
-            Solve(column[i].SupportIndex);
         for (int i = 0; i < count; ++i)
-            Solve(column[i].SupportIndex);
+            patches[i].Begin();
+        for (int i = count - 1; i >= 0; --i)
+            patches[column[i].SupportIndex].Solve(bodies);
+        for (int i = 0; i < count; ++i)
+            patches[column[i].SupportIndex].Solve(bodies);
         return Change();
     }
 
@@ -61,7 +62,7 @@ readonly unsafe ref partial struct LoadRelaxation
     {
         Span<int> above = stackalloc int[SupportGraph.MaximumColumn];
         int patch = 0;
-        for (int i = 0; i < patches.Length; ++i)
+        for (int i = 0; i < blocks.Length; ++i)
         {
             if (patches[i].Lower < 0)
                 patch = i;
@@ -80,13 +81,14 @@ readonly unsafe ref partial struct LoadRelaxation
     {
         ref var patch = ref patches[block.SupportIndex];
         ref var support = ref supports[block.SupportIndex];
+        block.Clear();
         for (int i = 0; i < ColumnBlock.Friction; ++i)
         {
             var bears = Bears(support, i);
             block.SetRow(i, bears ? support.Normal : default, bears ? support.Arms[i] : default, support.ToLower);
         }
-        block.SetRow(ColumnBlock.Friction, patch.X, support.Center, support.ToLower);
-        block.SetRow(ColumnBlock.Friction + 1, patch.Y, support.Center, support.ToLower);
+        block.SetRow(ColumnBlock.Friction, patch.X.AsVector3(), support.Center, support.ToLower);
+        block.SetRow(ColumnBlock.Friction + 1, patch.Y.AsVector3(), support.Center, support.ToLower);
         block.SetTwist(support.Normal);
     }
 
@@ -96,8 +98,7 @@ readonly unsafe ref partial struct LoadRelaxation
     void FindResponses(ColumnBlock* column, int index, int count)
     {
         ref var patch = ref patches[column[index].SupportIndex];
-        var lower = patch.Lower < 0 ? default : inertias[nodes[patch.Lower].Body];
-        column[index].FindResponses(inertias[nodes[patch.Upper].Body], lower, index + 1 < count ? column + index + 1 : null);
+        ColumnBlock.FindResponses(column + index, InertiaOf(patch.Upper), InertiaOf(patch.Lower), index + 1 < count ? column + index + 1 : null);
     }
 
     // Of the impulses that are within their bounds those that lower the energy most, where the others stay as they are or come to theirs. Says whether any do.
@@ -105,7 +106,7 @@ readonly unsafe ref partial struct LoadRelaxation
     bool Minimize(ColumnBlock* column, int count)
     {
         for (int i = 0; i < count; ++i)
-            FindFree(ref column[i]);
+            FindFree(column + i);
         for (int solution = 1; ; ++solution)
         {
             ColumnBlock.Solve(column, count);
@@ -125,38 +126,38 @@ readonly unsafe ref partial struct LoadRelaxation
 
     // What bears is free, and friction below its limit.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    void FindFree(ref ColumnBlock block)
+    void FindFree(ColumnBlock* block)
     {
-        ref var patch = ref patches[block.SupportIndex];
-        ref var support = ref supports[block.SupportIndex];
-        Read(patch.Upper, out var upper);
-        Read(patch.Lower, out var lower);
-        block.FindVelocities(upper.Linear - lower.Linear, upper.Angular, lower.Angular);
-        block.Free = 0;
+        ref var patch = ref patches[block->SupportIndex];
+        ref var support = ref supports[block->SupportIndex];
+        ref var upper = ref bodies[patch.Upper];
+        ref var lower = ref bodies[patch.Lower];
+        ColumnBlock.FindVelocities(block, (upper.Linear - lower.Linear).AsVector3(), upper.Angular.AsVector3(), lower.Angular.AsVector3());
+        block->Free = 0;
         float load = 0, lever = 0;
         for (int i = 0; i < support.Count; ++i)
         {
-            if (Bears(support, i) && support.After[i] > 0)
-                block.Free |= 1 << i;
-            load += support.After[i];
-            lever += support.After[i] * Exact.Distance(support.Arms[i], support.Center);
+            if (Bears(support, i) && patch.Normals[i] > 0)
+                block->Free |= 1 << i;
+            load += patch.Normals[i];
+            lever += patch.Normals[i] * patch.Levers[i];
         }
-        var limit = support.Friction * load * HoldingShare;
-        if (Exact.LengthSquared(support.FrictionAfter) < limit * limit)
-            block.Free |= 3 << ColumnBlock.Friction;
-        if (MathF.Abs(support.TwistAfter) < support.Friction * lever * HoldingShare)
-            block.Free |= 1 << ColumnBlock.Twist;
+        var limit = patch.Friction * load * HoldingShare;
+        if (patch.Across[0] * patch.Across[0] + patch.Across[1] * patch.Across[1] < limit * limit)
+            block->Free |= 3 << ColumnBlock.Friction;
+        if (MathF.Abs(patch.Across[2]) < lever * HoldingShare)
+            block->Free |= 1 << ColumnBlock.Twist;
     }
 
     // By how much, as an impulse, the free rows of a patch are beyond their bounds.
     [MethodImpl(MethodImplOptions.NoInlining)]
     double Excess(in ColumnBlock block)
     {
-        ref var support = ref supports[block.SupportIndex];
+        ref var patch = ref patches[block.SupportIndex];
         double excess = 0, load = 0;
-        for (int i = 0; i < support.Count; ++i)
+        for (int i = 0; i < ColumnBlock.Friction; ++i)
         {
-            var normal = support.After[i] + block.Changes[i];
+            var normal = patch.Normals[i] + block.Changes[i];
             if ((block.Free & 1 << i) != 0)
                 excess = Math.Max(excess, -normal);
             load += Math.Max(0, normal);
@@ -164,49 +165,48 @@ readonly unsafe ref partial struct LoadRelaxation
         if ((block.Free & 3 << ColumnBlock.Friction) == 0)
             return excess;
         FrictionOf(block, out var x, out var y);
-        return Math.Max(excess, Math.Sqrt(x * x + y * y) - support.Friction * load);
+        return Math.Max(excess, Math.Sqrt(x * x + y * y) - patch.Friction * load);
     }
 
     void FrictionOf(in ColumnBlock block, out double x, out double y)
     {
         ref var patch = ref patches[block.SupportIndex];
-        ref var support = ref supports[block.SupportIndex];
-        x = Exact.Dot(support.FrictionAfter, patch.X) + block.Changes[ColumnBlock.Friction];
-        y = Exact.Dot(support.FrictionAfter, patch.Y) + block.Changes[ColumnBlock.Friction + 1];
+        x = patch.Across[0] + block.Changes[ColumnBlock.Friction];
+        y = patch.Across[1] + block.Changes[ColumnBlock.Friction + 1];
     }
 
     // Puts what is beyond its bound by so much there. Says whether any row is less free than before.
     [MethodImpl(MethodImplOptions.NoInlining)]
     bool Bound(ref ColumnBlock block, double least)
     {
-        ref var support = ref supports[block.SupportIndex];
+        ref var patch = ref patches[block.SupportIndex];
         var free = block.Free;
         double load = 0, lever = 0;
-        for (int i = 0; i < support.Count; ++i)
+        for (int i = 0; i < ColumnBlock.Friction; ++i)
         {
-            var normal = support.After[i] + block.Changes[i];
+            var normal = patch.Normals[i] + block.Changes[i];
             if ((free & 1 << i) != 0 && normal < 0 && -normal >= least)
             {
-                block.Changes[i] = -support.After[i];
+                block.Changes[i] = -patch.Normals[i];
                 free &= ~(1 << i);
             }
-            normal = Math.Max(0, support.After[i] + block.Changes[i]);
+            normal = Math.Max(0, patch.Normals[i] + block.Changes[i]);
             load += normal;
-            lever += normal * Exact.Distance(support.Arms[i], support.Center);
+            lever += normal * patch.Levers[i];
         }
         FrictionOf(block, out var x, out var y);
-        double limit = support.Friction * load, length = Math.Sqrt(x * x + y * y);
+        double limit = patch.Friction * load, length = Math.Sqrt(x * x + y * y);
         if (length > limit && ((free & 3 << ColumnBlock.Friction) == 0 || length - limit >= least))
         {
             block.Changes[ColumnBlock.Friction] += x * (limit / length - 1);
             block.Changes[ColumnBlock.Friction + 1] += y * (limit / length - 1);
             free &= ~(3 << ColumnBlock.Friction);
         }
-        var twist = support.TwistAfter + block.Changes[ColumnBlock.Twist];
-        var bounded = Math.Clamp(twist, -support.Friction * lever, support.Friction * lever);
+        var twist = patch.Across[2] + block.Changes[ColumnBlock.Twist];
+        var bounded = Math.Clamp(twist, -lever, lever);
         if (bounded != twist)
         {
-            block.Changes[ColumnBlock.Twist] = bounded - support.TwistAfter;
+            block.Changes[ColumnBlock.Twist] = bounded - patch.Across[2];
             free &= ~(1 << ColumnBlock.Twist);
         }
         var changed = free != block.Free;
@@ -219,22 +219,13 @@ readonly unsafe ref partial struct LoadRelaxation
     void SetDirection(ref ColumnBlock block)
     {
         ref var patch = ref patches[block.SupportIndex];
-        ref var support = ref supports[block.SupportIndex];
-        ref var direction = ref patch.Direction;
-        direction = default;
-        float load = 0, lever = 0;
-        for (int i = 0; i < support.Count; ++i)
-        {
-            var normal = MathHelper.Max(0, support.After[i] + (float)block.Changes[i]);
-            direction.Normals[i] = normal - support.After[i];
-            load += normal;
-            lever += normal * Exact.Distance(support.Arms[i], support.Center);
-        }
-        var friction = support.FrictionAfter +
-            patch.X * (float)block.Changes[ColumnBlock.Friction] + patch.Y * (float)block.Changes[ColumnBlock.Friction + 1];
-        direction.Friction = LoadTransfer.Limit(friction, support.Friction * load) - support.FrictionAfter;
-        var twist = support.Friction * lever;
-        direction.Twist = Math.Clamp(support.TwistAfter + (float)block.Changes[ColumnBlock.Twist], -twist, twist) - support.TwistAfter;
+        var normals = patch.Normals +
+            Vector128.Create((float)block.Changes[0], (float)block.Changes[1], (float)block.Changes[2], (float)block.Changes[3]);
+        normals = RowLanes.Max(normals, Vector128<float>.Zero);
+        patch.DirectionNormals = normals - patch.Normals;
+        var across = patch.Across + Vector128.Create(
+            (float)block.Changes[ColumnBlock.Friction], (float)block.Changes[ColumnBlock.Friction + 1], (float)block.Changes[ColumnBlock.Twist], 0);
+        patch.DirectionAcross = patch.Limit(across, normals) - patch.Across;
     }
 
     // As far as it lowers the energy: both ends are within all bounds, which are convex. Says whether it does.
@@ -244,7 +235,7 @@ readonly unsafe ref partial struct LoadRelaxation
         for (int i = 0; i < count; ++i)
         {
             ref var support = ref supports[column[i].SupportIndex];
-            support.Sum(patches[column[i].SupportIndex].Direction, out column[i].Linear, out column[i].Angular);
+            support.Sum(DirectionOf(patches[column[i].SupportIndex]), out column[i].Linear, out column[i].Angular);
             if (i == 0)
                 continue;
             // What it is for its lower body, which is the upper one of the patch below.
@@ -254,9 +245,12 @@ readonly unsafe ref partial struct LoadRelaxation
         float slope = 0, curvature = 0;
         for (int i = 0; i < count; ++i)
         {
-            Read(patches[column[i].SupportIndex].Upper, out var body);
-            slope += Exact.Dot(body.Linear, column[i].Linear) + Exact.Dot(body.Angular, column[i].Angular);
-            curvature += Exact.LengthSquared(column[i].Linear) * body.InverseMass + Exact.Dot(column[i].Angular, body.InverseInertia * column[i].Angular);
+            var upper = patches[column[i].SupportIndex].Upper;
+            ref var body = ref bodies[upper];
+            ref var inertia = ref inertias[nodes[upper].Body];
+            slope += Exact.Dot(body.Linear.AsVector3(), column[i].Linear) + Exact.Dot(body.Angular.AsVector3(), column[i].Angular);
+            curvature += Exact.LengthSquared(column[i].Linear) * inertia.InverseMass +
+                Exact.Dot(column[i].Angular, inertia.InverseInertiaTensor * column[i].Angular);
         }
         // Not if a number went wrong: the comparison is false then.
         var part = -slope / curvature;
@@ -266,14 +260,15 @@ readonly unsafe ref partial struct LoadRelaxation
         for (int i = 0; i < count; ++i)
         {
             ref var patch = ref patches[column[i].SupportIndex];
-            ref var support = ref supports[column[i].SupportIndex];
-            nodes[patch.Upper].Linear += column[i].Linear * part;
-            nodes[patch.Upper].Angular += column[i].Angular * part;
-            for (int c = 0; c < support.Count; ++c)
-                support.After[c] = MathHelper.Max(0, support.After[c] + patch.Direction.Normals[c] * part);
-            support.FrictionAfter += patch.Direction.Friction * part;
-            support.TwistAfter += patch.Direction.Twist * part;
+            ref var body = ref bodies[patch.Upper];
+            ref var inertia = ref inertias[nodes[patch.Upper].Body];
+            body.Linear += (column[i].Linear * (inertia.InverseMass * part)).AsVector128();
+            body.Angular += (inertia.InverseInertiaTensor * (column[i].Angular * part)).AsVector128();
+            patch.Normals = RowLanes.Max(patch.Normals + patch.DirectionNormals * part, Vector128<float>.Zero);
+            patch.Across += patch.DirectionAcross * part;
         }
         return true;
     }
+
+    static PatchImpulses DirectionOf(in PatchRelaxation patch) => patch.Impulses(patch.DirectionNormals, patch.DirectionAcross);
 }

@@ -104,9 +104,6 @@ unsafe struct LoadSupport
         TwistAfter = TwistBefore + (TwistAfter - TwistBefore) * part;
     }
 
-    /// <summary>What it has come to by now.</summary>
-    internal readonly PatchImpulses Present => new() { Normals = After, Friction = FrictionAfter, Twist = TwistAfter };
-
     /// <summary>Sum of the normal impulses before the transfer, N s.</summary>
     internal readonly float Load
     {

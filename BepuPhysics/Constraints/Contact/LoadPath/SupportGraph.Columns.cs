@@ -18,14 +18,12 @@ unsafe partial struct SupportGraph
     void FindSingle(int islandCount)
     {
         LongestColumn = 0;
-        MayTipAny = false;
         for (int i = 0; i < islandCount; ++i)
         {
             ref var first = ref Nodes[Islands[i]];
             var count = Islands[i + 1] - Islands[i];
             if (!MayTip(count))
                 continue;
-            MayTipAny = true;
             if (count > MaximumColumn)
                 continue;
             var isSingle = true;

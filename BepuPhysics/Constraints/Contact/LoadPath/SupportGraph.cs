@@ -64,10 +64,6 @@ unsafe partial struct SupportGraph
     internal QuickList<SupportLink> Links;
     /// <summary>Where the nodes of each island begin, and where those of the last one end.</summary>
     internal QuickList<int> Islands;
-    /// <summary>Whether any bodies may lean on each other, or sway.</summary>
-    internal readonly bool MayRelaxAny => leaning.Count > 0 || swaying.Count > 0;
-    /// <summary>Whether any island is small enough to be relaxed if it tips over.</summary>
-    internal bool MayTipAny;
     /// <summary>Most bodies of an island that may be a column; zero if none may.</summary>
     internal int LongestColumn;
     /// <summary>Node of each body of the active set; negative where it is none.</summary>
