@@ -144,22 +144,34 @@ public class MovingFloorTests(ITestOutputHelper output)
         Assert.InRange(lowest, 0, most);
     }
 
+    // Which contact opens first is decided by rounding, and with it when a stack falls, by up to a tenth: so many are asked that differ by less than is seen.
     [Theory, InlineData(0.11f), InlineData(0.12f)]
     public void What_falls_on_the_ground_falls_on_a_lift(float aside)
     {
         static double Falls(float aside, Func<double, Vector3> velocity)
         {
-            using var lift = new FloorWorld(velocity);
-            lift.AddStack(10, aside);
-            while (lift.Time < 10 && lift.Moved < 1)
-                lift.Step();
-            return lift.Time;
+            const int stacks = 60;
+            double sum = 0;
+            for (int i = 0; i < stacks; ++i)
+            {
+                using var lift = new FloorWorld(velocity);
+                lift.AddStack(10, aside + i * 1e-6f);
+                while (lift.Time < 10 && lift.Moved < 1)
+                    lift.Step();
+                sum += lift.Time;
+            }
+            return sum / stacks;
         }
 
         var onGround = Falls(aside, still);
+        output.WriteLine($"{aside} m: {onGround:f3} s on the ground");
         Assert.InRange(onGround, 1, 5);
         foreach (var velocity in new Vector3[] { new(0, 2, 0), new(3, 0, 1) })
-            Assert.InRange(Falls(aside, _ => velocity) / onGround, 0.98, 1.02);
+        {
+            var onLift = Falls(aside, _ => velocity);
+            output.WriteLine($"{onLift:f3} s on a floor with {velocity} m/s");
+            Assert.InRange(onLift / onGround, 0.98, 1.02);
+        }
     }
 
     /// <summary>
