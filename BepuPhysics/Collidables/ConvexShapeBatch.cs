@@ -19,8 +19,12 @@ public class ConvexShapeBatch<TShape, TShapeWide> : ShapeBatch<TShape>, IConvexS
     public ConvexShapeBatch(BufferPool pool, int initialCapacity) : base(pool, initialCapacity) { }
 
     /// <inheritdoc/>
-    public sealed override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max) =>
+    public sealed override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max)
+    {
         this[shapeIndex].ComputeBounds(orientation, out min, out max);
+        if (TShape.TypeId > ShapeLimits.LastTypeId)
+            OwnShapeChecks.Bounds(typeof(TShape), min, max);
+    }
 
     /// <inheritdoc/>
     public BodyInertia ComputeInertia(int shapeIndex, float mass) => this[shapeIndex].ComputeInertia(mass);
@@ -56,5 +60,17 @@ public class ConvexShapeBatch<TShape, TShapeWide> : ShapeBatch<TShape>, IConvexS
                 Lanes.Write(Get(shapeIndices[lane]), ref bundle, lane);
         }
         bundle.GetBounds(orientations, out maximumRadius, out maximumAngularExpansion, out min, out max);
+        // The library's own need no check, and have none.
+        if (TShape.TypeId > ShapeLimits.LastTypeId)
+            CheckBounds(shapeIndices, ref min, ref max);
+    }
+
+    static void CheckBounds(ReadOnlySpan<int> shapeIndices, ref Vector3Wide min, ref Vector3Wide max)
+    {
+        for (int lane = 0; lane < shapeIndices.Length; ++lane)
+        {
+            if (shapeIndices[lane] >= 0)
+                OwnShapeChecks.Bounds(typeof(TShape), Lanes.Read<Vector3, Vector3Wide>(ref min, lane), Lanes.Read<Vector3, Vector3Wide>(ref max, lane));
+        }
     }
 }

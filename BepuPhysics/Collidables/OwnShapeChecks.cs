@@ -1,5 +1,8 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using BepuPhysics.Trees;
 
 namespace BepuPhysics.Collidables;
 
@@ -33,7 +36,46 @@ static class OwnShapeChecks
         }
         if (childTypeId == HalfSpace.Id)
             throw new InvalidOperationException($"Children of a {type.Name} are of type {child.Name}, which has no end: a child must have one.");
+        if (childTypeId <= ShapeLimits.LastTypeId && child != LibraryType(childTypeId))
+            TypeId(child, childTypeId);
     }
+
+    // Of those that children can be.
+    static Type? LibraryType(int typeId) => typeId switch
+    {
+        Sphere.Id => typeof(Sphere),
+        Capsule.Id => typeof(Capsule),
+        Box.Id => typeof(Box),
+        Triangle.Id => typeof(Triangle),
+        Cylinder.Id => typeof(Cylinder),
+        ConvexHull.Id => typeof(ConvexHull),
+        _ => null,
+    };
+
+    /// <summary>Refuses two types of one id.</summary>
+    public static void OneTypeOfAnId(Type type, int typeId, Type other, int otherTypeId)
+    {
+        if (typeId == otherTypeId && type != other)
+        {
+            throw new InvalidOperationException(
+                $"{type.Name} has type id {typeId}, which {other.Name} already has. Each type needs one of its own.");
+        }
+    }
+
+    /// <summary>Refuses a box that is none.</summary>
+    /// <param name="type">Type of the shape.</param>
+    /// <param name="min">Lower corner.</param>
+    /// <param name="max">Upper corner.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Bounds(Type type, Vector3 min, Vector3 max)
+    {
+        if (!BoxMath.IsValid(min, max))
+            ThrowBounds(type, min, max);
+    }
+
+    [DoesNotReturn]
+    static void ThrowBounds(Type type, Vector3 min, Vector3 max) => throw new InvalidOperationException(
+        $"The bounds of a {type.Name} are from {min} to {max}: they must be finite, and the lower corner nowhere above the upper one.");
 
     [DoesNotReturn]
     public static void ThrowNoChild(Type type, int index, int childCount) => throw new InvalidOperationException(

@@ -17,6 +17,8 @@ public abstract unsafe class ShapeBatch<TShape> : ShapeBatch where TShape : unma
     private protected ShapeBatch(BufferPool pool, int initialCapacity)
         : base(pool, TShape.TypeId, Unsafe.SizeOf<TShape>(), Math.Max(1, initialCapacity)) => ResizeShapes(initialCapacity);
 
+    internal sealed override Type ShapeType => typeof(TShape);
+
     /// <inheritdoc/>
     public sealed override int Capacity => Math.Min(shapes.Length, SlotCapacity);
 

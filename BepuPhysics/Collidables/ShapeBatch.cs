@@ -268,7 +268,17 @@ public abstract unsafe partial class ShapeBatch
     private protected abstract void ReturnShapes();
 
     /// <summary>Makes the batch part of a collection.</summary>
-    internal void BelongTo(Shapes shapes) => owner = shapes;
+    internal void BelongTo(Shapes shapes)
+    {
+        owner = shapes;
+        OnOwned(shapes);
+    }
+
+    /// <summary>Called when the batch became part of a collection.</summary>
+    private protected virtual void OnOwned(Shapes shapes) { }
+
+    /// <summary>Type of the shapes.</summary>
+    internal abstract Type ShapeType { get; }
 
     /// <summary>Begins a change of the batch, and of the collection that it belongs to.</summary>
     private protected Shapes.ChangeScope BeginChange(string operation) => owner is null ? default : owner.Change(operation);

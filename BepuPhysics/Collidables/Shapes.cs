@@ -275,6 +275,9 @@ public sealed partial class Shapes
         return GetBatch(shapeIndex.Type);
     }
 
+    /// <summary>Makes a batch for a type, if there is none.</summary>
+    internal void MakeRoomForType<TShape>() where TShape : unmanaged, IShape => GetOrCreateBatch<TShape>();
+
     ShapeBatch<TShape> GetOrCreateBatch<TShape>() where TShape : unmanaged, IShape
     {
         var typeId = TShape.TypeId;
@@ -287,8 +290,8 @@ public sealed partial class Shapes
             batch = TShape.CreateShapeBatch(pool, InitialCapacityPerTypeBatch, this);
             if (Array.TrueForAll(batches, other => other is null))
                 pool.AddUser(this);
-            batch.BelongTo(this);
             batches[typeId] = batch;
+            batch.BelongTo(this);
         }
         return batch as ShapeBatch<TShape> ??
             throw new InvalidOperationException($"{typeof(TShape).Name} has type id {typeId}, which another type of shape already has.");

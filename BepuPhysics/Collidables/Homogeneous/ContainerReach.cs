@@ -48,19 +48,25 @@ static unsafe class ContainerReach
         where TContainer : unmanaged, IContainer
     {
         var found = new QuickList<int>(InitialCapacity, pool);
-        container.FindOverlaps(min, max, default, shapes, null, ref found, pool);
-        if (below.Length < found.Count)
-            pool.ResizeToAtLeast(ref below, found.Count, 0);
-        var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
-        for (int i = 0; i < found.Count; ++i)
+        // What the game's own code throws leaves no memory behind.
+        try
         {
-            container.GetChild(found[i], shapes, scratch, out var child);
-            TContainer.ComputeChildBounds(child, out var least, out var greatest);
-            below[i] = new() { Min = child.Pose.Position + least, Max = child.Pose.Position + greatest, Index = ~found[i], LeafCount = 1 };
+            container.FindOverlaps(min, max, default, shapes, null, ref found, pool);
+            if (below.Length < found.Count)
+                pool.ResizeToAtLeast(ref below, found.Count, 0);
+            var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
+            for (int i = 0; i < found.Count; ++i)
+            {
+                container.GetChild(found[i], shapes, scratch, out var child);
+                TContainer.ComputeChildBounds(child, out var least, out var greatest);
+                below[i] = new() { Min = child.Pose.Position + least, Max = child.Pose.Position + greatest, Index = ~found[i], LeafCount = 1 };
+            }
+            return found.Count;
         }
-        var count = found.Count;
-        found.Dispose(pool);
-        return count;
+        finally
+        {
+            found.Dispose(pool);
+        }
     }
 
     /// <summary>Visits the children whose boxes pass a test.</summary>
@@ -106,7 +112,11 @@ static unsafe class ContainerReach
                 to = visitor.Maximum;
             min = Exact.Max(min, root.Min);
             max = Exact.Min(max, root.Max);
-            var count = min == Exact.Min(min, max) ? ListOverlaps(container, min, max, shapes, ref below, pool) : 0;
+            var isInReach = min == Exact.Min(min, max);
+            // The first bit is where the box around all is met: what leaves it does not come back.
+            if (!isInReach && from >= 0)
+                return;
+            var count = isInReach ? ListOverlaps(container, min, max, shapes, ref below, pool) : 0;
             Collect(test, below, count, from, to, ref found, pool);
             for (int i = 0; i < found.Count && !visitor.IsDone && found[i].T <= visitor.Maximum; ++i)
                 visitor.Visit(found[i].Index);

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -28,7 +29,9 @@ public static unsafe partial class HomogeneousCompound
         var children = new QuickList<int>(InitialCapacity, pool);
         try
         {
-            shape.FindLocalOverlaps(min, max, ref children, pool);
+            // In the order of their numbers, in whatever order they were found.
+            Unsafe.As<TShape, HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(ref Unsafe.AsRef(in shape)).FindOverlaps(
+                min, max, default, null!, null, ref children, pool);
             return Sum<TShape, TChildShape, TChildShapeWide>(shape, children.AsSpan(), childMass, out centerOfMass);
         }
         finally
@@ -43,8 +46,6 @@ public static unsafe partial class HomogeneousCompound
     {
         if (children.Length == 0)
             throw new ArgumentException("The shape has no child, so it has no mass.", nameof(shape));
-        // In the order of their numbers, in whatever order they were found.
-        children.Sort();
         var center = default(CompoundMass);
         foreach (var index in children)
         {

@@ -1,7 +1,9 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
 using BepuUtilities;
+using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.Collidables;
@@ -47,6 +49,23 @@ public static unsafe partial class HomogeneousCompound
         root.Min -= pad;
         root.Max += pad;
         ContainerReach.Visit(container, new SlabTest(origin - pad, origin + pad, direction), root, ref visitor, null!, pool);
+    }
+
+    /// <summary>
+    /// Puts the children that were found into the order of their numbers, each once. A game may have found them in any order, another one each time, or one of
+    /// them twice; nothing is to depend on that.
+    /// </summary>
+    internal static void PutInOrder(ref QuickList<int> found, int first)
+    {
+        var children = found.AsSpan()[first..];
+        children.Sort();
+        var count = 0;
+        foreach (var child in children)
+        {
+            if (count == 0 || children[count - 1] != child)
+                children[count++] = child;
+        }
+        found.Count = first + count;
     }
 
     ref struct Visitor<TShape, TChildShape, TChildShapeWide, TRayHitHandler> : IReachVisitor

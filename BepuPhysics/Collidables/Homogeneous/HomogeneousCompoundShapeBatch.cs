@@ -29,8 +29,11 @@ public sealed unsafe class HomogeneousCompoundShapeBatch<TShape, TChildShape, TC
     public override bool Compound => true;
 
     /// <inheritdoc/>
-    public override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max) =>
+    public override void ComputeBounds(int shapeIndex, Quaternion orientation, out Vector3 min, out Vector3 max)
+    {
         this[shapeIndex].ComputeBounds(orientation, out min, out max);
+        OwnShapeChecks.Bounds(typeof(TShape), min, max);
+    }
 
     /// <inheritdoc/>
     public override void RayTest<TRayHitHandler>(
@@ -44,6 +47,7 @@ public sealed unsafe class HomogeneousCompoundShapeBatch<TShape, TChildShape, TC
     private protected override ContainerExtent Measure(int shapeIndex, in Quaternion orientation)
     {
         Get(shapeIndex).ComputeBounds(orientation, out var min, out var max);
+        OwnShapeChecks.Bounds(typeof(TShape), min, max);
         var radius = Exact.Length(Exact.Max(Vector3.Abs(min), Vector3.Abs(max)));
         var nearest = Exact.Min(-min, max);
         return new(min, max, radius, radius - MathHelper.Min(nearest.X, MathHelper.Min(nearest.Y, nearest.Z)));
@@ -54,6 +58,13 @@ public sealed unsafe class HomogeneousCompoundShapeBatch<TShape, TChildShape, TC
     internal override void GetBounds(ReadOnlySpan<int> shapeIndices, in QuaternionWide orientations, out Vector<float> maximumRadius,
         out Vector<float> maximumAngularExpansion, out Vector3Wide min, out Vector3Wide max) =>
         GetBoundsOneByOne(shapeIndices, orientations, out maximumRadius, out maximumAngularExpansion, out min, out max);
+
+    // Its children are swept by what their batch knows of them, be there any other shape of their type or not.
+    private protected override void OnOwned(Shapes shapes)
+    {
+        if (TChildShape.TypeId > ShapeLimits.LastTypeId)
+            shapes.MakeRoomForType<TChildShape>();
+    }
 
     private protected override void DisposeShape(int shapeIndex, BufferPool pool) => Get(shapeIndex).Dispose(pool);
 

@@ -1,3 +1,4 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using BepuPhysics.Trees;
@@ -28,16 +29,18 @@ unsafe struct HomogeneousContainer<TShape, TChildShape, TChildShapeWide> : ICont
 
     public static bool HasNodes => false;
 
-    public readonly int ChildCount => Shape.ChildCount;
+    public readonly int ChildCount => Math.Max(0, Shape.ChildCount);
 
     public readonly int FanOut(int node, Shapes shapes) => 1;
 
     public readonly int Open(int node, Shapes shapes, NodeChild* below)
     {
-        if (Shape.ChildCount == 0)
+        var childCount = ChildCount;
+        if (childCount == 0)
             return 0;
-        *below = new() { LeafCount = Shape.ChildCount };
+        *below = new() { LeafCount = childCount };
         Shape.ComputeBounds(Quaternion.Identity, out below->Min, out below->Max);
+        OwnShapeChecks.Bounds(typeof(TShape), below->Min, below->Max);
         return 1;
     }
 
@@ -47,14 +50,20 @@ unsafe struct HomogeneousContainer<TShape, TChildShape, TChildShapeWide> : ICont
         var first = found.Count;
         Shape.FindLocalOverlaps(min, max, ref found, pool);
         // Before a number that is none leads to memory that is none.
-        var childCount = (uint)Shape.ChildCount;
+        var childCount = ChildCount;
         if (found.Count < first)
             OwnShapeChecks.ThrowTaken(typeof(TShape));
-        for (int i = first; i < found.Count; ++i)
+        var isAscending = true;
+        for (int i = first, last = -1; i < found.Count; ++i)
         {
-            if ((uint)found[i] >= childCount)
-                OwnShapeChecks.ThrowNoChild(typeof(TShape), found[i], (int)childCount);
+            var child = found[i];
+            if ((uint)child >= (uint)childCount)
+                OwnShapeChecks.ThrowNoChild(typeof(TShape), child, childCount);
+            isAscending &= child > last;
+            last = child;
         }
+        if (!isAscending)
+            HomogeneousCompound.PutInOrder(ref found, first);
     }
 
     // A box of the child's own is exact to a few roundings; what it touches is to be found all the same.

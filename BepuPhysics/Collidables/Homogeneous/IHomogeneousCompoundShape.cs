@@ -36,8 +36,8 @@ public interface IHomogeneousCompoundShape<TChildShape, TChildShapeWide> : IDisp
     void GetPosedLocalChild(int childIndex, out TChildShape childShape, out RigidPose childPose);
 
     /// <summary>
-    /// Finds the children that overlap or touch a box, each once, in any order. More than these may be told of, but none that is missing is tested:
-    /// where corners are rounded, it is outward.
+    /// Finds the children that overlap or touch a box, in any order, which changes nothing; one that is told of twice is one. More than these may be told
+    /// of, but none that is missing is tested: where corners are rounded, it is outward. Told of from the least number on, they need not be put in order.
     /// </summary>
     /// <param name="min">Lower corner in the frame of the shape, m.</param>
     /// <param name="max">Upper corner, nowhere below the lower.</param>
