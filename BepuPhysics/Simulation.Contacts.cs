@@ -34,6 +34,7 @@ public sealed unsafe partial class Simulation
     {
         using var reading = world.Read("Simulation.FindContacts");
         SweepChecks.Shape(shape, Shapes, "have no contacts");
+        NarrowPhase.CollisionTaskRegistry.CheckTypes(Shapes);
         BodyChecks.Pose(pose);
         BoxMath.RequireLength(margin);
         ArgumentOutOfRangeException.ThrowIfEqual(margin, float.PositiveInfinity);

@@ -94,6 +94,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     /// <summary>Tests the overlapping pairs, unless they are too many.</summary>
     bool TryTestPairs(int workerCount, float dt, IThreadDispatcher? dispatcher)
     {
+        CollisionTaskRegistry.CheckTypes(Simulation.Shapes);
         Pairs.BeginStep();
         asksFirst = IsWorthAskingFirst(Simulation.BroadPhase.ActiveTree.LeafCount);
         isNearby = IsNearby(Simulation.BroadPhase.ActiveTree.LeafCount);

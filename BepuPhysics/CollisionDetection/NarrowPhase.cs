@@ -38,6 +38,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         World = simulation.World;
         tellPersisting = () => simulation.Events.TellPersisting(ref Pairs);
         CollisionTaskRegistry = collisionTaskRegistry;
+        collisionTaskRegistry.World = World;
         Pairs = new PairCache(Math.Max(64, initialPairCapacity), Pool);
         // Before all others: these are to see where bodies have come to.
         FastPairs = new FastPairs(this, simulation, Pool);

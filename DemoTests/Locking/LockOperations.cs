@@ -10,6 +10,8 @@ using BepuPhysics.Trees;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
+using DemoTests.Quality;
+using static DemoTests.Quality.DocSamples;
 
 namespace DemoTests.Locking;
 
@@ -161,6 +163,12 @@ static class LockOperations
         Change("Shapes.ResizeBatches", w => w.Simulation.Shapes.ResizeBatches(1000));
         Change("ShapeBatch.Remove", w => w.Simulation.Shapes[w.UnusedShape.Type]!.Remove(w.UnusedShape.Index));
         Change("ShapeBatch.Resize", w => w.Simulation.Shapes[w.UnusedShape.Type]!.Resize(1000));
+        Change("CollisionTaskRegistry.RegisterHomogeneousCompound", w =>
+            w.Simulation.NarrowPhase.CollisionTaskRegistry.RegisterHomogeneousCompound<Voxels, Box, BoxWide>());
+        Change("CollisionTaskRegistry.RegisterConvex", w =>
+            w.Simulation.NarrowPhase.CollisionTaskRegistry.RegisterConvex<Cone, ConeWide, ConeSupport, ConeFeature>());
+        Change("CollisionTaskRegistry.Register", w => w.Simulation.NarrowPhase.CollisionTaskRegistry.Register(
+            w.Simulation.NarrowPhase.CollisionTaskRegistry[0]));
         Change("ShapeBatch.EnsureCapacity", w => w.Simulation.Shapes[w.UnusedShape.Type]!.EnsureCapacity(1000));
 
         void Change(string name, Action<LockedWorld> act) => list.Add(name, (OperationKind.Change, act));

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Numerics;
 using System.Runtime.InteropServices;
 using BepuPhysics;
@@ -178,6 +179,55 @@ public sealed class OwnShapeErrorTests : IDisposable
         Refused<InvalidOperationException>(Registry.RegisterHomogeneousCompound<Lone<HalfSpace, HalfSpaceWide, Free>, HalfSpace, HalfSpaceWide>);
     }
 
+    // A ball by another name, of the id of cones.
+    struct Impostor : IConvexShape
+    {
+        public Sphere Ball;
+
+        public static int TypeId => Cone.TypeId;
+
+        public static ShapeBatch CreateShapeBatch(BufferPool pool, int initialCapacity, Shapes shapes) =>
+            new ConvexShapeBatch<Impostor, ImpostorWide>(pool, initialCapacity);
+
+        public readonly void Validate() => Ball.Validate();
+
+        public readonly void ComputeBounds(Quaternion orientation, out Vector3 min, out Vector3 max) => Ball.ComputeBounds(orientation, out min, out max);
+
+        public readonly void ComputeAngularExpansionData(out float maximumRadius, out float maximumAngularExpansion) =>
+            Ball.ComputeAngularExpansionData(out maximumRadius, out maximumAngularExpansion);
+
+        public readonly BodyInertia ComputeInertia(float mass) => Ball.ComputeInertia(mass);
+
+        public readonly bool RayTest(in RigidPose pose, Vector3 origin, Vector3 direction, out float t, out Vector3 normal) =>
+            Ball.RayTest(pose, origin, direction, out t, out normal);
+    }
+
+    struct ImpostorWide(SphereWide balls) : IShapeWide<Impostor>
+    {
+        public SphereWide Balls = balls;
+
+        public readonly void GetBounds(in BepuUtilities.QuaternionWide orientation, out Vector<float> maximumRadius, out Vector<float> maximumAngularExpansion,
+            out BepuUtilities.Vector3Wide min, out BepuUtilities.Vector3Wide max) =>
+            Balls.GetBounds(orientation, out maximumRadius, out maximumAngularExpansion, out min, out max);
+
+        public readonly void RayTest(
+            in RigidPoseWide pose, in RayWide ray, out Vector<int> hitMask, out Vector<float> t, out BepuUtilities.Vector3Wide normal) =>
+            Balls.RayTest(pose, ray, out hitMask, out t, out normal);
+    }
+
+    /// <summary>One would be read as the other.</summary>
+    [Fact]
+    public void Shapes_of_another_type_than_was_registered_by_their_id_are_refused()
+    {
+        Registry.RegisterConvex<Cone, ConeWide, ConeSupport, ConeFeature>();
+        Refused<InvalidOperationException>(Registry.RegisterHomogeneousCompound<Lone<Impostor, ImpostorWide, Free>, Impostor, ImpostorWide>);
+        var impostor = new Impostor { Ball = new(.5f) };
+        simulation.Bodies.Add(BodyDescription.CreateDynamic(default(Vector3), impostor.ComputeInertia(1), simulation.Shapes.Add(impostor), -1f));
+        var message = Refused<InvalidOperationException>(() => simulation.Timestep(1 / 60f));
+        Assert.Contains(nameof(Cone), message, StringComparison.Ordinal);
+        Assert.Contains(nameof(Impostor), message, StringComparison.Ordinal);
+    }
+
     [Theory, InlineData(1, false), InlineData(-1, false), InlineData(0, true)]
     public void Children_that_there_are_not_are_refused(int child, bool takes)
     {
@@ -198,6 +248,18 @@ public sealed class OwnShapeErrorTests : IDisposable
         Assert.Contains("add its children instead", Refused<ArgumentException>(() => simulation.Shapes.Add(new Compound(children))), StringComparison.Ordinal);
         children[0] = new(RigidPose.Identity, simulation.Shapes.Add(new Cone(1, 1)));
         simulation.Shapes.RemoveAndDispose(simulation.Shapes.Add(new Compound(children)), pool);
+    }
+
+    /// <summary>Cones that are children only: none was ever added.</summary>
+    [Fact]
+    public void Children_of_a_type_of_the_games_own_are_met_by_sweeps()
+    {
+        simulation.Statics.Add(new StaticDescription(RigidPose.Identity, simulation.Shapes.Add(new Lone<Cone, ConeWide, Free> { Child = new(1, 2) })));
+        List<SweptHit> found = [];
+        var hits = new SweepHits(found);
+        simulation.Sweep(new Sphere(.5f), new RigidPose(new Vector3(0, 5, 0)), new BodyVelocity(-Vector3.UnitY), 10, pool, ref hits);
+        // Its tip is 1.5 m above its centre.
+        Assert.Equal(3, Assert.Single(found).T, 1e-4f);
     }
 
     [Fact]

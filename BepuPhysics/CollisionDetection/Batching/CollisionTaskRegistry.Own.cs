@@ -17,16 +17,26 @@ public sealed partial class CollisionTaskRegistry
     /// <typeparam name="TChildShape">Type of their children: one of the library's, or one that is registered too.</typeparam>
     /// <typeparam name="TChildShapeWide">Wide form of the children.</typeparam>
     /// <exception cref="InvalidOperationException">
-    /// The type has the id of another one, or its children are none that a shape can have; nothing was changed.
+    /// The type has the id of another one, or its children are none that a shape can have, or a stage or a query of the simulation is in
+    /// progress; nothing was changed.
     /// </exception>
     public unsafe void RegisterHomogeneousCompound<TShape, TChildShape, TChildShapeWide>()
         where TShape : unmanaged, IHomogeneousCompoundShape<TChildShape, TChildShapeWide>
         where TChildShape : unmanaged, IConvexShape where TChildShapeWide : unmanaged, IShapeWide<TChildShape>
     {
         OwnShapeChecks.Child(typeof(TShape), typeof(TChildShape), TChildShape.TypeId, sizeof(TChildShape));
-        var own = new OwnContainerType<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(typeof(TShape));
-        if (TryAdd(own))
-            RegisterOwnContainer<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(own);
+        var own = new OwnContainerType<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(
+            typeof(TShape), typeof(TChildShape), TChildShape.TypeId);
+        Begin("CollisionTaskRegistry.RegisterHomogeneousCompound");
+        try
+        {
+            if (TryAdd(own))
+                RegisterOwnContainer<HomogeneousContainer<TShape, TChildShape, TChildShapeWide>>(own);
+        }
+        finally
+        {
+            World?.Release();
+        }
     }
 
     /// <summary>
@@ -39,21 +49,40 @@ public sealed partial class CollisionTaskRegistry
     /// <typeparam name="TFeature">
     /// What of a shape faces a direction; of shapes without faces and edges <see cref="PointFeature{TShapeWide, TSupport}"/>.
     /// </typeparam>
-    /// <exception cref="InvalidOperationException">The type has the id of another one; nothing was changed.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The type has the id of another one, or a stage or a query of the simulation is in progress; nothing was changed.
+    /// </exception>
     public void RegisterConvex<TShape, TShapeWide, TSupport, TFeature>()
         where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
         where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>
     {
         var own = new OwnConvexType<TShape, TShapeWide, TSupport, TFeature>();
-        if (!TryAdd(own))
-            return;
+        Begin("CollisionTaskRegistry.RegisterConvex");
+        try
+        {
+            if (TryAdd(own))
+                RegisterOwnConvex(own);
+        }
+        finally
+        {
+            World?.Release();
+        }
+    }
+
+    // Before anything changes, and to be ended by releasing it.
+    void Begin(string operation) => World?.Hold(operation);
+
+    void RegisterOwnConvex<TShape, TShapeWide, TSupport, TFeature>(OwnConvexType<TShape, TShapeWide, TSupport, TFeature> own)
+        where TShape : unmanaged, IConvexShape where TShapeWide : unmanaged, IShapeWide<TShape>
+        where TSupport : unmanaged, ISupport<TShapeWide> where TFeature : unmanaged, IContactFeature<TShapeWide>
+    {
         own.MeetConvex<Sphere, SphereWide, SphereSupport, SphereFeature>(this);
         own.MeetConvex<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature>(this);
         own.MeetConvex<Box, BoxWide, BoxSupport, BoxFeature>(this);
         own.MeetConvex<Triangle, TriangleWide, TriangleSupport, TriangleFeature>(this);
         own.MeetConvex<Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(this);
         own.MeetConvex<ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(this);
-        Register(new SearchCollisionTask<TShape, TShapeWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
+        RegisterUnlocked(new SearchCollisionTask<TShape, TShapeWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
             HalfSpaceFaceTester<TShapeWide, TSupport, TFeature>>());
         MeetContainers(own);
     }
@@ -70,19 +99,19 @@ public sealed partial class CollisionTaskRegistry
     void RegisterOwnContainer<TContainer>(OwnShapeType own) where TContainer : unmanaged, IContainer
     {
         RegisterWithConvex<TContainer>();
-        Register(new ContainerPlaneTask<TContainer>());
+        RegisterUnlocked(new ContainerPlaneTask<TContainer>());
         MeetContainers(own);
     }
 
     /// <summary>Registers what tests pairs of a type that is made of children and each of the library's convex types, but half-spaces.</summary>
     internal void RegisterWithConvex<TContainer>() where TContainer : unmanaged, IContainer
     {
-        Register(new ConvexContainerTask<Sphere, SphereWide, TContainer>());
-        Register(new ConvexContainerTask<Capsule, CapsuleWide, TContainer>());
-        Register(new ConvexContainerTask<Box, BoxWide, TContainer>());
-        Register(new ConvexContainerTask<Triangle, TriangleWide, TContainer>());
-        Register(new ConvexContainerTask<Cylinder, CylinderWide, TContainer>());
-        Register(new ConvexContainerTask<ConvexHull, ConvexHullWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<Sphere, SphereWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<Capsule, CapsuleWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<Box, BoxWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<Triangle, TriangleWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<Cylinder, CylinderWide, TContainer>());
+        RegisterUnlocked(new ConvexContainerTask<ConvexHull, ConvexHullWide, TContainer>());
     }
 
     // Itself is among those that there are.
@@ -95,17 +124,30 @@ public sealed partial class CollisionTaskRegistry
     bool TryAdd(OwnShapeType own)
     {
         OwnShapeChecks.TypeId(own.Type, own.TypeId);
+        OwnShapeChecks.OneTypeOfAnId(own.Type, own.TypeId, own.ChildType, own.ChildTypeId);
         foreach (var other in ownTypes)
         {
-            if (other.TypeId != own.TypeId)
-                continue;
-            if (other.Type == own.Type)
+            OwnShapeChecks.OneTypeOfAnId(own.Type, own.TypeId, other.Type, other.TypeId);
+            OwnShapeChecks.OneTypeOfAnId(own.Type, own.TypeId, other.ChildType, other.ChildTypeId);
+            OwnShapeChecks.OneTypeOfAnId(own.ChildType, own.ChildTypeId, other.Type, other.TypeId);
+            OwnShapeChecks.OneTypeOfAnId(own.ChildType, own.ChildTypeId, other.ChildType, other.ChildTypeId);
+            if (other.TypeId == own.TypeId)
                 return false;
-            throw new InvalidOperationException(
-                $"{own.Type.Name} has type id {own.TypeId}, which {other.Type.Name} already has. Each type needs one of its own.");
         }
         ownTypes = [.. ownTypes, own];
         return true;
+    }
+
+    /// <summary>Refuses shapes of another type than that which is registered by the same id: what tests the one would read the memory of the other.</summary>
+    internal void CheckTypes(Shapes shapes)
+    {
+        foreach (var own in ownTypes)
+        {
+            if (shapes.FindBatch(own.TypeId) is { } batch)
+                OwnShapeChecks.OneTypeOfAnId(batch.ShapeType, own.TypeId, own.Type, own.TypeId);
+            if (shapes.FindBatch(own.ChildTypeId) is { } children)
+                OwnShapeChecks.OneTypeOfAnId(children.ShapeType, own.ChildTypeId, own.ChildType, own.ChildTypeId);
+        }
     }
 
     // What to do about a type that nothing is registered for.

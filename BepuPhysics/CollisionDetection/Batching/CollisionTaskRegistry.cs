@@ -13,6 +13,9 @@ public sealed partial class CollisionTaskRegistry
     short[] references = [];
     int typeSpan;
 
+    /// <summary>What keeps tasks from being registered while a step or a query goes on; of the registry of a simulation.</summary>
+    internal WorldLock? World { get; set; }
+
     /// <summary>Number of tasks.</summary>
     public int TaskCount => tasks.Length;
 
@@ -29,9 +32,24 @@ public sealed partial class CollisionTaskRegistry
 
     /// <summary>Adds a task, in place of the one that there may be for the same shape types.</summary>
     /// <returns>Index of the task.</returns>
+    /// <exception cref="InvalidOperationException">A stage or a query of the simulation is in progress; nothing was changed.</exception>
     public int Register(CollisionTask task)
     {
         ArgumentNullException.ThrowIfNull(task);
+        World?.Hold("CollisionTaskRegistry.Register");
+        try
+        {
+            return RegisterUnlocked(task);
+        }
+        finally
+        {
+            World?.Release();
+        }
+    }
+
+    /// <summary>As <see cref="Register"/>, in a change that has begun.</summary>
+    internal int RegisterUnlocked(CollisionTask task)
+    {
         Grow(Math.Max(task.ShapeTypeIndexA, task.ShapeTypeIndexB) + 1);
         var taskIndex = Find(task.ShapeTypeIndexA, task.ShapeTypeIndexB) >> 1;
         if (taskIndex < 0)

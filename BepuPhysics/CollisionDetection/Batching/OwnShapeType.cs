@@ -13,6 +13,12 @@ abstract class OwnShapeType(Type type, int typeId)
     /// <summary>Its id.</summary>
     public int TypeId { get; } = typeId;
 
+    /// <summary>Type of the children; its own where there are none.</summary>
+    public virtual Type ChildType => Type;
+
+    /// <summary>Its id.</summary>
+    public virtual int ChildTypeId => TypeId;
+
     /// <summary>Registers what tests pairs of this type and another one that a game has made.</summary>
     public abstract void Meet(OwnShapeType other, CollisionTaskRegistry registry);
 
@@ -26,15 +32,20 @@ abstract class OwnShapeType(Type type, int typeId)
 }
 
 /// <summary>A type whose shapes are made of children.</summary>
-sealed class OwnContainerType<TContainer>(Type type) : OwnShapeType(type, TContainer.TypeId) where TContainer : unmanaged, IContainer
+sealed class OwnContainerType<TContainer>(Type type, Type childType, int childTypeId) : OwnShapeType(type, TContainer.TypeId)
+    where TContainer : unmanaged, IContainer
 {
+    public override Type ChildType => childType;
+
+    public override int ChildTypeId => childTypeId;
+
     public override void Meet(OwnShapeType other, CollisionTaskRegistry registry) => other.MeetContainer<TContainer>(registry);
 
     // It has no nodes, so it is the first.
-    public override void MeetContainer<TOther>(CollisionTaskRegistry registry) => registry.Register(new ContainerPairTask<TContainer, TOther>());
+    public override void MeetContainer<TOther>(CollisionTaskRegistry registry) => registry.RegisterUnlocked(new ContainerPairTask<TContainer, TOther>());
 
     public override void MeetConvex<TShape, TShapeWide, TSupport, TFeature>(CollisionTaskRegistry registry) =>
-        registry.Register(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
+        registry.RegisterUnlocked(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
 }
 
 /// <summary>A type whose shapes are convex.</summary>
@@ -46,9 +57,9 @@ sealed class OwnConvexType<TShape, TShapeWide, TSupport, TFeature>() : OwnShapeT
         other.MeetConvex<TShape, TShapeWide, TSupport, TFeature>(registry);
 
     public override void MeetConvex<TOther, TOtherWide, TOtherSupport, TOtherFeature>(CollisionTaskRegistry registry) =>
-        registry.Register(new SearchCollisionTask<TOther, TOtherWide, TShape, TShapeWide, Few4<ContactWide>,
+        registry.RegisterUnlocked(new SearchCollisionTask<TOther, TOtherWide, TShape, TShapeWide, Few4<ContactWide>,
             SearchPairTester<TOtherWide, TOtherSupport, TOtherFeature, TShapeWide, TSupport, TFeature>>());
 
     public override void MeetContainer<TContainer>(CollisionTaskRegistry registry) =>
-        registry.Register(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
+        registry.RegisterUnlocked(new ConvexContainerTask<TShape, TShapeWide, TContainer>());
 }
