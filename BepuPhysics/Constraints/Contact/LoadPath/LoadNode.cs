@@ -49,4 +49,13 @@ struct LoadNode
     public Vector3 Linear;
     /// <summary>What the transfer has changed of its angular momentum, N m s.</summary>
     public Vector3 Angular;
+
+    /// <summary>Forgets what was found in the last step.</summary>
+    // One by one: others may read meanwhile which body it is and where its supports are, which a new node would have for a moment as zero.
+    internal void Begin()
+    {
+        FloorChange = Lag = FloorTurnChange = Linear = Angular = default;
+        Radius = Gain = Tolerance = 0;
+        HasLoad = IsActive = NeedsWork = IsSunken = HasSunken = Tips = false;
+    }
 }

@@ -94,19 +94,7 @@ unsafe partial struct SupportGraph
         for (int i = start; i < end; ++i)
         {
             ref var node = ref Nodes[i];
-            // Nothing is left of the last step.
-            node = new()
-            {
-                Body = node.Body,
-                Floor = node.Floor,
-                FirstSupport = node.FirstSupport,
-                SupportCount = node.SupportCount,
-                Leans = node.Leans,
-                IsOfStructure = node.IsOfStructure,
-                IsRelaxed = node.IsRelaxed,
-                IsOfColumn = node.IsOfColumn,
-                MayBeColumn = node.MayBeColumn,
-            };
+            node.Begin();
             var link = node.FirstSupport;
             for (int j = starts[node.Body]; j < starts[node.Body + 1]; ++j)
             {
