@@ -1,10 +1,10 @@
 using System;
 using System.Numerics;
-using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 
 namespace DemoTests.Compounds;
 
@@ -56,8 +56,7 @@ sealed class CompoundWorld : IDisposable
     }
 
     /// <summary>Bits of all bodies.</summary>
-    public int[] State() => MemoryMarshal.Cast<MotionState, int>(
-        MemoryMarshal.CreateReadOnlySpan(ref Simulation.Bodies.ActiveSet.MotionStates[0], Simulation.Bodies.ActiveSet.Count)).ToArray();
+    public int[] State() => BodyBits.Of(Simulation);
 
     public void Dispose()
     {

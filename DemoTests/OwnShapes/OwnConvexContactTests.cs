@@ -5,6 +5,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuUtilities.Memory;
+using DemoTests.CollisionDetection;
 using DemoTests.Quality;
 using DemoTests.Support;
 using Xunit;
@@ -64,19 +65,6 @@ public sealed class OwnConvexContactTests : IDisposable
         }
     }
 
-    readonly struct Callbacks(Dictionary<int, float> depths) : ICollisionCallbacks
-    {
-        public bool AllowCollisionTesting(int pairId, int childA, int childB) => true;
-
-        public void OnChildPairCompleted(int pairId, int childA, int childB, ref ConvexContactManifold manifold) { }
-
-        public void OnPairCompleted<TManifold>(int pairId, ref TManifold manifold) where TManifold : unmanaged, IContactManifold<TManifold>
-        {
-            for (int i = 0; i < manifold.Count; ++i)
-                depths[pairId] = Math.Max(manifold.GetDepth(i), depths.GetValueOrDefault(pairId, float.MinValue));
-        }
-    }
-
     // Over a net of directions, and then by ever smaller tilts of the best ones.
     static double LeastDepth(Reach reachA, in Quaternion turnA, Reach reachB, in Quaternion turnB, in Vector3 offset)
     {
@@ -127,11 +115,13 @@ public sealed class OwnConvexContactTests : IDisposable
     public void Depths_are_the_least_of_all_directions(string kindA, string kindB)
     {
         var (a, b) = (Create(kindA), Create(kindB));
-        var depths = new Dictionary<int, float>();
+        const int pairs = 60;
+        var manifolds = new ConvexContactManifold[pairs];
+        var completions = new int[pairs];
         var expected = new List<double>();
-        using (var batcher = new CollisionBatcher<Callbacks>(pool, shapes, registry, 1 / 60f, new(depths)))
+        using (var batcher = new CollisionBatcher<ManifoldCollector>(pool, shapes, registry, 1 / 60f, new(manifolds, completions)))
         {
-            for (int i = 0; i < 60; ++i)
+            for (int i = 0; i < pairs; ++i)
             {
                 var (turnA, turnB) = (NextTurn(), NextTurn());
                 var offset = Vector3.Transform(Vector3.UnitX, NextTurn()) * (.2f + .8f * random.NextSingle());
@@ -141,16 +131,20 @@ public sealed class OwnConvexContactTests : IDisposable
             batcher.Flush();
         }
         var touching = 0;
-        for (int i = 0; i < expected.Count; ++i)
+        for (int i = 0; i < pairs; ++i)
         {
+            Assert.Equal(1, completions[i]);
+            var depth = float.MinValue;
+            for (int contact = 0; contact < manifolds[i].Count; ++contact)
+                depth = Math.Max(depth, manifolds[i].GetDepth(contact));
             if (expected[i] > -Margin + 1e-3)
             {
                 ++touching;
-                Assert.True(depths.ContainsKey(i), $"pair {i} of depth {expected[i]} has no contact");
-                Assert.Equal(expected[i], depths[i], 3e-4);
+                Assert.True(manifolds[i].Count > 0, $"pair {i} of depth {expected[i]} has no contact");
+                Assert.Equal(expected[i], depth, 3e-4);
             }
             else if (expected[i] < -Margin - 1e-3)
-                Assert.False(depths.ContainsKey(i), $"pair {i} of depth {expected[i]} has a contact");
+                Assert.False(manifolds[i].Count > 0, $"pair {i} of depth {expected[i]} has a contact");
         }
         Assert.True(touching > 20, $"{touching} touch");
         shapes.Clear();

@@ -6,6 +6,7 @@ using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 using static DemoTests.Quality.DocSamples;
 
 namespace DemoTests.OwnShapes;
@@ -99,8 +100,7 @@ sealed class VoxelWorld : IDisposable
     }
 
     /// <summary>Bits of all bodies.</summary>
-    public int[] State() => MemoryMarshal.Cast<MotionState, int>(
-        MemoryMarshal.CreateReadOnlySpan(ref Simulation.Bodies.ActiveSet.MotionStates[0], Simulation.Bodies.ActiveSet.Count)).ToArray();
+    public int[] State() => BodyBits.Of(Simulation);
 
     public void Dispose()
     {

@@ -1,13 +1,13 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Runtime.InteropServices;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using BepuUtilities;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 
 namespace DemoTests.CollisionDetection.Children;
 
@@ -136,17 +136,7 @@ sealed class ClusterWorld : IDisposable
     }
 
     /// <summary>Bits of all bodies.</summary>
-    public int[] State()
-    {
-        ref var set = ref Simulation.Bodies.ActiveSet;
-        var bits = new List<int>();
-        for (int i = 0; i < set.Count; ++i)
-        {
-            var state = set.MotionStates[i];
-            bits.AddRange(MemoryMarshal.Cast<MotionState, int>(new ReadOnlySpan<MotionState>(in state)));
-        }
-        return [.. bits];
-    }
+    public int[] State() => BodyBits.Of(Simulation);
 
     /// <summary>
     /// What is known of each manifold that has contacts or a history, by body and child: type, features, whether there is a history, and
