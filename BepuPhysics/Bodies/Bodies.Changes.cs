@@ -22,11 +22,14 @@ public sealed unsafe partial class Bodies
         set.EnsurePrincipalFrames(description.LocalInertia.InverseInertiaTensor, Pool);
         ChangeInertia(handle, description.LocalInertia);
         ref var motion = ref set.MotionStates[index];
+        var turns = IsKinematic(description.LocalInertia) && IsTurned(motion.Pose.Orientation, pose.Orientation);
         motion.Pose = pose;
         motion.Velocity = description.Velocity;
         set.SoundPoses[index] = pose;
         shapes.ChangeUse(set.Collidables[index].Shape, shape);
         WriteSettings(ref set, index, description);
+        if (turns)
+            set.Activity[index].NoteTurned();
         PlaceInBroadPhase(ref set, index, bounds);
     }
 

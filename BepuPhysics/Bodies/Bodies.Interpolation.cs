@@ -60,8 +60,7 @@ public sealed unsafe partial class Bodies
     {
         ref var pose = ref set.MotionStates[index].Pose;
         ref var previous = ref set.SoundPoses[index];
-        return (previous.Position != pose.Position || previous.Orientation != pose.Orientation) &&
-            set.Origins[index].Position + set.Displacements[index].Linear == pose.Position;
+        return (previous.Position != pose.Position || previous.Orientation != pose.Orientation) && !IsElsewhere(set, index);
     }
 
     static RigidPose Interpolate(in BodySet set, int index, float amount)

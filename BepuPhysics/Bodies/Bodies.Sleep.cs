@@ -80,7 +80,7 @@ public sealed partial class Bodies
         if (Awake.Count == Awake.Capacity)
             Awake.Resize(Awake.Capacity * 2, Pool);
         var added = Awake.Append(Asleep, index);
-        Awake.Activity[added].Forget();
+        Awake.Activity[added].Wake();
         // By this a kinematic body is known to be where the last step has left it, or not.
         Awake.Origins[added].Position = Awake.SoundPoses[added].Position;
         Locations[slot] = new() { SetIndex = 0, Index = added };

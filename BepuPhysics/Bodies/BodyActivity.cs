@@ -36,6 +36,8 @@ public struct BodyActivity
     {
         AtSeam = 1,
         JustRipened = 2,
+        WillBeTurned = 4,
+        WasTurned = 8,
     }
 
     /// <summary>Whether the body touched several things in the last step that do not give way; their contacts then wait for each other.</summary>
@@ -48,12 +50,23 @@ public struct BodyActivity
     /// <summary>Whether it had rested long enough in the last step, and not before.</summary>
     internal readonly bool HasJustRipened => (marks & Marks.JustRipened) != 0;
 
+    /// <summary>Whether a game has turned a kinematic body by its pose since the last step. Known when the bounds of a step are predicted.</summary>
+    internal readonly bool WasTurned => (marks & Marks.WasTurned) != 0;
+
+    /// <summary>Says that a game has turned a kinematic body by its pose, which the next step is to know.</summary>
+    internal void NoteTurned() => marks |= Marks.WillBeTurned;
+
     /// <summary>Takes note of the speed with which a step begins.</summary>
     /// <param name="speedSquared">Speed squared, linear plus angular.</param>
     /// <returns>What the body adds to <see cref="Bodies.RestCounts"/>.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal long Note(float speedSquared)
     {
+        if ((marks & (Marks.WillBeTurned | Marks.WasTurned)) != 0 && IsTurned())
+        {
+            Forget();
+            return 0;
+        }
         // What is no number does not rest.
         if (!(speedSquared <= SleepThreshold))
         {
@@ -71,6 +84,23 @@ public struct BodyActivity
         var counts = SleepCandidate ? Bodies.OneRipe : Bodies.OneRipe + Bodies.OneJustRipened;
         SleepCandidate = true;
         return counts;
+    }
+
+    // What a game said since the last step is what this step knows.
+    bool IsTurned()
+    {
+        var isTurned = (marks & Marks.WillBeTurned) != 0;
+        marks &= ~(Marks.WillBeTurned | Marks.WasTurned);
+        if (isTurned)
+            marks |= Marks.WasTurned;
+        return isTurned;
+    }
+
+    /// <summary>Begins a body that has slept: what was said of it before that is long past.</summary>
+    internal void Wake()
+    {
+        Forget();
+        marks &= ~(Marks.WillBeTurned | Marks.WasTurned);
     }
 
     /// <summary>Begins anew to count rest.</summary>

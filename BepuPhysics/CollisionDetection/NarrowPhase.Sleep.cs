@@ -54,12 +54,11 @@ public abstract partial class NarrowPhase
     }
 
     /// <summary>Whether a kinematic body that is awake moves, be it only that a game has put it elsewhere since the last step. Before the solver.</summary>
-    // The last step put it where its origin and its displacement say.
     internal static bool Moves(in BodySet set, int index)
     {
-        ref var motion = ref set.MotionStates[index];
-        return motion.Velocity.Linear != Vector3.Zero || motion.Velocity.Angular != Vector3.Zero ||
-            set.Origins[index].Position + set.Displacements[index].Linear != motion.Pose.Position;
+        ref var velocity = ref set.MotionStates[index].Velocity;
+        return velocity.Linear != Vector3.Zero || velocity.Angular != Vector3.Zero ||
+            set.Activity[index].WasTurned || Bodies.IsElsewhere(set, index);
     }
 
     /// <summary>Whether a body that is awake wakes one that sleeps by touching it.</summary>

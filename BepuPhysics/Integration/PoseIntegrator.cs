@@ -225,9 +225,11 @@ public sealed unsafe class PoseIntegrator<TCallbacks> : IPoseIntegrator where TC
         var sound = Soundness.OfBodies(pose, velocity, UnitTolerance.Combined) & Soundness.OfInertias(localInertia);
         if (Soundness.IsNot(sound, exists, out var unsound))
             StraightenOrStop(unsound, indices, localInertia, ref pose, ref velocity);
+        var kinematic = IsKinematic(localInertia);
+        if ((kinematic & exists) != Vector<int>.Zero)
+            bodies.NoteMovedByPose(bundle * Vector<int>.Count, kinematic & exists);
         quarantine.Remember(bundle);
         var before = velocity;
-        var kinematic = IsKinematic(localInertia);
         speedSquared = velocity.Linear.LengthSquared() + velocity.Angular.LengthSquared();
         speedSquared = Wide.Select(
             kinematic & Vector.GreaterThan(speedSquared, Vector<float>.Zero), new Vector<float>(float.PositiveInfinity), speedSquared);

@@ -133,6 +133,33 @@ public class WakeTests
         Assert.Equal(.5f, world.Bodies[stack[0]].Pose.Position.Y, .02f);
     }
 
+    // A door has been turned by its orientation alone. It passed through what slept.
+    [Theory, InlineData(false), InlineData(true)]
+    public void What_is_turned_by_its_pose_wakes_what_it_meets_and_stays_awake(bool describes)
+    {
+        using var world = new SleepWorld();
+        var door = world.AddPlatform(new Vector3(0, .5f, 0));
+        var cube = world.AddCube(new Vector3(1.2f, .5f, 2.1f));
+        world.Settle();
+        Wake(world.Bodies[door]);
+        for (int i = 0; i < 60; ++i)
+        {
+            var description = world.Bodies.GetDescription(door);
+            description.Pose.Orientation = Quaternion.CreateFromAxisAngle(Vector3.UnitY, -.012f * i);
+            if (describes)
+                world.Bodies.ApplyDescription(door, description);
+            else
+                world.Bodies[door].Pose.Orientation = description.Pose.Orientation;
+            world.Step();
+        }
+        world.AssertAwake(door, cube);
+        // The corner of the door, 1.5 m along and aside, has turned by .71: to .17 along and 2.11 aside, where the cube was up to 1.6.
+        Assert.InRange(world.Bodies[cube].Pose.Position.Z, 2.3f, 4);
+        // Once it is not turned any more, both sleep.
+        world.Step(120);
+        world.AssertAwake();
+    }
+
     [Fact]
     public void A_body_that_lands_on_a_sleeping_platform_wakes_it_and_nobody_else_there()
     {

@@ -107,7 +107,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     // Where nothing rests on anything, or all of it alone, there is no graph to work on.
     int ISolverStage.CountBlocks(SolverPoint point, int most) => point switch
     {
-        SolverPoint.LastBeforeSubsteps when !HasFloors => 0,
+        SolverPoint.LastBeforeSubsteps when !HasFloors && !HasElsewhere => 0,
         SolverPoint.LastBeforeFirstWarmStart or SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart when graph.Nodes.Count == 0 => 0,
         _ => most,
     };
@@ -122,7 +122,10 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 CopyVelocities(block);
                 break;
             case SolverPoint.LastBeforeSubsteps:
-                FindReached();
+                if (HasElsewhere)
+                    FindElsewhere();
+                if (HasFloors)
+                    FindReached();
                 break;
             case SolverPoint.BeforeFirstWarmStart:
                 Find(block, substep);
@@ -152,16 +155,18 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     {
         ref var set = ref bodies.Awake;
         var end = FirstOf(block + 1, BodyBlockCount, set.Count);
-        var hasFloors = false;
+        var (hasFloors, hasElsewhere) = (false, false);
         for (int i = FirstOf(block, BodyBlockCount, set.Count); i < end; ++i)
         {
             before[i].Linear = set.MotionStates[i].Velocity.Linear;
             if (set.LocalInertias[i].InverseMass != 0)
                 continue;
+            hasElsewhere |= IsElsewhere(i);
             FindMotion(i);
             hasFloors |= IsFloor(i);
         }
         hasFloorsIn[block] = hasFloors;
+        hasElsewhereIn[block] = hasElsewhere;
     }
 
     ContactBundles BundlesOf(int block) =>
@@ -174,8 +179,9 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         ref var set = ref bodies.Awake;
         var awake = new SolverBodies(set);
         var finder = new SupportFinder(
-            awake, before.Memory, turnsBefore.Memory, set.Constraints.Memory, spoilt.Memory, reached.Memory, QuietSteps * solver.LastSubstepCount,
-            new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale, substep.Dt);
+            awake, before.Memory, turnsBefore.Memory, set.Constraints.Memory, spoilt.Memory, reached.Memory, elsewhere.Memory,
+            QuietSteps * solver.LastSubstepCount, new RestTolerance(Mode == LoadPathMode.Always ? 0 : AloneShare, substep.Dt), substep.WarmStartScale,
+            substep.Dt);
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;
@@ -386,6 +392,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         pool.ReturnIfTaken(ref supports);
         if (!reached.Allocated)
             jointSets.Dispose(pool);
+        pool.ReturnIfTaken(ref elsewhere);
         pool.ReturnIfTaken(ref reached);
         pool.ReturnIfTaken(ref spoilt);
         pool.ReturnIfTaken(ref found);

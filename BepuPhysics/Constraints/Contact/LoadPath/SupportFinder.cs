@@ -14,6 +14,9 @@ namespace BepuPhysics.Constraints.Contact;
 /// Per body: not zero where it is connected with a kinematic body that moves, or did in the last step; null where there is none. Of those the second half of
 /// each row is read too.
 /// </param>
+/// <param name="elsewhere">
+/// Per body: how far a game has moved a kinematic one by its pose since the last step, and how much of that is rounding; null where it has moved none.
+/// </param>
 /// <param name="quietSteps">Substeps of acceleration up to which a contact is quiet.</param>
 /// <param name="tolerance">Up to which velocity a body that rests alone has nothing to hand down.</param>
 /// <param name="warmStartScale">Factor by which the warm start takes the accumulated impulses.</param>
@@ -25,7 +28,8 @@ namespace BepuPhysics.Constraints.Contact;
 // down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
-    SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, byte* reached, float quietSteps,
+    SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, byte* reached, Vector4* elsewhere,
+    float quietSteps,
     RestTolerance tolerance, float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
@@ -96,6 +100,8 @@ readonly unsafe struct SupportFinder(
         var leans = Vector.AndNot(carries, flat);
         if (leans != Vector<int>.Zero)
             leans &= Pushes(count, impulses);
+        if (hasB && elsewhere != null)
+            carries = Vector.AndNot(carries, AreMovedInto(references[1], (float*)(prestep + ContactPrestepLayout.Normal(count))));
         if (count < LeastContacts)
             carries &= flat;
         isUpperA |= fixedB;
@@ -282,6 +288,22 @@ readonly unsafe struct SupportFinder(
         var lanes = Vector<int>.Zero;
         for (int lane = 0; reached != null && lane < Vector<int>.Count; ++lane)
             ((int*)&lanes)[lane] = references[lane] >= 0 && reached[references[lane] & EncodedBody.IndexMask] != 0 ? -1 : 0;
+        return lanes;
+    }
+
+    // Whether the second bodies were put into the first ones, along the normals, which point to these.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    Vector<int> AreMovedInto(Vector<int> references, float* normals)
+    {
+        var lanes = Vector<int>.Zero;
+        for (int lane = 0; lane < Vector<int>.Count; ++lane)
+        {
+            if (references[lane] < 0)
+                continue;
+            ref var way = ref elsewhere[references[lane] & EncodedBody.IndexMask];
+            var into = way.X * normals[lane] + way.Y * normals[Vector<float>.Count + lane] + way.Z * normals[2 * Vector<float>.Count + lane];
+            ((int*)&lanes)[lane] = into > way.W ? -1 : 0;
+        }
         return lanes;
     }
 
