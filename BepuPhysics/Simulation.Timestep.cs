@@ -79,6 +79,7 @@ public sealed partial class Simulation
             BroadPhase = BroadPhase,
             Integrator = PoseIntegrator,
             Dt = reach,
+            CountsRest = Sleeper.Counts(dt),
             Motions = commonMotion.Begin(Bodies.HasMovingKinematics),
         };
         Bodies.HasMovingKinematics = false;

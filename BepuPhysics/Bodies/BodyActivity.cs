@@ -5,12 +5,14 @@ namespace BepuPhysics;
 
 /// <summary>How quickly a body may fall asleep.</summary>
 /// <param name="sleepThreshold">Speed squared, linear plus angular, under which a body counts as resting. Negative: never sleeps.</param>
-/// <param name="minimumTimestepCountUnderThreshold">Steps that it must rest before it may sleep.</param>
+/// <param name="minimumTimestepCountUnderThreshold">
+/// Steps that it must rest before it may sleep. Of steps that are shorter than 1/240 s, as in slow motion, only as many count as that time goes into theirs.
+/// </param>
 public struct BodyActivityDescription(float sleepThreshold, byte minimumTimestepCountUnderThreshold = 32)
 {
     /// <summary>Speed squared, linear plus angular, under which a body counts as resting. Negative: never sleeps.</summary>
     public float SleepThreshold = sleepThreshold;
-    /// <summary>Steps that a body must rest before it may sleep.</summary>
+    /// <summary>Steps that a body must rest before it may sleep; of steps shorter than 1/240 s one counts in each such time.</summary>
     public byte MinimumTimestepCountUnderThreshold = minimumTimestepCountUnderThreshold;
 
     /// <summary>Description with the usual number of steps.</summary>
@@ -58,9 +60,10 @@ public struct BodyActivity
 
     /// <summary>Takes note of the speed with which a step begins.</summary>
     /// <param name="speedSquared">Speed squared, linear plus angular.</param>
+    /// <param name="isCounted">Whether the step counts as one of rest: of very short ones only some do.</param>
     /// <returns>What the body adds to <see cref="Bodies.RestCounts"/>.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal long Note(float speedSquared)
+    internal long Note(float speedSquared, bool isCounted)
     {
         if ((marks & (Marks.WillBeTurned | Marks.WasTurned)) != 0 && IsTurned())
         {
@@ -73,7 +76,7 @@ public struct BodyActivity
             Forget();
             return 0;
         }
-        if (TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
+        if (isCounted && TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
             ++TimestepsUnderThresholdCount;
         if (TimestepsUnderThresholdCount < MinimumTimestepsUnderThreshold)
         {

@@ -32,6 +32,8 @@ unsafe struct BoundsPredictor : IStagedWork
     public float Dt;
     /// <summary>A row for each body, where what it does is asked for again; see <see cref="PredictedMotion"/>.</summary>
     public Buffer<PredictedMotion> Motions;
+    /// <summary>Whether the step counts as one of rest.</summary>
+    public bool CountsRest;
     /// <summary>Whether it is predicted for the second time in a step, and who rests is counted already.</summary>
     public bool IsRepeated;
 
@@ -63,7 +65,7 @@ unsafe struct BoundsPredictor : IStagedWork
         var speeds = (float*)&speedSquared;
         long rest = 0;
         for (int i = 0; i < count && !IsRepeated; ++i)
-            rest += activities[i].Note(speeds[i]);
+            rest += activities[i].Note(speeds[i], CountsRest);
         // Whoever writes it writes the same.
         var moves = Vector.Equals(speedSquared, new Vector<float>(float.PositiveInfinity)) &
             Vector.GreaterThan(velocity.Linear.LengthSquared(), Vector<float>.Zero);

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
@@ -29,6 +30,32 @@ public class SleepTests
         world.AssertAwake(never);
         Assert.Equal(default, world.Bodies[cube].Velocity.Linear);
         Assert.Equal(.5f, world.Bodies[cube].Pose.Position.Y, 1e-3f);
+    }
+
+    // What is at its highest point, or was let go, is slower than .1 m/s for .02 s: for more than 32 steps of less than .6 ms. It hung in the air for ever.
+    [Theory, InlineData(60), InlineData(240), InlineData(3000), InlineData(6000), InlineData(60000)]
+    public void In_slow_motion_nothing_hangs_in_the_air(int stepsPerSecond)
+    {
+        const float time = .25f;
+        using var world = new SleepWorld();
+        var thrown = world.AddCube(new Vector3(0, 5, 0));
+        world.Bodies[thrown].Velocity.Linear.Y = .5f;
+        var released = world.AddCube(new Vector3(5, 5, 0));
+        var anchor = world.AddPlatform(new Vector3(10, 5, 0));
+        var swinging = world.AddCube(new Vector3(14, 5, 0));
+        world.World.Solver.Add(anchor, swinging, new BallSocket { LocalOffsetA = new Vector3(2, 0, 0), LocalOffsetB = new Vector3(-2, 0, 0) });
+        for (int i = 0; i < (int)(time * stepsPerSecond); ++i)
+            world.World.Step(1f / stepsPerSecond);
+        world.AssertAwake(thrown, released, swinging, anchor);
+        const float fall = -.5f * 9.81f * time * time;
+        Assert.Equal(5 + .5f * time + fall, world.Bodies[thrown].Pose.Position.Y, .01f);
+        Assert.Equal(5 + fall, world.Bodies[released].Pose.Position.Y, .01f);
+        Assert.True(world.Bodies[swinging].Pose.Position.Y < 5 + fall / 2);
+        // What rests sleeps there too, once it has for as long as in 32 steps of 240 a second.
+        var resting = world.AddCube(new Vector3(20, .5f, 0));
+        for (int i = 0; i < Math.Max(40, (int)(.15f * stepsPerSecond)); ++i)
+            world.World.Step(1f / stepsPerSecond);
+        Assert.False(world.IsAwake(resting));
     }
 
     [Fact]
