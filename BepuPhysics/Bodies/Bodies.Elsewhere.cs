@@ -18,7 +18,9 @@ public sealed unsafe partial class Bodies
     internal static bool IsElsewhere(in BodySet set, int index) =>
         set.Origins[index].Position + set.Displacements[index].Linear != set.MotionStates[index].Pose.Position;
 
-    /// <summary>Takes note of kinematic bodies that were moved by their poses since the last step. Before their poses are remembered as those of this one.</summary>
+    /// <summary>
+    /// Takes note of kinematic bodies that were moved by their poses since the last step. Before their poses are remembered as those of this one.
+    /// </summary>
     /// <param name="start">First body of a bundle.</param>
     /// <param name="kinematics">Lanes of kinematic bodies.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]

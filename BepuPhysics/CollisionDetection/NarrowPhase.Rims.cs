@@ -32,7 +32,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
 
     // Of a compound its children say it. Those of many children are not looked at: there are too many.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    bool MayHaveRims(ref RimMemory memory, TypedIndex shape) => shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasRims(ref memory, shape));
+    bool MayHaveRims(ref RimMemory memory, TypedIndex shape) =>
+        shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasRims(ref memory, shape)) ||
+        (shape.Type > ShapeLimits.LastTypeId && IsOwnConvex(shape));
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    bool IsOwnConvex(TypedIndex shape) => ImpactCore.Exists(shape.Type, Simulation.Shapes);
 
     bool HasRims(ref RimMemory memory, TypedIndex shape)
     {
@@ -69,6 +74,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void MoveRims(in ConvexContactManifold found, TypedIndex shape, in Quaternion orientation, in Vector3 center, in Vector3 normal, in Vector3 turn,
         ref ConvexContactManifold moved)
     {
+        // Capsules are looked at as children alone; see Docs/decisions/rims-ahead.md.
+        if (shape.Type == Capsule.Id)
+            return;
         if (shape.Type != Compound.Id)
         {
             MoveRims(found, shape, new RigidPose(default, orientation), center, normal, turn, ref moved);
@@ -85,7 +93,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    static bool IsRound(TypedIndex child) => child.Type is Cylinder.Id or Sphere.Id;
+    bool IsRound(TypedIndex child) =>
+        child.Type is Cylinder.Id or Sphere.Id or Capsule.Id || (child.Type > ShapeLimits.LastTypeId && IsOwnConvex(child));
 
     // What is a sphere by itself turns in its place.
     void MoveRims(in ConvexContactManifold found, TypedIndex shape, in RigidPose pose, in Vector3 center, in Vector3 normal, in Vector3 turn,
@@ -96,5 +105,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             RimContacts.MoveAhead(found, shapes.GetShape<Cylinder>(shape.Index), pose, center, normal, turn, ref moved);
         else if (shape.Type == Sphere.Id)
             RimContacts.MoveAhead(found, shapes.GetShape<Sphere>(shape.Index).Radius, pose.Position, center, normal, turn, ref moved);
+        else if (shape.Type == Capsule.Id)
+            RimContacts.MoveAhead(found, shapes.GetShape<Capsule>(shape.Index), pose, center, normal, turn, ref moved);
+        else if (shape.Type > ShapeLimits.LastTypeId && IsOwnConvex(shape))
+            MoveOwn(found, shape, pose, center, normal, turn, ref moved);
+    }
+    void MoveOwn(in ConvexContactManifold found, TypedIndex shape, in RigidPose pose, in Vector3 center, in Vector3 normal, in Vector3 turn,
+        ref ConvexContactManifold moved)
+    {
+        var core = ImpactCore.Of(shape.Type, Simulation.Shapes.GetBatch(shape.Type).GetPointer(shape.Index), Simulation.Shapes);
+        RimContacts.MoveAhead(found, core, pose, center, normal, turn, ref moved);
     }
 }

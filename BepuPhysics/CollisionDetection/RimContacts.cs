@@ -19,7 +19,9 @@ namespace BepuPhysics.CollisionDetection;
 // to see is what the rim has, d less n . (m - l). So the contact at l goes to m with the depth d + n . (t x m) - n . (m - l).
 //
 // So it is with a ball whose middle is at q from the centre of its body, as a child of a compound: l = q - R n. A toy that rights itself, with its weight
-// below the middle of a ball, rocked ever higher on the arms of the beginning.
+// below the middle of a ball, rocked ever higher on the arms of the beginning. The side of a capsule that is a child is a ball at each of its contacts.
+//
+// A convex shape of a game's own is asked for its farthest point now and later, each in its own frame.
 static class RimContacts
 {
     /// <summary>Greatest number of contacts of a manifold that has some at rims: with more an end lies flat, and with all of its rim.</summary>
@@ -32,6 +34,9 @@ static class RimContacts
     // tests of pairs leave. The next thing that it could be is a corner by which contacts of an end are named, .2 radii away; one that is near by chance is
     // moved by a wrong way only by this part of it.
     const float Tolerance = 1e-2f;
+
+    // Radii of curvature, in sizes, beyond which what a shape of a game's own touches with is a face.
+    const float GreatestRoll = 8;
 
     // Way of the axis, or of the middle, in radii, below which nothing is worth moving: depths change by its square. What rolls fast turns its axis by some
     // thousandths of what it turns about that, as it sways on its contacts.
@@ -85,6 +90,57 @@ static class RimContacts
         var later = Turn(middle, turn);
         for (int i = 0; i < found.Count; ++i)
             Move(found.Read(i), middle + lowest, later + lowest, center, normal, turn, Tolerance * radius, ref moved, i);
+    }
+
+    /// <summary>Moves those contacts that are at the side of a capsule, or its ends.</summary>
+    /// <param name="found">Contacts as they were found.</param>
+    /// <param name="capsule">The capsule.</param>
+    /// <param name="pose">Where it is, from the centre of its body.</param>
+    /// <param name="center">Centre of its body less that of A.</param>
+    /// <param name="normal">The normal of the contacts, from the other body to the capsule.</param>
+    /// <param name="turn">By how much its body will have turned against the other one until then, rad.</param>
+    /// <param name="moved">The same contacts, of which some may have been moved already, and are left where they are.</param>
+    public static void MoveAhead(in ConvexContactManifold found, in Capsule capsule, in RigidPose pose, in Vector3 center, in Vector3 normal,
+        in Vector3 turn, ref ConvexContactManifold moved)
+    {
+        var axis = Exact.Rotate(Vector3.UnitY, pose.Orientation);
+        var lowest = normal * -capsule.Radius;
+        var least = LeastTurn * capsule.Radius;
+        for (int i = 0; i < found.Count; ++i)
+        {
+            var along = Exact.Dot(found.Read(i).Offset - center - pose.Position - lowest, axis);
+            var middle = pose.Position + axis * Math.Clamp(along, -capsule.HalfLength, capsule.HalfLength);
+            if (Exact.LengthSquared(Exact.Cross(turn, middle)) > least * least)
+                Move(found.Read(i), middle + lowest, Turn(middle, turn) + lowest, center, normal, turn, Tolerance * capsule.Radius, ref moved, i);
+        }
+    }
+
+    /// <summary>Moves the contact of a convex shape of a game's own, if it has one and that is where the shape is lowest.</summary>
+    /// <param name="found">Contacts as they were found.</param>
+    /// <param name="core">The shape.</param>
+    /// <param name="pose">Where it is, from the centre of its body.</param>
+    /// <param name="center">Centre of its body less that of A.</param>
+    /// <param name="normal">The normal of the contacts, from the other body to the shape.</param>
+    /// <param name="turn">By how much its body will have turned against the other one until then, rad.</param>
+    /// <param name="moved">The same contacts, of which some may have been moved already, and are left where they are.</param>
+    public static void MoveAhead(in ConvexContactManifold found, in ImpactCore core, in RigidPose pose, in Vector3 center, in Vector3 normal,
+        in Vector3 turn, ref ConvexContactManifold moved)
+    {
+        var way = Exact.Length(turn) * (float)core.Size;
+        if (found.Count != 1 || !(way > LeastTurn * (float)core.Size))
+            return;
+        var lowest = FarthestOf(core, pose, -normal);
+        var later = Turn(FarthestOf(core, pose, Turn(-normal, -turn)), turn);
+        // What rolls from one corner to another, or over a face, stays on the one that it touches.
+        if (Exact.LengthSquared(later - lowest) < GreatestRoll * GreatestRoll * way * way)
+            Move(found.Read(0), lowest, later, center, normal, turn, Tolerance * (float)core.Size, ref moved, 0);
+    }
+
+    static Vector3 FarthestOf(in ImpactCore core, in RigidPose pose, in Vector3 direction)
+    {
+        var local = Exact.RotateByInverse(direction, pose.Orientation);
+        var point = core.Support(new(local)).ToSingle() + local * (float)core.Margin;
+        return pose.Position + Exact.Rotate(point, pose.Orientation);
     }
 
     // From the lowest point to that of later, if it is there.
