@@ -35,8 +35,9 @@ static class RimContacts
     // moved by a wrong way only by this part of it.
     const float Tolerance = 1e-2f;
 
-    // Radii of curvature, in sizes, beyond which what a shape of a game's own touches with is a face.
-    const float GreatestRoll = 8;
+    // Part of its way by which the lowest point of a shape of a game's own may be beside the middle of that on half of the way. What runs along a surface is
+    // near it; what goes from one corner to another, or over a face, is at one of the ends.
+    const float GreatestBend = 0.25f;
 
     // Way of the axis, or of the middle, in radii, below which nothing is worth moving: depths change by its square. What rolls fast turns its axis by some
     // thousandths of what it turns about that, as it sways on its contacts.
@@ -126,15 +127,20 @@ static class RimContacts
     public static void MoveAhead(in ConvexContactManifold found, in ImpactCore core, in RigidPose pose, in Vector3 center, in Vector3 normal,
         in Vector3 turn, ref ConvexContactManifold moved)
     {
-        var way = Exact.Length(turn) * (float)core.Size;
-        if (found.Count != 1 || !(way > LeastTurn * (float)core.Size))
+        if (found.Count != 1 || !(Exact.LengthSquared(turn) > LeastTurn * LeastTurn))
             return;
-        var lowest = FarthestOf(core, pose, -normal);
-        var later = Turn(FarthestOf(core, pose, Turn(-normal, -turn)), turn);
+        var lowest = LowestAfter(core, pose, normal, default);
+        var later = LowestAfter(core, pose, normal, turn);
+        var shift = later - lowest;
+        var bend = LowestAfter(core, pose, normal, turn * 0.5f) - lowest - shift * 0.5f;
         // What rolls from one corner to another, or over a face, stays on the one that it touches.
-        if (Exact.LengthSquared(later - lowest) < GreatestRoll * GreatestRoll * way * way)
+        if (Exact.LengthSquared(bend) <= GreatestBend * GreatestBend * Exact.LengthSquared(shift))
             Move(found.Read(0), lowest, later, center, normal, turn, Tolerance * (float)core.Size, ref moved, 0);
     }
+
+    // Where the lowest point is once the body has turned, which that point has, too.
+    static Vector3 LowestAfter(in ImpactCore core, in RigidPose pose, in Vector3 normal, in Vector3 turn) =>
+        Turn(FarthestOf(core, pose, Turn(-normal, -turn)), turn);
 
     static Vector3 FarthestOf(in ImpactCore core, in RigidPose pose, in Vector3 direction)
     {
