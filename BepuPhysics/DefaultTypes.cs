@@ -42,7 +42,7 @@ public static partial class DefaultTypes
         registry.Register(new SearchCollisionTask<Cylinder, CylinderWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
             HalfSpaceFaceTester<CylinderWide, CylinderSupport, CylinderFeature>>());
         registry.Register(new SearchCollisionTask<ConvexHull, ConvexHullWide, HalfSpace, HalfSpaceWide, Few4<ContactWide>,
-            HalfSpaceFaceTester<ConvexHullWide, ConvexHullSupport, ConvexHullFeature>>());
+            HalfSpaceFaceTester<ConvexHullWide, ConvexHullSupport, StandingHullFeature>>());
     }
 
     // The pairs for which no closed form is cheaper than the search.
@@ -51,9 +51,9 @@ public static partial class DefaultTypes
         Register<Sphere, SphereWide, SphereSupport, SphereFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
         Register<Capsule, CapsuleWide, CapsuleSupport, CapsuleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
         Register<Box, BoxWide, BoxSupport, BoxFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
-        Register<Box, BoxWide, BoxSupport, BoxFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Box, BoxWide, BoxSupport, BoxFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, StandingHullFeature>(registry);
         Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
-        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<Triangle, TriangleWide, TriangleSupport, TriangleFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, StandingHullFeature>(registry);
         Register<Cylinder, CylinderWide, CylinderSupport, CylinderFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
         Register<Cylinder, CylinderWide, CylinderSupport, CylinderFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
         Register<ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);

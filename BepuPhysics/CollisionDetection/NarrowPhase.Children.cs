@@ -228,12 +228,15 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         for (; i < results.Length; i = SkipForgotten(results, i + 1))
         {
             ref var result = ref results[i];
-            if (tested.MayHaveRims && rimTime > 0)
+            var pivots = tested.MayPivot && IsPivoting(result.Manifold);
+            if (pivots || (tested.MayHaveRims && rimTime > 0))
             {
                 // Mostly they stay where they are: copied onto themselves, they would wait for their parts.
-                ref readonly var atRims = ref AtRims(tested.Pair, result.Manifold, ref moved);
-                if (!Unsafe.AreSame(in atRims, in result.Manifold))
-                    result.Manifold = atRims;
+                ref readonly var ahead = ref tested.MayHaveRims ? ref AtRims(tested.Pair, result.Manifold, ref moved) : ref result.Manifold;
+                if (pivots)
+                    ahead = ref AtPivots(tested.Pair, result.Manifold, ahead, ref moved);
+                if (!Unsafe.AreSame(in ahead, in result.Manifold))
+                    result.Manifold = ahead;
             }
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);

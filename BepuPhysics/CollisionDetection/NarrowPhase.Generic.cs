@@ -191,6 +191,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
             offsetB = poseB.Position;
         }
         tested.MayHaveRims = MayHaveRims(ref worker.Rims, tested, collidableA.Shape, shapeB);
+        tested.MayPivot = MayPivot(tested, collidableA.Shape);
         tested.MayRoll = task.Expands && MayRoll(tested, collidableA.Shape);
         if (task.Expands)
         {
@@ -282,6 +283,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
     {
         Unsafe.SkipInit(out ConvexContactManifold moved);
         ref readonly var contacts = ref tested.MayHaveRims ? ref AtRims(tested.Pair, convex, ref moved) : ref convex;
+        if (tested.MayPivot && IsPivoting(convex))
+            contacts = ref AtPivots(tested.Pair, convex, contacts, ref moved);
         var typeId = ConstraintType(tested.Pair, convex.Count);
         if (tested.CacheIndex >= 0)
         {

@@ -165,8 +165,9 @@ static class RimContacts
         target.Depth += Exact.Dot(normal, Exact.Cross(turn, later) - shift);
     }
 
+    /// <summary>A vector that has been turned.</summary>
     // By 2 atan(|turn| / 2), which is |turn| to third order, and needs no sine.
-    static Vector3 Turn(in Vector3 v, in Vector3 turn)
+    internal static Vector3 Turn(in Vector3 v, in Vector3 turn)
     {
         var across = Exact.Cross(turn, v);
         return v + (across + Exact.Cross(turn, across) * 0.5f) * (1 / (1 + Exact.LengthSquared(turn) * 0.25f));

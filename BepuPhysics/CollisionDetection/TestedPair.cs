@@ -37,6 +37,9 @@ struct TestedPair
     /// <summary>Whether contacts may run around the rims of cylinders.</summary>
     public bool MayHaveRims;
 
+    /// <summary>Whether A has corners and edges on which it may turn.</summary>
+    public bool MayPivot;
+
     /// <summary>Whether A is round, and may roll along a curved surface that stands.</summary>
     public bool MayRoll;
 

@@ -17,7 +17,7 @@ static class DirectedTasks
         RegisterAll<Box, BoxWide, BoxSupport, BoxFeature>(registry);
         RegisterAll<Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
         RegisterAll<Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
-        RegisterAll<ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        RegisterAll<ConvexHull, ConvexHullWide, ConvexHullSupport, StandingHullFeature>(registry);
         return registry;
     }
 
@@ -30,7 +30,7 @@ static class DirectedTasks
         Register<TShape, TShapeWide, TSupport, TFeature, Box, BoxWide, BoxSupport, BoxFeature>(registry);
         Register<TShape, TShapeWide, TSupport, TFeature, Triangle, TriangleWide, TriangleSupport, TriangleFeature>(registry);
         Register<TShape, TShapeWide, TSupport, TFeature, Cylinder, CylinderWide, CylinderSupport, CylinderFeature>(registry);
-        Register<TShape, TShapeWide, TSupport, TFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, ConvexHullFeature>(registry);
+        Register<TShape, TShapeWide, TSupport, TFeature, ConvexHull, ConvexHullWide, ConvexHullSupport, StandingHullFeature>(registry);
     }
 
     // The shape of the lower type id first, as everywhere.
