@@ -178,7 +178,7 @@ public sealed partial class Simulation
         {
             throw new ArgumentOutOfRangeException(nameof(dt), dt,
                 $"The time of a step must be from {Limits.MinimumTimestep} to {Limits.MaximumTimestep} s." +
-                (dt > Limits.MaximumTimestep ? " Is this in milliseconds?" : ""));
+                (dt > Limits.MaximumTimestep ? " Is this in milliseconds? A frame that took long may be cut: Math.Min(frameTime, 0.1f)." : ""));
         }
     }
 }

@@ -43,7 +43,8 @@ public sealed partial class Simulation
         const int World = 0;
         const int NarrowPhase = 1;
         const int Integrator = 2;
-        const int FirstConstraintType = 3;
+        const int Joints = 3;
+        const int FirstConstraintType = 4;
 
         public int StageCount => 1;
 
@@ -62,6 +63,10 @@ public sealed partial class Simulation
                 case Integrator:
                     Solver.CompileFreeFlight();
                     simulation.PoseIntegrator.Compile();
+                    break;
+                case Joints:
+                    if (simulation.Solver.DirectJoints != DirectJointsMode.Off)
+                        WarmUpJoints.Run();
                     break;
                 default:
                     simulation.Solver.WarmUp(block - FirstConstraintType);

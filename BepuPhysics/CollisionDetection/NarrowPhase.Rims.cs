@@ -110,6 +110,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         else if (shape.Type > ShapeLimits.LastTypeId && IsOwnConvex(shape))
             MoveOwn(found, shape, pose, center, normal, turn, ref moved);
     }
+
     void MoveOwn(in ConvexContactManifold found, TypedIndex shape, in RigidPose pose, in Vector3 center, in Vector3 normal, in Vector3 turn,
         ref ConvexContactManifold moved)
     {

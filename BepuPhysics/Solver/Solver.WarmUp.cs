@@ -12,7 +12,7 @@ public sealed partial class Solver
         if (processors[typeId] is not { } processor)
             return;
         using var pool = new BufferPool();
-        processor.WarmUp(pool);
+        processor.WarmUp(pool, readsRows: directJoints != DirectJointsMode.Off && MayBeDirect(typeId));
     }
 
     /// <summary>Compiles what moves free bodies.</summary>

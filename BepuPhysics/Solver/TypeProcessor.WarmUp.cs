@@ -8,7 +8,9 @@ namespace BepuPhysics.Constraints;
 public abstract partial class TypeProcessor
 {
     /// <summary>Runs every loop of the type over a bundle without constraints, so that it is compiled.</summary>
-    internal unsafe void WarmUp(BufferPool pool)
+    /// <param name="pool">Memory.</param>
+    /// <param name="readsRows">Whether joints may be solved at once.</param>
+    internal unsafe void WarmUp(BufferPool pool, bool readsRows)
     {
         var batch = default(TypeBatch);
         Span<int> none = stackalloc int[BodiesPerConstraint];
@@ -34,6 +36,13 @@ public abstract partial class TypeProcessor
             Solve(ref batch, bodies, substep, 0, 1);
             WarmStartSplit(ref batch, bodies, split, substep, 0, 1);
             SolveSplit(ref batch, bodies, split, substep, 0, 1);
+        }
+        if (readsRows && RowCount > 0)
+        {
+            Span<ConstraintRowWide> rows = stackalloc ConstraintRowWide[RowCount];
+            rows.Clear();
+            ReadRows(ref batch, bodies, new Substep(1, 1 / 240f), 0, rows);
+            ReadRigidErrors(ref batch, bodies, new Substep(1, 1 / 240f), 0, out _);
         }
         Dispose(ref batch, pool);
         pool.Return(ref shares);

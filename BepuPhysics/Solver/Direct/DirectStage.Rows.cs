@@ -66,9 +66,8 @@ sealed unsafe partial class DirectStage
                 WriteAll<FourNumbers>(kind, rows, firstLane, mayLessen ? targets : default, members[0] / DirectPlan.Lanes);
             else
                 WriteAll<EightNumbers>(kind, rows, firstLane, mayLessen ? targets : default, members[0] / DirectPlan.Lanes);
-            return;
         }
-        for (int lane = 0; lane < count; ++lane)
+        for (int lane = 0; lane < count && !isWhole; ++lane)
         {
             var joint = new JointLane(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]);
             var lanes = plan.IslandOf(members[lane]).Lanes;
@@ -78,6 +77,11 @@ sealed unsafe partial class DirectStage
                 Write<ManyVectors<FourNumbers>, FourNumbers>(joint, members[lane]);
             else
                 Write<ManyVectors<EightNumbers>, EightNumbers>(joint, members[lane]);
+        }
+        for (var left = lessened; left != 0; left &= left - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(left);
+            GiveWay(new(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]), members[lane]);
         }
     }
 
