@@ -28,7 +28,7 @@ static class WarmUpJoints
         {
             // Four of these are alike, then eight more: what hangs below them says which.
             var top = Hang(simulation, new Vector3(i * Spacing, 0, 0), i == 0 ? 3 : i <= DirectPlan.FourLanes ? 1 : 2);
-            // Off by as much as loops give way by.
+            // What has bounds takes methods of its own.
             if (i == 0)
                 simulation.Solver.Add(top, new OneBodyLinearServo
                 {

@@ -18,6 +18,9 @@ public sealed unsafe partial class Bodies
     internal static bool IsElsewhere(in BodySet set, int index) =>
         set.Origins[index].Position + set.Displacements[index].Linear != set.MotionStates[index].Pose.Position;
 
+    /// <summary>Whether a game has moved or turned a kinematic body by its pose since the last step. Before the first integration of a step.</summary>
+    internal static bool IsMovedByPose(in BodySet set, int index) => set.Activity[index].WasTurned || IsElsewhere(set, index);
+
     /// <summary>
     /// Takes note of kinematic bodies that were moved by their poses since the last step. Before their poses are remembered as those of this one.
     /// </summary>

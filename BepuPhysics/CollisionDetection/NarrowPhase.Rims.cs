@@ -33,11 +33,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     // Of a compound its children say it. Those of many children are not looked at: there are too many.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     bool MayHaveRims(ref RimMemory memory, TypedIndex shape) =>
-        shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasRims(ref memory, shape)) ||
-        (shape.Type > ShapeLimits.LastTypeId && IsOwnConvex(shape));
+        shape.Type == Cylinder.Id || (shape.Type == Compound.Id && HasRims(ref memory, shape)) || IsOwnConvex(shape);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    bool IsOwnConvex(TypedIndex shape) => shape.Type > ShapeLimits.LastTypeId && HasCore(shape);
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    bool IsOwnConvex(TypedIndex shape) => ImpactCore.Exists(shape.Type, Simulation.Shapes);
+    bool HasCore(TypedIndex shape) => ImpactCore.Exists(shape.Type, Simulation.Shapes);
 
     bool HasRims(ref RimMemory memory, TypedIndex shape)
     {
@@ -93,8 +95,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
     }
 
-    bool IsRound(TypedIndex child) =>
-        child.Type is Cylinder.Id or Sphere.Id or Capsule.Id || (child.Type > ShapeLimits.LastTypeId && IsOwnConvex(child));
+    bool IsRound(TypedIndex child) => child.Type is Cylinder.Id or Sphere.Id or Capsule.Id || IsOwnConvex(child);
 
     // What is a sphere by itself turns in its place.
     void MoveRims(in ConvexContactManifold found, TypedIndex shape, in RigidPose pose, in Vector3 center, in Vector3 normal, in Vector3 turn,
@@ -107,7 +108,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             RimContacts.MoveAhead(found, shapes.GetShape<Sphere>(shape.Index).Radius, pose.Position, center, normal, turn, ref moved);
         else if (shape.Type == Capsule.Id)
             RimContacts.MoveAhead(found, shapes.GetShape<Capsule>(shape.Index), pose, center, normal, turn, ref moved);
-        else if (shape.Type > ShapeLimits.LastTypeId && IsOwnConvex(shape))
+        else if (IsOwnConvex(shape))
             MoveOwn(found, shape, pose, center, normal, turn, ref moved);
     }
 

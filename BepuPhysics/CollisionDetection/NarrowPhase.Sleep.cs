@@ -57,8 +57,7 @@ public abstract partial class NarrowPhase
     internal static bool Moves(in BodySet set, int index)
     {
         ref var velocity = ref set.MotionStates[index].Velocity;
-        return velocity.Linear != Vector3.Zero || velocity.Angular != Vector3.Zero ||
-            set.Activity[index].WasTurned || Bodies.IsElsewhere(set, index);
+        return velocity.Linear != Vector3.Zero || velocity.Angular != Vector3.Zero || Bodies.IsMovedByPose(set, index);
     }
 
     /// <summary>Whether a body that is awake wakes one that sleeps by touching it.</summary>

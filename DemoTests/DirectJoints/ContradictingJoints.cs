@@ -20,7 +20,7 @@ static class ContradictingJoints
         for (int i = 0; i < count; ++i)
         {
             var box = new Box(random.Uniform(.1f, .5f), random.Uniform(.1f, .5f), random.Uniform(.1f, .5f));
-            bodies.Add(world.AddDynamic(box, MathF.Pow(10, random.Uniform(-1, 1)), new RigidPose(new(.5f * i, 1, 0), Turn(random))));
+            bodies.Add(world.AddDynamic(box, MathF.Pow(10, random.Uniform(-1, 1)), new RigidPose(new(.5f * i, 1, 0), TestWorld.Turn(random))));
         }
         var joints = count + random.Next(3);
         for (int i = 0; i < joints; ++i)
@@ -37,28 +37,24 @@ static class ContradictingJoints
         switch (random.Next(3))
         {
             case 0:
-                solver.Add(a, b, new BallSocket { LocalOffsetA = Vector(random, .4f), LocalOffsetB = Vector(random, .4f) });
+                solver.Add(a, b, new BallSocket { LocalOffsetA = TestWorld.Scatter(random, .8f), LocalOffsetB = TestWorld.Scatter(random, .8f) });
                 break;
             case 1:
-                solver.Add(a, b, new Weld { LocalOffset = Vector(random, .6f), LocalOrientation = Turn(random) });
+                solver.Add(a, b, new Weld { LocalOffset = TestWorld.Scatter(random, 1.2f), LocalOrientation = TestWorld.Turn(random) });
                 break;
             default:
                 solver.Add(a, b, new Hinge
                 {
-                    LocalOffsetA = Vector(random, .4f),
-                    LocalOffsetB = Vector(random, .4f),
-                    LocalHingeAxisA = Vector3.Normalize(Vector(random, 1)),
-                    LocalHingeAxisB = Vector3.Normalize(Vector(random, 1)),
+                    LocalOffsetA = TestWorld.Scatter(random, .8f),
+                    LocalOffsetB = TestWorld.Scatter(random, .8f),
+                    LocalHingeAxisA = Vector3.Normalize(TestWorld.Scatter(random, 2)),
+                    LocalHingeAxisB = Vector3.Normalize(TestWorld.Scatter(random, 2)),
                 });
                 break;
         }
     }
 
     static float Uniform(this Random random, float from, float to) => from + random.NextSingle() * (to - from);
-
-    static Vector3 Vector(Random random, float most) => new(random.Uniform(-most, most), random.Uniform(-most, most), random.Uniform(-most, most));
-
-    static Quaternion Turn(Random random) => Quaternion.Normalize(new(Vector(random, 1), random.Uniform(-1, 1)));
 
     /// <summary>A square net of knots of 1 kg, held at two sides, with a load at its middle.</summary>
     public static void AddNet(TestWorld world, int side, float load)

@@ -6,6 +6,7 @@ using BepuPhysics.CollisionDetection;
 using Demos.Accuracy;
 using Demos.JointTables;
 using DemoTests.Scenes;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.OwnShapes;
@@ -39,18 +40,7 @@ public class RockingEllipsoidTests
             new RigidPose(new Vector3(0, -min.Y, 0), orientation), velocity, inertia, world.Simulation.Shapes.Add(shape), -1));
     }
 
-    static double Energy(TestWorld world, BodyHandle body)
-    {
-        var reference = world.Bodies[body];
-        reference.ComputeInverseInertia(out var inverse);
-        BepuUtilities.Symmetric3x3.Invert(inverse, out var inertia);
-        var turn = reference.Velocity.Angular;
-        var momentum = new Vector3(
-            inertia.XX * turn.X + inertia.YX * turn.Y + inertia.ZX * turn.Z,
-            inertia.YX * turn.X + inertia.YY * turn.Y + inertia.ZY * turn.Z,
-            inertia.ZX * turn.X + inertia.ZY * turn.Y + inertia.ZZ * turn.Z);
-        return Mass * (.5 * reference.Velocity.Linear.LengthSquared() + Gravity * reference.Pose.Position.Y) + .5 * Vector3.Dot(turn, momentum);
-    }
+    static double Energy(TestWorld world, BodyHandle body) => BodyEnergy.Of(world.Bodies[body], Gravity);
 
     [Theory, InlineData(4), InlineData(16)]
     public void It_rocks_with_its_period_and_no_higher(int substeps)

@@ -4,6 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
+using DemoTests.Support;
 using Xunit;
 
 namespace DemoTests.Robustness;
@@ -131,14 +132,8 @@ public class ExtremeTests
     static double Energy(Simulation simulation, List<(BodyHandle Body, float Mass)> bodies, double gravity)
     {
         double sum = 0;
-        foreach (var (body, mass) in bodies)
-        {
-            var reference = simulation.Bodies[body];
-            reference.ComputeInverseInertia(out var inverse);
-            var momentum = BepuUtilities.Symmetric3x3.Invert(inverse) * reference.Velocity.Angular;
-            sum += .5 * mass * Vector3.Dot(reference.Velocity.Linear, reference.Velocity.Linear) + .5 * Vector3.Dot(momentum, reference.Velocity.Angular)
-                + mass * gravity * reference.Pose.Position.Y;
-        }
+        foreach (var (body, _) in bodies)
+            sum += BodyEnergy.Of(simulation.Bodies[body], gravity);
         return sum;
     }
 }

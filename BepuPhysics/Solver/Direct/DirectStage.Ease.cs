@@ -18,16 +18,7 @@ sealed unsafe partial class DirectStage
             need.GoOn(substepDt);
             return;
         }
-        double linear = 0, angular = 0;
-        for (int row = 0; row < joint.RowCount; ++row)
-        {
-            double off = joint.PositionError(row);
-            if (joint.IsLinear(row))
-                linear += off * off;
-            else
-                angular += off * off;
-        }
-        (linear, angular) = (Math.Sqrt(linear), Math.Sqrt(angular));
+        var (linear, angular) = joint.Error();
         var turn = TurnSquared(joint, set);
         var mayHurry = JointNeed.MayHurry(turn);
         var opened = OpenedByLoad(joint, set.WorldInertias, substep, need.Shrunk * linear, need.Shrunk * angular);

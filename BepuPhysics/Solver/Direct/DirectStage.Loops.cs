@@ -11,8 +11,8 @@ sealed unsafe partial class DirectStage
     const double FreeError = 0.05;
     // How far it gives way then, by what it is off by beyond that: softness as a part of its own K. Damped least squares, in the words of inverse kinematics
     // (Wampler 1986, Nakamura and Hanafusa 1986), where motions grow with one over the least singular value in the same way. Of 300 knots of two to four bodies
-    // and as many joints or more that are not where they should be nearly half had more than a kilojoule without, one of them 1e21 J, and 8 with it, where
-    // sweeps leave 5. At .25 a net that has given way under a load does not come back.
+    // and as many joints or more that are not where they should be 219 had more than a kilojoule without, one of them 1e21 J, and 10 with it, where sweeps
+    // leave 5. At .25 a net that has given way under a load does not come back.
     const double LoopSoftness = 0.05;
 
     // A joint of a loop that is far off is not as stiff as can be, so that those that contradict it are not fought.
@@ -21,19 +21,10 @@ sealed unsafe partial class DirectStage
         ref var island = ref plan.IslandOf(member);
         if (!island.HasLoops || joint.Limit != RowLimit.None || !joint.IsHard)
             return;
-        double linear = 0, angular = 0;
-        for (int row = 0; row < joint.RowCount; ++row)
-        {
-            double off = joint.PositionError(row);
-            if (joint.IsLinear(row))
-                linear += off * off;
-            else
-                angular += off * off;
-        }
-        var part = Math.Sqrt(angular);
+        var (linear, part) = joint.Error();
         // Areas and volumes are no lengths.
         if (linear > 0 && solver.Processor(plan.Nodes[member / DirectPlan.Lanes].TypeId).MakesHubs)
-            part = Math.Max(part, Math.Sqrt(linear) / Correction.Reach(joint, bodies.Awake.LocalInertias));
+            part = Math.Max(part, linear / Correction.Reach(joint, bodies.Awake.LocalInertias));
         if (!(part > FreeError))
             return;
         var softness = hardSoftness + LoopSoftness * (Math.Min(1, part) - FreeError);

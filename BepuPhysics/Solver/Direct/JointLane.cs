@@ -87,6 +87,21 @@ readonly ref struct JointLane(in JointKind kind, ReadOnlySpan<ConstraintRowWide>
     /// <summary>How far a row is off.</summary>
     internal float PositionError(int row) => Lane(rows[row].PositionError);
 
+    /// <summary>How far the joint is off, along directions and about axes.</summary>
+    internal (double Linear, double Angular) Error()
+    {
+        double linear = 0, angular = 0;
+        for (int row = 0; row < RowCount; ++row)
+        {
+            double off = PositionError(row);
+            if (IsLinear(row))
+                linear += off * off;
+            else
+                angular += off * off;
+        }
+        return (Math.Sqrt(linear), Math.Sqrt(angular));
+    }
+
     /// <summary>What a row is after, before it was lessened.</summary>
     internal float TargetVelocity(int row) => Lane(rows[row].TargetVelocity);
 

@@ -22,19 +22,12 @@ sealed unsafe partial class LoadPathStage
 
     bool HasElsewhere => hasElsewhereIn.AsSpan(0, BodyBlockCount).Contains(true);
 
-    // Of a kinematic body, before the first integration, while origin and displacement are those of the last step.
-    bool IsElsewhere(int body)
-    {
-        ref var set = ref bodies.Awake;
-        return set.Activity[body].WasTurned || Bodies.IsElsewhere(set, body);
-    }
-
     void FindElsewhere()
     {
         ref var set = ref bodies.Awake;
         pool.TakeAtLeast(set.Count, out elsewhere);
         for (int i = 0; i < set.Count; ++i)
-            elsewhere[i] = set.LocalInertias[i].InverseMass == 0 && IsElsewhere(i) ? WayTo(i) : default;
+            elsewhere[i] = set.LocalInertias[i].InverseMass == 0 && Bodies.IsMovedByPose(set, i) ? WayTo(i) : default;
     }
 
     Vector4 WayTo(int body)

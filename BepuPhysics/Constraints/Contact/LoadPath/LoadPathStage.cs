@@ -161,7 +161,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             before[i].Linear = set.MotionStates[i].Velocity.Linear;
             if (set.LocalInertias[i].InverseMass != 0)
                 continue;
-            hasElsewhere |= IsElsewhere(i);
+            hasElsewhere |= Bodies.IsMovedByPose(set, i);
             FindMotion(i);
             hasFloors |= IsFloor(i);
         }

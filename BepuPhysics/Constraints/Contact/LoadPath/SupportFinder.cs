@@ -29,8 +29,7 @@ namespace BepuPhysics.Constraints.Contact;
 // way, as friction knows its limit only once the load is there.
 readonly unsafe struct SupportFinder(
     SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, byte* reached, Vector4* elsewhere,
-    float quietSteps,
-    RestTolerance tolerance, float warmStartScale, float dt)
+    float quietSteps, RestTolerance tolerance, float warmStartScale, float dt)
 {
     /// <summary>Fewest contacts on which a body rests: on two it may roll or rock, and what it has of momentum is no load.</summary>
     internal const int LeastContacts = 3;
