@@ -12,7 +12,7 @@ sealed unsafe partial class DirectStage
     // How far it gives way then, by what it is off by beyond that: softness as a part of its own K. Damped least squares, in the words of inverse kinematics
     // (Wampler 1986, Nakamura and Hanafusa 1986), where motions grow with one over the least singular value in the same way. Of 300 knots of two to four bodies
     // and as many joints or more that are not where they should be 219 had more than a kilojoule without, one of them 1e21 J, and 10 with it, where sweeps
-    // leave 5. At .25 a net that has given way under a load does not come back.
+    // leave 6. At .25 a net that has given way under a load does not come back.
     const double LoopSoftness = 0.05;
 
     // A joint of a loop that is far off is not as stiff as can be, so that those that contradict it are not fought.
