@@ -16,6 +16,8 @@ struct SeamMemory
     public QuickList<SeamSet> Sets;
     /// <summary>The children that touch, of all sets.</summary>
     public QuickList<RankedChild> Touching;
+    /// <summary>Of triangles of surfaces among them: along which directions they are touched.</summary>
+    public QuickList<TouchedDirection> Directions;
     /// <summary>Those that patches are made of, in their order.</summary>
     public QuickList<RankedChild> Ranked;
     /// <summary>Contacts with planes in place of flush faces.</summary>
@@ -130,6 +132,7 @@ struct SeamMemory
         Moved.Dispose(pool);
         Sets.DisposeIfTaken(pool);
         Touching.DisposeIfTaken(pool);
+        Directions.DisposeIfTaken(pool);
         Ranked.DisposeIfTaken(pool);
         Planes.DisposeIfTaken(pool);
         Candidates.DisposeIfTaken(pool);

@@ -12,6 +12,8 @@ static class SeamRounds
     /// <param name="pool">Source of memory.</param>
     public static unsafe void Run(ref SeamMemory memory, CollisionTaskRegistry registry, BufferPool pool)
     {
+        if (memory.Touching.Count > 0)
+            TriangleNeighbours.FindDirections(ref memory, pool);
         while (true)
         {
             for (int i = 0; i < memory.Sets.Count; ++i)
@@ -71,11 +73,11 @@ static class SeamRounds
         switch (set.Stage)
         {
             case SeamStage.DirectionsOfB or SeamStage.DirectionsOfA:
-                TriangleNeighbours.AddDirections(ref memory.Tests, view, set.Stage == SeamStage.DirectionsOfA, pool);
+                TriangleNeighbours.AddDirections(ref memory, view, set.Stage == SeamStage.DirectionsOfA, pool);
                 ++set.Stage;
                 break;
             case SeamStage.NormalsOfB or SeamStage.NormalsOfA:
-                TriangleNeighbours.Take(memory.Tests, view, set.Stage == SeamStage.NormalsOfA);
+                TriangleNeighbours.Take(memory.Tests, view);
                 ++set.Stage;
                 break;
             case SeamStage.Order:

@@ -14,7 +14,7 @@ namespace BepuPhysics.CollisionDetection;
 unsafe struct ShapeReach
 {
     // Part by which the two kinds of features of a cylinder, or two faces of a box, must differ in angle not to be mistaken for each other.
-    const float Distinct = 1e-3f;
+    public const float Distinct = 1e-3f;
 
     readonly int typeId;
     // Axes of a box; that of a capsule or a cylinder is Y. The corners of a triangle.
@@ -88,8 +88,9 @@ unsafe struct ShapeReach
         }
     }
 
+    /// <summary>How far a hull reaches along a direction in its own frame, m.</summary>
     // The lanes after the last vertex of a hull hold copies.
-    static float Along(HullHeader* hull, in Vector3 direction)
+    public static float Along(HullHeader* hull, in Vector3 direction)
     {
         var (x, y, z) = (new Vector<float>(direction.X), new Vector<float>(direction.Y), new Vector<float>(direction.Z));
         var points = hull->Points;

@@ -16,47 +16,81 @@ namespace BepuPhysics.CollisionDetection;
 static class TriangleNeighbours
 {
     // A direction as steep to the triangle's normal as this cosine says is the neighbours'.
-    const float LeastCosine = 0.05f;
+    public const float LeastCosine = 0.05f;
     // Part of the sizes by which a feature must be beside a triangle to have nothing over it: far above the rounding of the test that looks for it.
-    const float Beside = 1e-4f;
+    public const float Beside = 1e-4f;
     // Bounds that meet at a corner are gone over until none is left, or it is seen that they cannot all be met.
-    const int MaximumClampCount = 4;
+    public const int MaximumClampCount = 4;
+
+    /// <summary>Finds for all sets that begin along which directions their triangles are touched, but for those that touch triangles.</summary>
+    /// <param name="memory">The sets; receives the directions, in the order of the children that touch.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static unsafe void FindDirections(ref SeamMemory memory, BufferPool pool)
+    {
+        Unsafe.SkipInit(out NeighbourLanes lanes);
+        lanes.Clear();
+        memory.Directions.EnsureCapacity(memory.Touching.Count, pool);
+        var directions = memory.Directions.Span.Memory;
+        foreach (ref var set in memory.Sets.AsSpan())
+        {
+            for (int i = set.First; set.Stage == SeamStage.DirectionsOfB && i < set.First + set.Count; ++i)
+            {
+                var slot = memory.Touching[i].Slot;
+                ref var placed = ref set.Placed[slot];
+                if (placed.AreTriangles || (!IsSurface(placed, isA: false) && !IsSurface(placed, isA: true)))
+                    continue;
+                lanes.Add(placed, set.Results[slot].Manifold.Normal, placed.TypeA == Triangle.Id, i);
+                if (lanes.IsFull)
+                    lanes.Find(directions);
+            }
+        }
+        lanes.Find(directions);
+    }
 
     /// <summary>Looks children that were touched beyond their neighbours up along the direction of least depth of those that there are.</summary>
-    /// <param name="tests">Receives the directions.</param>
+    /// <param name="memory">Receives the directions.</param>
     /// <param name="view">The children.</param>
     /// <param name="isA">Whether the triangles are those of A.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void AddDirections(ref DirectedTests tests, in SeamView view, bool isA, BufferPool pool)
+    public static void AddDirections(ref SeamMemory memory, in SeamView view, bool isA, BufferPool pool)
     {
         for (int i = 0; i < view.Ranked.Length; ++i)
         {
-            ref var placed = ref view.Placed(view.Ranked[i]);
-            ref var manifold = ref view.Result(view.Ranked[i]).Manifold;
-            if (manifold.Count > 0 && !view.Ranked[i].IsOfNeighbours && IsSurface(placed, isA))
-                AddDirections(ref tests, placed, manifold.Normal, isA, i, ref view.Ranked[i], pool);
+            ref var child = ref view.Ranked[i];
+            ref var placed = ref view.Placed(child);
+            if (child.IsOfNeighbours || !IsSurface(placed, isA))
+                continue;
+            if (placed.AreTriangles)
+            {
+                ref var manifold = ref view.Result(child).Manifold;
+                if (manifold.Count > 0)
+                    AddDirections(ref memory.Tests, placed, manifold.Normal, isA, i, ref child, pool);
+                continue;
+            }
+            ref var found = ref memory.Directions.Span[view.Set.First + i];
+            if (found.Side == TouchedSide.Own)
+                continue;
+            child.Class = 1;
+            child.IsOfNeighbours = found.Side == TouchedSide.Neighbours;
+            if (!child.IsOfNeighbours)
+                memory.Tests.Add(placed, isA ? -found.Direction : found.Direction, float.MaxValue, placed.SpeculativeMargin, i, pool);
         }
     }
 
     /// <summary>Takes what was found along these directions.</summary>
     /// <param name="tests">What was found, in the order of children.</param>
     /// <param name="view">The children.</param>
-    /// <param name="isA">Whether the triangles are those of A.</param>
-    public static void Take(in DirectedTests tests, in SeamView view, bool isA)
+    public static void Take(in DirectedTests tests, in SeamView view)
     {
         var last = view.Set.Tests;
         for (int i = last.First; i < last.End; ++i)
-            Take(tests[i], view, isA);
-    }
-
-    static void Take(in DirectedPair test, in SeamView view, bool isA)
-    {
-        ref var child = ref view.Ranked[test.Owner];
-        // What is a triangle too may have gone through the neighbour, and be seen by nobody else.
-        child.IsOfNeighbours = test.Manifold.Count == 0 || (!view.Placed(child).AreTriangles &&
-            Exact.Dot(isA ? -test.Normal : test.Normal, Exact.Normalize(FaceVector(view.Placed(child), isA))) < LeastCosine);
-        if (!child.IsOfNeighbours)
-            view.Result(child).Replace(test);
+        {
+            ref var test = ref tests[i];
+            ref var child = ref view.Ranked[test.Owner];
+            child.IsOfNeighbours = test.Manifold.Count == 0;
+            if (!child.IsOfNeighbours)
+                view.Result(child).Replace(test);
+        }
     }
 
     /// <summary>Leaves out what is the neighbours', if a neighbour has it.</summary>
@@ -187,7 +221,7 @@ static class TriangleNeighbours
         Exact.Dot(center, direction) + surface.Along(direction) + other.Along(-direction);
 
     // Whether there are no contacts for sure, without a test: the direction is the neighbours', or what touches is beside the triangle. What is near to that is
-    // tested.
+    // tested. What is a triangle too may have gone through the neighbour, and be seen by nobody else.
     static bool HasNone(in LeastDirection best, in PlacedChildren placed, in TriangleSurface surface, in ShapeReach other, in Vector3 center)
     {
         if (placed.AreTriangles)
