@@ -205,33 +205,48 @@ unsafe struct ChildPairs(BufferPool pool)
     public void HoldSunk(ref SeamSet set, in KnownPatches known, in LastMotion motion, BufferPool pool) =>
         SunkChildren.Hold(ref Seams, ref set, parents[set.Owner].SlotCount, known, motion, pool);
 
-    /// <summary>Makes patches of what was found for the children of a parent, which have agreed.</summary>
-    /// <param name="set">The parent's set.</param>
+    /// <summary>Begins to make patches of what was found for the children of a parent, which have agreed.</summary>
+    /// <param name="set">The parent's set; receives what is known of its patches.</param>
     /// <param name="known">Patches of the last step.</param>
     /// <param name="pool">Source of memory.</param>
-    /// <returns>Number of patches.</returns>
-    public int BuildPatches(in SeamSet set, in KnownPatches known, BufferPool pool)
+    public void BeginPatches(ref SeamSet set, in KnownPatches known, BufferPool pool)
+    {
+        ref var open = ref parents[set.Owner];
+        set.FirstReduced = Seams.Reduced.Count;
+        set.KeepsChildren = known.KeepsChildren;
+        set.PatchCount = set.Count == 0 ? 0 : PatchSet.Begin(
+            ref Seams, Seams.TouchingOf(set), set.First, set.Results, set.Placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+        set.ReducedCount = Seams.Reduced.Count - set.FirstReduced;
+    }
+
+    /// <summary>Makes patches of a parent whose contacts are chosen.</summary>
+    /// <param name="set">The parent's set.</param>
+    /// <param name="pool">Source of memory.</param>
+    public void FinishPatches(in SeamSet set, BufferPool pool)
     {
         ref var open = ref parents[set.Owner];
         ForgetOutcome();
         if (set.Count == 0)
-            return 0;
+            return;
+        var touching = Seams.TouchingOf(set);
         var results = Results(set.Owner, 0);
         var placed = new Span<PlacedChildren>(open.Placed.Memory, open.SlotCount);
-        Seams.Rank(Seams.TouchingOf(set), pool);
-        if (known.KeepsChildren)
-            Keep(results, placed, pool);
-        MayCarry = open.HasRound || AreAllCarried(results, placed);
-        var count = PatchSet.Build(ref Seams, results, placed, known, new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity), pool);
+        if (set.KeepsChildren)
+            Keep(touching, results, placed, pool);
+        MayCarry = open.HasRound || AreAllCarried(touching, results, placed);
+        var count = set.PatchCount;
+        if (count == 0)
+            return;
+        PatchSet.Finish(touching, Seams.Reduced.AsSpan().Slice(set.FirstReduced, set.ReducedCount), set.Results,
+            new Span<ChildResult>(open.Slots.Memory, PatchSet.Capacity));
         var patches = Results(set.Owner, count)[..count];
-        if (count > 0 && ThinImpacts.MayHave(patches[0].Manifold, open.Motion, open.Dt))
-            HitsThin = ThinImpacts.Has(patches, open.Motion, open.Dt, placed, Seams.Ranked.AsSpan());
-        return count;
+        if (ThinImpacts.MayHave(patches[0].Manifold, open.Motion, open.Dt))
+            HitsThin = ThinImpacts.Has(patches, open.Motion, open.Dt, placed, touching);
     }
 
-    readonly bool AreAllCarried(Span<ChildResult> results, Span<PlacedChildren> placed)
+    static bool AreAllCarried(Span<RankedChild> touching, Span<ChildResult> results, Span<PlacedChildren> placed)
     {
-        foreach (ref var child in Seams.Ranked.AsSpan())
+        foreach (ref var child in touching)
         {
             var count = results[child.Slot].Manifold.Count;
             if (count != 0 && count < placed[child.Slot].LeastCarriedContactCount)
@@ -240,11 +255,11 @@ unsafe struct ChildPairs(BufferPool pool)
         return true;
     }
 
-    void Keep(Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)
+    void Keep(Span<RankedChild> touching, Span<ChildResult> results, Span<PlacedChildren> placed, BufferPool pool)
     {
         if (!Kept.Span.Allocated)
             Kept = new(InitialCapacity, pool);
-        foreach (ref var child in Seams.Ranked.AsSpan())
+        foreach (ref var child in touching)
         {
             if (results[child.Slot].Manifold.Count > 0)
                 Kept.Add(new() { Class = child.Class, Result = results[child.Slot], Placed = placed[child.Slot] }, pool);

@@ -284,12 +284,19 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         var sets = seams.Sets.AsSpan();
         // Where a callback throws, what is left is lost.
         seams.Sets.Count = 0;
+        seams.Reduced.Count = 0;
         foreach (ref var set in sets)
         {
             TCallbacks.RecallPatches(ref Callbacks, Children->PairId(set.Owner), out var known);
             if (known.Count > 0 && Children->MayHaveSunk(set, known))
                 HoldSunk(ref set, known);
-            Complete(set.Owner, Children->BuildPatches(set, known, Pool));
+            Children->BeginPatches(ref set, known, Pool);
+        }
+        PatchReduction.Run(ref seams, seams.Touching.Span.Memory, Pool);
+        foreach (ref var set in sets)
+        {
+            Children->FinishPatches(set, Pool);
+            Complete(set.Owner, set.PatchCount);
         }
         seams.Begin();
     }

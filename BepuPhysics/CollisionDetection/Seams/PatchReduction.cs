@@ -6,7 +6,7 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
 
-/// <summary>The choice of the contacts of patches that have more, or that several children share: all patches of a pair at once, a lane for each.</summary>
+/// <summary>The choice of the contacts of patches that have more, or that several children share: a lane for each, of one pair or of many.</summary>
 // By the rule of FaceReduction: the deepest or, of a level patch, an end of its greatest length; the one farthest from it; the ones farthest to
 // either side. Contacts of two children at one place, where these meet, are one.
 static unsafe class PatchReduction
@@ -25,131 +25,33 @@ static unsafe class PatchReduction
 
     struct Frames
     {
-        public Vector3Wide X, Y, Origin;
+        public Vector3Wide X, Y;
         public Vector<float> Size;
     }
 
-    // One lane of these.
-    struct Frame
+    /// <summary>Chooses the contacts of all patches of <see cref="SeamMemory.Reduced"/>.</summary>
+    /// <param name="memory">The patches, and room for candidates.</param>
+    /// <param name="ranked">Their children, in their order.</param>
+    /// <param name="pool">Source of memory.</param>
+    public static void Run(ref SeamMemory memory, RankedChild* ranked, BufferPool pool)
     {
-        public Vector3 X, Y, Origin;
-        public float Preference;
+        var all = memory.Reduced.AsSpan();
+        for (int start = 0; start < all.Length; start += Vector<float>.Count)
+            Reduce(ref memory, all.Slice(start, Math.Min(Vector<float>.Count, all.Length - start)), ranked, pool);
     }
 
-    /// <summary>Chooses contacts. Their names are <see cref="SeamMemory.Kept"/>, patch by patch.</summary>
-    /// <param name="memory">The children that touch, with their patches, and room for candidates.</param>
-    /// <param name="results">What was found for each child.</param>
-    /// <param name="placed">Shapes and poses of each.</param>
-    /// <param name="patches">The patches.</param>
-    /// <param name="count">Number of patches.</param>
-    /// <param name="reduces">A bit for each patch that is to be reduced.</param>
-    /// <param name="pool">Source of memory.</param>
-    public static void Reduce(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int count,
-        int reduces, BufferPool pool)
+    static void Reduce(ref SeamMemory memory, Span<ReducedPatch> patches, RankedChild* ranked, BufferPool pool)
     {
         var greatest = 0;
         var normals = Vector3Wide.Zero;
         Frames frames = default;
-        for (int i = 0; i < count; ++i)
+        for (int lane = 0; lane < patches.Length; ++lane)
         {
-            greatest = Math.Max(greatest, patches[i].ContactCount);
-            Lanes.Write(patches[i].Normal, ref normals, i);
-            Lanes.Write(results[patches[i].Slot].Manifold.Contact0.Offset, ref frames.Origin, i);
-            GatherScatter.Get(ref frames.Size, i) = placed[patches[i].Slot].InnerRadius();
+            greatest = Math.Max(greatest, patches[lane].Patch.ContactCount);
+            Lanes.Write(patches[lane].Patch.Normal, ref normals, lane);
+            GatherScatter.Get(ref frames.Size, lane) = patches[lane].Placed[patches[lane].Patch.Slot].InnerRadius();
         }
         Vector3Wide.BuildOrthonormalBasis(normals, out frames.X, out frames.Y);
-        Span<float> limits = stackalloc float[PatchSet.Capacity];
-        var leaning = FindLimits(memory.Ranked.AsSpan(), results, placed, patches, reduces, frames.Size, limits);
-        var left = Fill(ref memory, results, placed, patches, reduces, limits, leaning, greatest, ref frames, pool);
-        Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
-        // What is carried by those that touch does not need the others. In place of one that touches it would be carried by fewer, and rock.
-        var inLine = ~(sides.LeftExists | sides.RightExists);
-        left &= (int)Wide.Bits(inLine);
-        if (left != 0)
-        {
-            Fill(ref memory, results, placed, patches, reduces, limits, leaning | left, greatest, ref frames, pool);
-            Choose(memory.Candidates.Span.Memory, greatest, frames.Size, out deepest, out farthest, out sides, out secondExists);
-        }
-        inLine &= secondExists;
-        if (inLine != Vector<int>.Zero)
-            ChooseEnds(memory.Candidates.Span.Memory, greatest, frames.Size, inLine, farthest, ref deepest, ref sides);
-        memory.Kept.Count = 0;
-        memory.Kept.EnsureCapacity(PatchSet.Capacity * ConvexContactManifold.MaximumContactCount, pool);
-        for (int i = 0; i < count; ++i)
-        {
-            if ((reduces & 1 << i) == 0)
-                continue;
-            var room = memory.Kept.Count + patches[i].Share;
-            Add(ref memory, deepest, i, room);
-            if (secondExists[i] != 0)
-                Add(ref memory, farthest, i, room);
-            // The larger side first: there may be room for one.
-            for (int side = 0; side < 2; ++side)
-            {
-                if ((sides.TipIsLeft[i] != 0) == (side == 0))
-                    AddIf(sides.LeftExists | sides.BeyondMask, ref memory, sides.Left, i, room);
-                else
-                    AddIf(sides.RightExists | sides.BeyondMask, ref memory, sides.Right, i, room);
-            }
-        }
-    }
-
-    // The least depth that contacts of each patch must have at the end of the step to touch; all do where there is room for all. Returns a bit for each patch
-    // of which too few touch to carry anything.
-    static int FindLimits(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
-        Vector<float> sizes, Span<float> limits)
-    {
-        var leaning = 0;
-        for (int lane = 0; lane < limits.Length; ++lane)
-        {
-            limits[lane] = float.MinValue;
-            if ((reduces & 1 << lane) == 0 || patches[lane].ContactCount <= patches[lane].Share)
-                continue;
-            var (deepest, approach, touching) = (float.MinValue, 0f, 0);
-            foreach (ref var child in ranked)
-            {
-                ref var manifold = ref results[child.Slot].Manifold;
-                for (int i = 0; child.Patch == lane && i < manifold.Count; ++i)
-                {
-                    deepest = MathHelper.Max(deepest, manifold.GetDepth(i));
-                    approach = MathHelper.Max(approach, Approach(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal));
-                    touching += manifold.GetDepth(i) >= -Apart * sizes[lane] ? 1 : 0;
-                }
-            }
-            if (touching == patches[lane].ContactCount)
-                continue;
-            limits[lane] = MathHelper.Min(0, deepest) - Apart * sizes[lane];
-            // What is thin is hit exactly, and turned within the step: another of its corners comes down by up to twice the way, and may be through.
-            limits[lane] -= MathHelper.Max(0, approach - ThinImpacts.ThinWay * sizes[lane]);
-            touching = 0;
-            foreach (ref var child in ranked)
-            {
-                for (int i = 0; child.Patch == lane && i < results[child.Slot].Manifold.Count; ++i)
-                    touching += Touches(results[child.Slot], i, placed[child.Slot].Motion, patches[lane].Normal, limits[lane]) ? 1 : 0;
-            }
-            leaning |= touching > 2 ? 0 : 1 << lane;
-        }
-        return leaning;
-    }
-
-    // Whether a contact is that deep, or is at the end of the step.
-    static bool Touches(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal, float limit)
-    {
-        ref readonly var contact = ref result.Manifold.Read(index);
-        if (contact.Depth >= limit)
-            return true;
-        return contact.Depth + Approach(result, index, motion, normal) >= limit;
-    }
-
-    // By how much a contact comes nearer within the step, m.
-    static float Approach(in ChildResult result, int index, in ChildMotion motion, in Vector3 normal) =>
-        -Exact.Dot(motion.Way + Exact.Cross(motion.Turn, result.Manifold.Read(index).Offset - result.OffsetA), normal);
-
-    // Contacts that do not touch are candidates only of the patches of a mask. Returns a bit for each patch some of whose contacts were left out.
-    static int Fill(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in PatchSet patches, int reduces,
-        ReadOnlySpan<float> limits, int leaning, int greatest, ref Frames frames, BufferPool pool)
-    {
-        var left = 0;
         ref var candidates = ref memory.Candidates;
         candidates.Count = 0;
         candidates.EnsureCapacity(greatest, pool);
@@ -160,36 +62,72 @@ static unsafe class PatchReduction
             candidate.Name = Vector<int>.Zero;
             candidate.Depth = new Vector<float>(IContactCandidate.None);
         }
-        Span<int> counts = [0, 0, 0, 0];
-        Span<Frame> lanes = stackalloc Frame[PatchSet.Capacity];
-        for (int lane = 0; lane < lanes.Length; ++lane)
+        var first = candidates.Span.Memory;
+        var left = 0;
+        for (int lane = 0; lane < patches.Length; ++lane)
         {
-            lanes[lane].X = Lanes.Read<Vector3, Vector3Wide>(ref frames.X, lane);
-            lanes[lane].Y = Lanes.Read<Vector3, Vector3Wide>(ref frames.Y, lane);
-            lanes[lane].Origin = Lanes.Read<Vector3, Vector3Wide>(ref frames.Origin, lane);
-            lanes[lane].Preference = frames.Size[lane] * DepthPreference;
+            ref var patch = ref patches[lane];
+            Gather(ref memory, patch, ranked, frames, lane, pool);
+            FindLimit(memory.Contacts.AsSpan(), ref patch, frames.Size[lane]);
+            left |= Fill(memory.Contacts.AsSpan(), patch, frames.Size[lane], first, lane) ? 1 << lane : 0;
         }
-        foreach (ref var child in memory.Ranked.AsSpan())
+        Choose(first, greatest, frames.Size, out var deepest, out var farthest, out var sides, out var secondExists);
+        // What is carried by those that touch does not need the others. In place of one that touches it would be carried by fewer, and rock.
+        var inLine = ~(sides.LeftExists | sides.RightExists);
+        left &= (int)Wide.Bits(inLine);
+        if (left != 0)
         {
-            var lane = child.Patch;
-            if (lane < 0 || (reduces & 1 << lane) == 0)
+            for (int lanes = left; lanes != 0; lanes &= lanes - 1)
+            {
+                var lane = BitOperations.TrailingZeroCount(lanes);
+                patches[lane].IsLeaning = true;
+                Gather(ref memory, patches[lane], ranked, frames, lane, pool);
+                Fill(memory.Contacts.AsSpan(), patches[lane], frames.Size[lane], first, lane);
+            }
+            Choose(first, greatest, frames.Size, out deepest, out farthest, out sides, out secondExists);
+        }
+        inLine &= secondExists;
+        if (inLine != Vector<int>.Zero)
+            ChooseEnds(first, greatest, frames.Size, inLine, farthest, ref deepest, ref sides);
+        for (int lane = 0; lane < patches.Length; ++lane)
+        {
+            ref var patch = ref patches[lane];
+            patch.Add(deepest.Name[lane]);
+            if (secondExists[lane] != 0)
+                patch.Add(farthest.Name[lane]);
+            // The larger side first: there may be room for one.
+            for (int side = 0; side < 2; ++side)
+            {
+                if ((sides.TipIsLeft[lane] != 0) == (side == 0))
+                    AddIf(sides.LeftExists | sides.BeyondMask, ref patch, sides.Left, lane);
+                else
+                    AddIf(sides.RightExists | sides.BeyondMask, ref patch, sides.Right, lane);
+            }
+        }
+    }
+
+    // What of the contacts of a patch is asked for, in the order of its children.
+    static void Gather(ref SeamMemory memory, in ReducedPatch reduced, RankedChild* ranked, in Frames frames, int lane, BufferPool pool)
+    {
+        ref readonly var patch = ref reduced.Patch;
+        ref var contacts = ref memory.Contacts;
+        contacts.Count = 0;
+        contacts.EnsureCapacity(patch.ContactCount, pool);
+        var (frameX, frameY) = (Read(frames.X, lane), Read(frames.Y, lane));
+        var origin = reduced.Results[patch.Slot].Manifold.Contact0.Offset;
+        for (int child = 0; child < reduced.ChildCount; ++child)
+        {
+            ref var rank = ref ranked[reduced.FirstChild + child];
+            if (rank.Patch != reduced.Number)
                 continue;
-            ref var result = ref results[child.Slot];
-            ref var frame = ref lanes[lane];
-            ref readonly var patch = ref patches[lane];
+            ref var result = ref reduced.Results[rank.Slot];
+            ref readonly var motion = ref reduced.Placed[rank.Slot].Motion;
             for (int i = 0; i < result.Manifold.Count; ++i)
             {
                 ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref result.Manifold, i);
-                var touches = Touches(result, i, placed[child.Slot].Motion, patch.Normal, limits[lane]);
-                if (!touches && (leaning & 1 << lane) == 0)
-                {
-                    left |= 1 << lane;
-                    continue;
-                }
-                ref var candidate = ref candidates[counts[lane]++];
-                var place = contact.Offset - frame.Origin;
+                var place = contact.Offset - origin;
                 // Of a patch of several pairs it is known of each contact.
-                var isFirst = (child.Remembered & 1 << i) != 0;
+                var isFirst = (rank.Remembered & 1 << i) != 0;
                 var isRemembered = isFirst;
                 if (patch.IsKnown)
                 {
@@ -197,12 +135,69 @@ static unsafe class PatchReduction
                     isFirst |= feature == patch.Memory.First;
                     isRemembered = isFirst || feature == patch.Memory.Second;
                 }
-                GatherScatter.Get(ref candidate.X, lane) = Exact.Dot(place, frame.X);
-                GatherScatter.Get(ref candidate.Y, lane) = Exact.Dot(place, frame.Y);
-                GatherScatter.Get(ref candidate.Depth, lane) = touches ? contact.Depth + (isFirst ? frame.Preference : 0) : Aside;
-                GatherScatter.Get(ref candidate.Weight, lane) = isRemembered ? SpanPreference : 1;
-                GatherScatter.Get(ref candidate.Name, lane) = child.Slot * ConvexContactManifold.MaximumContactCount + i;
+                ref var added = ref contacts.AllocateUnsafely();
+                added.X = Exact.Dot(place, frameX);
+                added.Y = Exact.Dot(place, frameY);
+                added.Depth = contact.Depth;
+                // By how much it comes nearer within the step, m.
+                added.Approach = -Exact.Dot(motion.Way + Exact.Cross(motion.Turn, contact.Offset - result.OffsetA), patch.Normal);
+                added.Name = rank.Slot * ConvexContactManifold.MaximumContactCount + i;
+                added.Weight = isRemembered ? SpanPreference : 1;
+                added.IsFirst = isFirst;
             }
+        }
+    }
+
+    static Vector3 Read(in Vector3Wide wide, int lane) => Lanes.Read<Vector3, Vector3Wide>(ref Unsafe.AsRef(in wide), lane);
+
+    // The least depth that contacts of a patch must have at the end of the step to touch; all do where there is room for all. Where too few touch to carry
+    // anything, the patch leans.
+    static void FindLimit(ReadOnlySpan<ReducedContact> contacts, ref ReducedPatch reduced, float size)
+    {
+        reduced.Limit = float.MinValue;
+        reduced.IsLeaning = false;
+        if (reduced.Patch.ContactCount <= reduced.Patch.Share)
+            return;
+        var (deepest, approach, touching) = (float.MinValue, 0f, 0);
+        foreach (ref readonly var contact in contacts)
+        {
+            deepest = MathHelper.Max(deepest, contact.Depth);
+            approach = MathHelper.Max(approach, contact.Approach);
+            touching += contact.Depth >= -Apart * size ? 1 : 0;
+        }
+        if (touching == reduced.Patch.ContactCount)
+            return;
+        reduced.Limit = MathHelper.Min(0, deepest) - Apart * size;
+        // What is thin is hit exactly, and turned within the step: another of its corners comes down by up to twice the way, and may be through.
+        reduced.Limit -= MathHelper.Max(0, approach - ThinImpacts.ThinWay * size);
+        touching = 0;
+        foreach (ref readonly var contact in contacts)
+            touching += Touches(contact, reduced.Limit) ? 1 : 0;
+        reduced.IsLeaning = touching <= 2;
+    }
+
+    // Whether a contact is that deep, or is at the end of the step.
+    static bool Touches(in ReducedContact contact, float limit) => contact.Depth >= limit || contact.Depth + contact.Approach >= limit;
+
+    // Contacts that do not touch are candidates only where a patch leans. Returns whether some were left out.
+    static bool Fill(ReadOnlySpan<ReducedContact> contacts, in ReducedPatch reduced, float size, FaceCandidate* candidates, int lane)
+    {
+        var preference = size * DepthPreference;
+        var left = false;
+        foreach (ref readonly var contact in contacts)
+        {
+            var touches = Touches(contact, reduced.Limit);
+            if (!touches && !reduced.IsLeaning)
+            {
+                left = true;
+                continue;
+            }
+            ref var candidate = ref *candidates++;
+            GatherScatter.Get(ref candidate.X, lane) = contact.X;
+            GatherScatter.Get(ref candidate.Y, lane) = contact.Y;
+            GatherScatter.Get(ref candidate.Depth, lane) = touches ? contact.Depth + (contact.IsFirst ? preference : 0) : Aside;
+            GatherScatter.Get(ref candidate.Weight, lane) = contact.Weight;
+            GatherScatter.Get(ref candidate.Name, lane) = contact.Name;
         }
         return left;
     }
@@ -258,16 +253,9 @@ static unsafe class PatchReduction
         return Vector.SquareRoot(x * x + y * y);
     }
 
-    static void AddIf(Vector<int> exists, ref SeamMemory memory, in ContactChoice choice, int lane, int room)
+    static void AddIf(Vector<int> exists, ref ReducedPatch patch, in ContactChoice choice, int lane)
     {
         if (exists[lane] != 0)
-            Add(ref memory, choice, lane, room);
-    }
-
-    // There is room for the contacts of all patches.
-    static void Add(ref SeamMemory memory, in ContactChoice choice, int lane, int room)
-    {
-        if (memory.Kept.Count < room)
-            memory.Kept.AddUnsafely(choice.Name[lane]);
+            patch.Add(choice.Name[lane]);
     }
 }

@@ -33,7 +33,7 @@ struct Patch
 /// four contacts at its corners, as it has on one.
 /// </remarks>
 [InlineArray(Capacity)]
-struct PatchSet
+unsafe struct PatchSet
 {
     Patch first;
 
@@ -60,32 +60,77 @@ struct PatchSet
     public static int Build(ref SeamMemory memory, Span<ChildResult> results, Span<PlacedChildren> placed, in KnownPatches known,
         Span<ChildResult> target, BufferPool pool)
     {
+        memory.Reduced.Count = 0;
+        fixed (ChildResult* result = results)
+        fixed (PlacedChildren* place = placed)
+        {
+            var count = Begin(ref memory, memory.Ranked.AsSpan(), 0, result, place, known, target, pool);
+            PatchReduction.Run(ref memory, memory.Ranked.Span.Memory, pool);
+            Finish(memory.Ranked.AsSpan(), memory.Reduced.AsSpan(), result, target);
+            return count;
+        }
+    }
+
+    /// <summary>Begins to make patches: those whose contacts are to be chosen are added to <see cref="SeamMemory.Reduced"/>, the others are done.</summary>
+    /// <param name="memory">Receives these.</param>
+    /// <param name="ranked">The children that touch, in their order.</param>
+    /// <param name="first">Place of the first of them among all that the choice is told of.</param>
+    /// <param name="results">What was found for each child.</param>
+    /// <param name="placed">Shapes and poses of each.</param>
+    /// <param name="known">Patches of the last step.</param>
+    /// <param name="target">Receives the patches at its end, in the order of their numbers.</param>
+    /// <param name="pool">Source of memory.</param>
+    /// <returns>Number of patches.</returns>
+    public static int Begin(ref SeamMemory memory, Span<RankedChild> ranked, int first, ChildResult* results, PlacedChildren* placed,
+        in KnownPatches known, Span<ChildResult> target, BufferPool pool)
+    {
         Unsafe.SkipInit(out PatchSet patches);
-        var count = patches.Group(memory.Ranked.AsSpan(), results);
+        var count = patches.Group(ranked, results);
         if (count == 0)
             return 0;
         patches.Match(count, known);
-        patches.SetShares(count, FindNear(memory.Ranked.AsSpan(), results, placed, count));
+        patches.SetShares(count, FindNear(ranked, results, placed, count));
         for (int i = 0; i < count; ++i)
             Place(target[(Capacity - count)..], ref patches[i], i, results[patches[i].Slot].Manifold.OffsetB);
-        var reduces = 0;
         for (int i = 0; i < count; ++i)
         {
             ref var patch = ref patches[i];
             if (patch.ChildCount == 1 && patch.ContactCount <= patch.Share)
                 Copy(results[patch.Slot], ref Find(target, patch).Manifold);
             else
-                reduces |= 1 << i;
+                Reduce(ref memory, patch, i, ranked.Length, first, results, placed, pool);
         }
-        if (reduces != 0)
-        {
-            PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, pool);
-            foreach (var name in memory.Kept.AsSpan())
-                patches.Add(results, name, memory.PatchOf(name), target);
-        }
-        foreach (ref var child in memory.Ranked.AsSpan())
-            results[child.Slot].Manifold.Count = 0;
         return count;
+    }
+
+    static void Reduce(ref SeamMemory memory, in Patch patch, int number, int childCount, int first, ChildResult* results, PlacedChildren* placed,
+        BufferPool pool)
+    {
+        memory.Reduced.EnsureCapacity(SeamMemory.SetCapacity, pool);
+        ref var reduced = ref memory.Reduced.Allocate(pool);
+        reduced.Results = results;
+        reduced.Placed = placed;
+        (reduced.FirstChild, reduced.ChildCount) = (first, childCount);
+        reduced.Patch = patch;
+        reduced.Number = number;
+        reduced.Clear();
+    }
+
+    /// <summary>Takes the contacts that were chosen; the children have none of their own any more.</summary>
+    /// <param name="ranked">The children that touch.</param>
+    /// <param name="reduced">Those of the patches of which some were chosen.</param>
+    /// <param name="results">What was found for each child.</param>
+    /// <param name="target">The patches, at its end.</param>
+    public static void Finish(Span<RankedChild> ranked, Span<ReducedPatch> reduced, ChildResult* results, Span<ChildResult> target)
+    {
+        foreach (ref var patch in reduced)
+        {
+            ref var manifold = ref Find(target, patch.Patch).Manifold;
+            foreach (var name in patch.Kept)
+                Add(results, name, ref manifold);
+        }
+        foreach (ref var child in ranked)
+            results[child.Slot].Manifold.Count = 0;
     }
 
     /// <summary>Makes a patch of the contacts of a child that is alone, as <see cref="Build"/> would; the child has none of its own any more.</summary>
@@ -100,10 +145,9 @@ struct PatchSet
         child.Manifold.Count = 0;
     }
 
-    void Add(Span<ChildResult> results, int name, int patch, Span<ChildResult> target)
+    static void Add(ChildResult* results, int name, ref ConvexContactManifold manifold)
     {
         ref var result = ref results[name / ConvexContactManifold.MaximumContactCount];
-        ref var manifold = ref Find(target, this[patch]).Manifold;
         ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++);
         contact = ConvexContactManifold.GetConvexContactReference(ref result.Manifold, name % ConvexContactManifold.MaximumContactCount);
         contact.FeatureId = result.Children.Mix(contact.FeatureId);
@@ -119,33 +163,41 @@ struct PatchSet
     {
         Unsafe.SkipInit(out PatchSet patches);
         var ranked = memory.Ranked.AsSpan();
-        var count = patches.Group(ranked, results);
-        var reduces = 0;
-        for (int i = 0; i < count; ++i)
+        memory.Reduced.Count = 0;
+        fixed (ChildResult* result = results)
+        fixed (PlacedChildren* place = placed)
         {
-            patches[i].Share = ConvexContactManifold.MaximumContactCount;
-            if (HasSeveralPairs(ranked, i))
-                reduces |= 1 << i;
-        }
-        if (reduces == 0)
-            return;
-        PatchReduction.Reduce(ref memory, results, placed, patches, count, reduces, pool);
-        foreach (ref var child in ranked)
-        {
-            if (child.Patch < 0 || (reduces & 1 << child.Patch) == 0)
-                continue;
-            ref var manifold = ref results[child.Slot].Manifold;
-            var before = manifold.Count;
-            manifold.Count = 0;
-            for (int i = 0; i < before; ++i)
+            var count = patches.Group(ranked, result);
+            for (int i = 0; i < count; ++i)
             {
-                if (!memory.Kept.AsSpan().Contains(child.Slot * ConvexContactManifold.MaximumContactCount + i))
-                    continue;
-                ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++) =
-                    ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+                patches[i].Share = ConvexContactManifold.MaximumContactCount;
+                if (HasSeveralPairs(ranked, i))
+                    Reduce(ref memory, patches[i], i, ranked.Length, 0, result, place, pool);
             }
-            child.HasYielded |= manifold.Count != before;
+            PatchReduction.Run(ref memory, memory.Ranked.Span.Memory, pool);
         }
+        foreach (ref var patch in memory.Reduced.AsSpan())
+        {
+            foreach (ref var child in ranked)
+            {
+                if (child.Patch == patch.Number)
+                    LeaveKept(patch.Kept, ref child, ref results[child.Slot].Manifold);
+            }
+        }
+    }
+
+    static void LeaveKept(ReadOnlySpan<int> kept, ref RankedChild child, ref ConvexContactManifold manifold)
+    {
+        var before = manifold.Count;
+        manifold.Count = 0;
+        for (int i = 0; i < before; ++i)
+        {
+            if (!kept.Contains(child.Slot * ConvexContactManifold.MaximumContactCount + i))
+                continue;
+            ConvexContactManifold.GetConvexContactReference(ref manifold, manifold.Count++) =
+                ConvexContactManifold.GetConvexContactReference(ref manifold, i);
+        }
+        child.HasYielded |= manifold.Count != before;
     }
 
     static bool HasSeveralPairs(Span<RankedChild> ranked, int patch)
@@ -163,7 +215,7 @@ struct PatchSet
     }
 
     // By normals, in the order of children, so that the first of a patch is its deepest.
-    int Group(Span<RankedChild> ranked, Span<ChildResult> results)
+    int Group(Span<RankedChild> ranked, ChildResult* results)
     {
         var count = 0;
         foreach (ref var child in ranked)
@@ -266,7 +318,7 @@ struct PatchSet
     }
 
     // A bit for each patch that touches, or is about to; for all where none is, or where there is room for all.
-    static int FindNear(Span<RankedChild> ranked, Span<ChildResult> results, Span<PlacedChildren> placed, int count)
+    static int FindNear(Span<RankedChild> ranked, ChildResult* results, PlacedChildren* placed, int count)
     {
         var all = (1 << count) - 1;
         if (count < 3)

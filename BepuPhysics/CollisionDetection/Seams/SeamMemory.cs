@@ -22,11 +22,12 @@ struct SeamMemory
     public QuickList<RankedChild> Ranked;
     /// <summary>Contacts with planes in place of flush faces.</summary>
     public QuickList<DirectedPair> Planes;
-    /// <summary>Contacts that patches are chosen from, a lane for each patch.</summary>
+    /// <summary>Contacts that are chosen from, a lane for each patch.</summary>
     public QuickList<FaceCandidate> Candidates;
-
-    /// <summary>Names of the contacts that the last reduction has chosen: a slot, times the contacts of a manifold, and a contact.</summary>
-    public QuickList<int> Kept;
+    /// <summary>What of the contacts of one of these is asked for.</summary>
+    public QuickList<ReducedContact> Contacts;
+    /// <summary>Patches of which contacts are chosen, in the order of their pairs.</summary>
+    public QuickList<ReducedPatch> Reduced;
 
     /// <summary>Number of sets that are worked on at once: some bundles of tests in each round, and shapes that fit a cache.</summary>
     public const int SetCapacity = 16;
@@ -115,17 +116,6 @@ struct SeamMemory
         return count;
     }
 
-    /// <summary>Patch of a contact, by its name.</summary>
-    public readonly int PatchOf(int name)
-    {
-        foreach (ref var child in Ranked.AsSpan())
-        {
-            if (child.Slot == name / ConvexContactManifold.MaximumContactCount)
-                return child.Patch;
-        }
-        return -1;
-    }
-
     public void Dispose(BufferPool pool)
     {
         Tests.Dispose(pool);
@@ -136,6 +126,7 @@ struct SeamMemory
         Ranked.DisposeIfTaken(pool);
         Planes.DisposeIfTaken(pool);
         Candidates.DisposeIfTaken(pool);
-        Kept.DisposeIfTaken(pool);
+        Contacts.DisposeIfTaken(pool);
+        Reduced.DisposeIfTaken(pool);
     }
 }

@@ -48,6 +48,10 @@ unsafe struct SeamSet
     public bool IsOnPlane;
     /// <summary>Whether there are triangles beside these that were left out, as what is near them is a neighbour's.</summary>
     public bool LeavesToNeighbours;
+    /// <summary>Number of patches; the first of those whose contacts are chosen, and how many there are.</summary>
+    public int PatchCount, FirstReduced, ReducedCount;
+    /// <summary>Whether the children are wanted after they were joined.</summary>
+    public bool KeepsChildren;
     /// <summary>What the set is of.</summary>
     public int Owner;
 }
