@@ -120,8 +120,23 @@ public static class QuickSort
     {
         for (int i = 1; i < keys.Length; ++i)
         {
-            for (int target = i; target > 0 && comparer.Compare(ref keys[target - 1], ref keys[target]) > 0; --target)
-                Swap(keys, values, target - 1, target);
+            if (comparer.Compare(ref keys[i - 1], ref keys[i]) <= 0)
+                continue;
+            // It goes to its place in one move, as the others step aside.
+            var key = keys[i];
+            var value = typeof(TValue) == typeof(NoValue) ? default : values[i];
+            var target = i;
+            do
+            {
+                keys[target] = keys[target - 1];
+                if (typeof(TValue) != typeof(NoValue))
+                    values[target] = values[target - 1];
+                --target;
+            }
+            while (target > 0 && comparer.Compare(ref keys[target - 1], ref key) > 0);
+            keys[target] = key;
+            if (typeof(TValue) != typeof(NoValue))
+                values[target] = value;
         }
     }
 

@@ -88,7 +88,9 @@ unsafe struct NeighbourLanes
     {
         var lane = count++;
         owners[lane] = owner;
-        var triangle = (isA ? placed.ShapeA : placed.ShapeB).Read<Triangle>();
+        ref readonly var own = ref isA ? ref placed.ShapeA : ref placed.ShapeB;
+        ref readonly var other = ref isA ? ref placed.ShapeB : ref placed.ShapeA;
+        var triangle = own.Read<Triangle>();
         Lanes.Write(triangle.A, ref a, lane);
         Lanes.Write(triangle.B, ref b, lane);
         Lanes.Write(triangle.C, ref c, lane);
@@ -104,7 +106,7 @@ unsafe struct NeighbourLanes
         types |= 1 << type;
         GatherScatter.Get(ref otherType, lane) = type;
         Lanes.Write(isA ? placed.OrientationB : placed.OrientationA, ref otherOrientation, lane);
-        AddShape(type, isA ? placed.ShapeB : placed.ShapeA, lane);
+        AddShape(type, other, lane);
     }
 
     void AddShape(int type, in ShapeCopy shape, int lane)
