@@ -27,12 +27,15 @@ struct TouchedDirection
 
 /// <summary>Triangles of surfaces that other shapes touch, a lane for each: how <see cref="TriangleNeighbours"/> keeps their normals within bounds.</summary>
 /// <remarks>
-/// Each operation is that of <see cref="TriangleSurface"/>, <see cref="ShapeReach"/> and <see cref="TriangleNeighbours"/>, which are for one triangle, so that
-/// a lane has the bits that these have. Shapes of several types lie side by side: of their reaches those terms are zero that a type does not have.
+/// What is touched from beyond a neighbour's normal is touched along the direction of least depth of those that there are. How deep two shapes are in each
+/// other along a direction is a sum of reaches, in closed form, by the operations of <see cref="ShapeReach"/>. Shapes of several types lie side by side: of
+/// their reaches those terms are zero that a type does not have.
 /// </remarks>
-unsafe struct NeighbourLanes
+unsafe partial struct NeighbourLanes
 {
     const int LongestVector = 16;
+    // Bounds that meet at a corner are gone over until none is left, or it is seen that they cannot all be met.
+    const int MaximumClampCount = 4;
 
     // The corners, from the triangle's centre, and the triangle's rotation to the world.
     Vector3Wide a, b, c;
@@ -47,6 +50,8 @@ unsafe struct NeighbourLanes
     Vector3Wide half;
     Vector<float> discRadius, radius, otherSize;
     Vector<int> otherType;
+    // The corners of the other, where that is a triangle too.
+    Vector3Wide otherA, otherB, otherC;
     fixed ulong hulls[LongestVector];
     fixed int owners[LongestVector];
     int count;
@@ -79,7 +84,7 @@ unsafe struct NeighbourLanes
     /// <summary>Whether there is no room for another triangle.</summary>
     public readonly bool IsFull => count == Vector<float>.Count;
 
-    /// <summary>Adds a triangle of a surface; the other shape is none.</summary>
+    /// <summary>Adds a triangle of a surface.</summary>
     /// <param name="placed">The two shapes.</param>
     /// <param name="normal">Unit normal along which they touch, from B to A.</param>
     /// <param name="isA">Whether the triangle is A.</param>
@@ -132,6 +137,12 @@ unsafe struct NeighbourLanes
                 var cylinder = shape.Read<Cylinder>();
                 (disc, widths.Y, size) = (cylinder.Radius, cylinder.HalfLength, cylinder.Radius + cylinder.HalfLength);
                 break;
+            case Triangle.Id:
+                var triangle = shape.Read<Triangle>();
+                Lanes.Write(triangle.A, ref otherA, lane);
+                Lanes.Write(triangle.B, ref otherB, lane);
+                Lanes.Write(triangle.C, ref otherC, lane);
+                break;
             default:
                 var hull = shape.Read<ConvexHull>().Header;
                 hulls[lane] = (ulong)hull;
@@ -175,15 +186,13 @@ unsafe struct NeighbourLanes
     readonly uint FindBeyond(out Shape shape, out Vector3Wide bound)
     {
         Unsafe.SkipInit(out shape);
-        const float beyond = TriangleSurface.Beyond;
         shape.AB.Way = orientation * (b - a);
         shape.BC.Way = orientation * (c - b);
         shape.CA.Way = orientation * (a - c);
         var face = Vector3Wide.Cross(shape.AB.Way, shape.CA.Way);
-        var along = Vector3Wide.Dot(direction, face);
-        var across = Vector3Wide.Cross(direction, face);
-        var isFace = Vector.GreaterThan(along, Vector<float>.Zero) & Vector.LessThan(
-            Vector3Wide.Dot(across, across), new Vector<float>(beyond * beyond / 4) * Vector3Wide.Dot(face, face));
+        var isFace = IsFaceNormal(face, direction);
+        if (Has(Triangle.Id))
+            isFace |= IsFaceOfOther();
         shape.Normal = Vector3Wide.Normalize(face);
         SetBound(ref shape.AB, shape.Normal, cosines.X, sines.X, 1);
         SetBound(ref shape.BC, shape.Normal, cosines.Y, sines.Y, 2);
@@ -191,6 +200,27 @@ unsafe struct NeighbourLanes
         shape.Size = Wide.Max(shape.AB.Way.Length(), shape.CA.Way.Length());
         var isBehind = Vector.LessThan(Vector3Wide.Dot(direction, shape.Normal), new Vector<float>(-TriangleFeature.BehindSine));
         return Wide.Bits(Vector.AndNot(Vector.AndNot(Violated(shape, direction, out bound), isFace), isBehind));
+    }
+
+    // Along the triangle's normal, as faces touch. No bound leans towards the normal, so that what is as near to it is beyond none.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> IsFaceNormal(in Vector3Wide face, in Vector3Wide direction)
+    {
+        const float beyond = TriangleSurface.Beyond;
+        var along = Vector3Wide.Dot(direction, face);
+        var across = Vector3Wide.Cross(direction, face);
+        // All but the square of the sine of the angle between the two.
+        return Vector.GreaterThan(along, Vector<float>.Zero) & Vector.LessThan(
+            Vector3Wide.Dot(across, across), new Vector<float>(beyond * beyond / 4) * Vector3Wide.Dot(face, face));
+    }
+
+    // Two triangles that face each other do not meet any more once one has sunk into the other. What holds them then are the triangles beside them,
+    // which stand on the face of the other mesh with their edges, along its normal.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    readonly Vector<int> IsFaceOfOther()
+    {
+        var face = Vector3Wide.Cross(otherOrientation * (otherB - otherA), otherOrientation * (otherA - otherC));
+        return Vector.Equals(otherType, new Vector<int>(Triangle.Id)) & IsFaceNormal(face, -direction);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -236,13 +266,10 @@ unsafe struct NeighbourLanes
     [MethodImpl(MethodImplOptions.NoInlining)]
     void FindLeast(ref Shape shape, Vector<int> beyond, Vector3Wide bound, out Best best)
     {
-        const int maximumClampCount = TriangleNeighbours.MaximumClampCount;
         shape.AB.Corner = orientation * a;
         shape.BC.Corner = orientation * b;
         shape.CA.Corner = orientation * c;
-        shape.X = otherOrientation * new Vector3Wide(Vector<float>.One, Vector<float>.Zero, Vector<float>.Zero);
-        shape.Y = otherOrientation * new Vector3Wide(Vector<float>.Zero, Vector<float>.One, Vector<float>.Zero);
-        shape.Z = otherOrientation * new Vector3Wide(Vector<float>.Zero, Vector<float>.Zero, Vector<float>.One);
+        PlaceOther(ref shape);
         best.Direction = shape.Normal;
         best.Depth = DepthAlong(shape, shape.Normal, beyond);
         var zero = Vector<float>.Zero;
@@ -251,7 +278,7 @@ unsafe struct NeighbourLanes
             return;
         var clamped = direction;
         var turning = bends;
-        for (int i = 0; i < maximumClampCount && Wide.Bits(turning) != 0; ++i)
+        for (int i = 0; i < MaximumClampCount && Wide.Bits(turning) != 0; ++i)
         {
             var next = Vector3Wide.Normalize(clamped - bound * Vector3Wide.Dot(clamped, bound));
             clamped = Vector3Wide.Select(turning, next, clamped);
@@ -261,6 +288,23 @@ unsafe struct NeighbourLanes
         OfferNeighbour(shape, shape.AB, bends, ref best);
         OfferNeighbour(shape, shape.BC, bends, ref best);
         OfferNeighbour(shape, shape.CA, bends, ref best);
+    }
+
+    // Its axes, or its corners.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    readonly void PlaceOther(ref Shape shape)
+    {
+        var x = new Vector3Wide(Vector<float>.One, Vector<float>.Zero, Vector<float>.Zero);
+        var y = new Vector3Wide(Vector<float>.Zero, Vector<float>.One, Vector<float>.Zero);
+        var z = new Vector3Wide(Vector<float>.Zero, Vector<float>.Zero, Vector<float>.One);
+        if (Has(Triangle.Id))
+        {
+            var isTriangle = Vector.Equals(otherType, new Vector<int>(Triangle.Id));
+            x = Vector3Wide.Select(isTriangle, otherA, x);
+            y = Vector3Wide.Select(isTriangle, otherB, y);
+            z = Vector3Wide.Select(isTriangle, otherC, z);
+        }
+        (shape.X, shape.Y, shape.Z) = (otherOrientation * x, otherOrientation * y, otherOrientation * z);
     }
 
     readonly void OfferNeighbour(in Shape shape, in Edge edge, Vector<int> bends, ref Best best)
@@ -302,10 +346,16 @@ unsafe struct NeighbourLanes
         if (Has(Cylinder.Id))
             reach += Vector3Wide.Cross(shape.Y, along).Length() * discRadius;
         reach += radius;
+        if (Has(Triangle.Id))
+            reach = Wide.Select(Vector.Equals(otherType, new Vector<int>(Triangle.Id)), CornersAlong(shape, along), reach);
         if (Has(ConvexHull.Id))
             MeasureHulls(along, Wide.Bits(asked), ref reach);
         return reach;
     }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector<float> CornersAlong(in Shape shape, in Vector3Wide along) => Wide.Max(
+        Vector3Wide.Dot(shape.X, along), Wide.Max(Vector3Wide.Dot(shape.Y, along), Vector3Wide.Dot(shape.Z, along)));
 
     readonly bool Has(int type) => (types & 1 << type) != 0;
 
@@ -319,84 +369,5 @@ unsafe struct NeighbourLanes
             if (hulls[lane] != 0)
                 GatherScatter.Get(ref reach, lane) = ShapeReach.Along((HullHeader*)hulls[lane], Lanes.Read<Vector3, Vector3Wide>(ref local, lane));
         }
-    }
-
-    // Lanes that have no contacts for sure, without a test: the direction is the neighbours', or what touches is beside the triangle.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    readonly Vector<int> HasNone(in Shape shape, in Best best)
-    {
-        var none = Vector.LessThan(Vector3Wide.Dot(best.Direction, shape.Normal), new Vector<float>(TriangleNeighbours.LeastCosine));
-        FindFeature(shape, -best.Direction, out var feature, out var isKnown);
-        var tolerance = new Vector<float>(TriangleNeighbours.Beside) * (otherSize + shape.Size + center.Length());
-        var isApart = Vector.LessThan(best.Depth, -margin - tolerance);
-        var isBeside = IsBeside(shape.AB, best.Direction, feature, tolerance) | IsBeside(shape.BC, best.Direction, feature, tolerance) |
-            IsBeside(shape.CA, best.Direction, feature, tolerance);
-        return none | (isKnown & (isApart | isBeside));
-    }
-
-    struct Feature
-    {
-        public Vector3Wide Middle, U, V;
-        public Vector<float> Radius;
-    }
-
-    readonly Vector<int> IsBeside(in Edge edge, in Vector3Wide along, in Feature feature, Vector<float> tolerance)
-    {
-        var across = Vector3Wide.Cross(along, edge.Way);
-        var beyond = Vector3Wide.Dot(across, feature.Middle - center) - Vector3Wide.Dot(across, edge.Corner) -
-            Vector.Abs(Vector3Wide.Dot(across, feature.U)) - Vector.Abs(Vector3Wide.Dot(across, feature.V)) -
-            (feature.Radius + tolerance) * across.Length();
-        return Vector.GreaterThan(beyond, Vector<float>.Zero);
-    }
-
-    // What of the other shape faces a direction, and whether it is known.
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly void FindFeature(in Shape shape, in Vector3Wide along, out Feature feature, out Vector<int> isKnown)
-    {
-        isKnown = ~Vector.Equals(otherType, new Vector<int>(ConvexHull.Id));
-        feature.Middle = feature.V = Vector3Wide.Zero;
-        feature.Radius = Vector<float>.Zero;
-        feature.U = shape.Y * half.Y;
-        if (Has(Box.Id))
-            FindFace(shape, along, ref feature, ref isKnown);
-        if (Has(Cylinder.Id))
-            FindSide(shape, along, ref feature, ref isKnown);
-    }
-
-    readonly void FindFace(in Shape shape, in Vector3Wide along, ref Feature feature, ref Vector<int> isKnown)
-    {
-        var distinct = new Vector<float>(ShapeReach.Distinct);
-        var isBox = Vector.Equals(otherType, new Vector<int>(Box.Id));
-        var (alongX, alongY, alongZ) = (Vector3Wide.Dot(shape.X, along), Vector3Wide.Dot(shape.Y, along), Vector3Wide.Dot(shape.Z, along));
-        var (x, y, z) = (Vector.Abs(alongX), Vector.Abs(alongY), Vector.Abs(alongZ));
-        var isX = isBox & Vector.GreaterThan(x, y + distinct) & Vector.GreaterThan(x, z + distinct);
-        var isY = isBox & Vector.GreaterThan(y, x + distinct) & Vector.GreaterThan(y, z + distinct);
-        var isZ = isBox & Vector.GreaterThan(z, x + distinct) & Vector.GreaterThan(z, y + distinct);
-        var (sideX, sideY, sideZ) = (shape.X * half.X, shape.Y * half.Y, shape.Z * half.Z);
-        feature.Middle = Vector3Wide.Select(isX, shape.X * Wide.CopySign(half.X, alongX), feature.Middle);
-        feature.Middle = Vector3Wide.Select(isY, shape.Y * Wide.CopySign(half.Y, alongY), feature.Middle);
-        feature.Middle = Vector3Wide.Select(isZ, shape.Z * Wide.CopySign(half.Z, alongZ), feature.Middle);
-        feature.U = Vector3Wide.Select(isY | isZ, sideX, feature.U);
-        feature.V = Vector3Wide.Select(isX | isY, sideZ, feature.V);
-        feature.V = Vector3Wide.Select(isZ, sideY, feature.V);
-        isKnown &= ~isBox | isX | isY | isZ;
-    }
-
-    // A cap, or the line of the side that faces the direction.
-    readonly void FindSide(in Shape shape, in Vector3Wide direction, ref Feature feature, ref Vector<int> isKnown)
-    {
-        var distinct = new Vector<float>(ShapeReach.Distinct);
-        var isCylinder = Vector.Equals(otherType, new Vector<int>(Cylinder.Id));
-        var along = Vector3Wide.Dot(shape.Y, direction);
-        var across = direction - shape.Y * along;
-        var length = across.Length();
-        var isCap = isCylinder & Vector.GreaterThan(Vector.Abs(along), length + distinct);
-        var isEither = Vector.AndNot(isCylinder & Vector.GreaterThan(Vector.Abs(along), length - distinct), isCap);
-        var isSide = Vector.AndNot(Vector.AndNot(isCylinder, isCap), isEither);
-        feature.Middle = Vector3Wide.Select(isCap, shape.Y * Wide.CopySign(half.Y, along), feature.Middle);
-        feature.Middle = Vector3Wide.Select(isSide, across * (discRadius / length), feature.Middle);
-        feature.U = Vector3Wide.Select(isCap, Vector3Wide.Zero, feature.U);
-        feature.Radius = Wide.Select(isCap, discRadius, feature.Radius);
-        isKnown = Vector.AndNot(isKnown, isEither);
     }
 }

@@ -13,9 +13,6 @@ namespace BepuPhysics.CollisionDetection;
 /// </remarks>
 unsafe struct ShapeReach
 {
-    // Part by which the two kinds of features of a cylinder, or two faces of a box, must differ in angle not to be mistaken for each other.
-    public const float Distinct = 1e-3f;
-
     readonly int typeId;
     // Axes of a box; that of a capsule or a cylinder is Y. The corners of a triangle.
     readonly Vector3 x, y, z;
@@ -109,70 +106,4 @@ unsafe struct ShapeReach
         Triangle.Id => Exact.Length(x) + Exact.Length(y) + Exact.Length(z),
         _ => hull->OuterRadius,
     };
-
-    /// <summary>Finds what of the shape faces a direction, and is looked for contacts.</summary>
-    /// <param name="direction">Unit direction out of the shape.</param>
-    /// <param name="feature">The feature, as a parallelogram around a point that is widened by a radius.</param>
-    /// <returns>Whether it is known: of hulls it is not, nor where two features face the direction alike.</returns>
-    public readonly bool TryFindFeature(in Vector3 direction, out ReachFeature feature)
-    {
-        feature = default;
-        switch (typeId)
-        {
-            case Sphere.Id:
-                return true;
-            case Capsule.Id:
-                feature.U = y * half.Y;
-                return true;
-            case Box.Id:
-                return TryFindFace(direction, ref feature);
-            case Cylinder.Id:
-                return TryFindSide(direction, ref feature);
-            default:
-                return false;
-        }
-    }
-
-    readonly bool TryFindFace(in Vector3 direction, ref ReachFeature feature)
-    {
-        var (alongX, alongY, alongZ) = (Exact.Dot(x, direction), Exact.Dot(y, direction), Exact.Dot(z, direction));
-        var (absoluteX, absoluteY, absoluteZ) = (MathF.Abs(alongX), MathF.Abs(alongY), MathF.Abs(alongZ));
-        if (absoluteX > absoluteY + Distinct && absoluteX > absoluteZ + Distinct)
-            (feature.Middle, feature.U, feature.V) = (x * MathF.CopySign(half.X, alongX), y * half.Y, z * half.Z);
-        else if (absoluteY > absoluteX + Distinct && absoluteY > absoluteZ + Distinct)
-            (feature.Middle, feature.U, feature.V) = (y * MathF.CopySign(half.Y, alongY), x * half.X, z * half.Z);
-        else if (absoluteZ > absoluteX + Distinct && absoluteZ > absoluteY + Distinct)
-            (feature.Middle, feature.U, feature.V) = (z * MathF.CopySign(half.Z, alongZ), x * half.X, y * half.Y);
-        else
-            return false;
-        return true;
-    }
-
-    // A cap, or the line of the side that faces the direction.
-    readonly bool TryFindSide(in Vector3 direction, ref ReachFeature feature)
-    {
-        var along = Exact.Dot(y, direction);
-        var across = direction - y * along;
-        var length = Exact.Length(across);
-        if (MathF.Abs(along) > length + Distinct)
-        {
-            feature.Middle = y * MathF.CopySign(half.Y, along);
-            feature.Radius = half.X;
-            return true;
-        }
-        if (MathF.Abs(along) > length - Distinct)
-            return false;
-        feature.Middle = across * (half.X / length);
-        feature.U = y * half.Y;
-        return true;
-    }
-}
-
-/// <summary>What of a shape faces a direction: a point, a line, a parallelogram or a disc, relative to the shape's centre.</summary>
-struct ReachFeature
-{
-    /// <summary>Its middle; from there to its sides.</summary>
-    public Vector3 Middle, U, V;
-    /// <summary>Radius of what is around all of these, m.</summary>
-    public float Radius;
 }

@@ -13,38 +13,38 @@ namespace BepuPhysics.CollisionDetection;
 /// a direction is touched along the one of least depth of those that there are: the triangle's normal, those of the neighbours, and the one between them
 /// that is nearest. If it is not over the triangle then, it touches a neighbour, and not this.
 /// </remarks>
-static class TriangleNeighbours
+static unsafe class TriangleNeighbours
 {
-    // A direction as steep to the triangle's normal as this cosine says is the neighbours'.
-    public const float LeastCosine = 0.05f;
-    // Part of the sizes by which a feature must be beside a triangle to have nothing over it: far above the rounding of the test that looks for it.
-    public const float Beside = 1e-4f;
-    // Bounds that meet at a corner are gone over until none is left, or it is seen that they cannot all be met.
-    public const int MaximumClampCount = 4;
-
-    /// <summary>Finds for all sets that begin along which directions their triangles are touched, but for those that touch triangles.</summary>
+    /// <summary>Finds for all sets that begin along which directions their triangles are touched.</summary>
     /// <param name="memory">The sets; receives the directions, in the order of the children that touch.</param>
     /// <param name="pool">Source of memory.</param>
-    public static unsafe void FindDirections(ref SeamMemory memory, BufferPool pool)
+    public static void FindDirections(ref SeamMemory memory, BufferPool pool)
     {
         Unsafe.SkipInit(out NeighbourLanes lanes);
         lanes.Clear();
         memory.Directions.EnsureCapacity(memory.Touching.Count, pool);
-        var directions = memory.Directions.Span.Memory;
         foreach (ref var set in memory.Sets.AsSpan())
         {
-            for (int i = set.First; set.Stage == SeamStage.DirectionsOfB && i < set.First + set.Count; ++i)
-            {
-                var slot = memory.Touching[i].Slot;
-                ref var placed = ref set.Placed[slot];
-                if (placed.AreTriangles || (!IsSurface(placed, isA: false) && !IsSurface(placed, isA: true)))
-                    continue;
-                lanes.Add(placed, set.Results[slot].Manifold.Normal, placed.TypeA == Triangle.Id, i);
-                if (lanes.IsFull)
-                    lanes.Find(directions);
-            }
+            if (set.Stage == SeamStage.DirectionsOfB)
+                FindDirections(ref memory, set, isAgain: false, ref lanes);
         }
-        lanes.Find(directions);
+        lanes.Find(memory.Directions.Span.Memory);
+    }
+
+    // Where both are triangles, B is first, and then A along what is found with that.
+    static void FindDirections(ref SeamMemory memory, in SeamSet set, bool isAgain, ref NeighbourLanes lanes)
+    {
+        for (int i = set.First; i < set.First + set.Count; ++i)
+        {
+            var slot = memory.Touching[i].Slot;
+            ref var placed = ref set.Placed[slot];
+            var isA = isAgain || placed.TypeB != Triangle.Id;
+            if ((isAgain && !placed.AreTriangles) || !IsSurface(placed, isA) || set.Results[slot].Manifold.Count == 0)
+                continue;
+            lanes.Add(placed, set.Results[slot].Manifold.Normal, isA, i);
+            if (lanes.IsFull)
+                lanes.Find(memory.Directions.Span.Memory);
+        }
     }
 
     /// <summary>Looks children that were touched beyond their neighbours up along the direction of least depth of those that there are.</summary>
@@ -54,18 +54,17 @@ static class TriangleNeighbours
     /// <param name="pool">Source of memory.</param>
     public static void AddDirections(ref SeamMemory memory, in SeamView view, bool isA, BufferPool pool)
     {
+        var isAgain = false;
         for (int i = 0; i < view.Ranked.Length; ++i)
         {
             ref var child = ref view.Ranked[i];
             ref var placed = ref view.Placed(child);
-            if (child.IsOfNeighbours || !IsSurface(placed, isA))
+            if (child.IsOfNeighbours || !IsSurface(placed, isA) || view.Result(child).Manifold.Count == 0)
                 continue;
-            if (placed.AreTriangles)
+            if (isA && placed.AreTriangles && !isAgain)
             {
-                ref var manifold = ref view.Result(child).Manifold;
-                if (manifold.Count > 0)
-                    AddDirections(ref memory.Tests, placed, manifold.Normal, isA, i, ref child, pool);
-                continue;
+                isAgain = true;
+                FindDirectionsAgain(ref memory, view.Set);
             }
             ref var found = ref memory.Directions.Span[view.Set.First + i];
             if (found.Side == TouchedSide.Own)
@@ -75,6 +74,15 @@ static class TriangleNeighbours
             if (!child.IsOfNeighbours)
                 memory.Tests.Add(placed, isA ? -found.Direction : found.Direction, float.MaxValue, placed.SpeculativeMargin, i, pool);
         }
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static void FindDirectionsAgain(ref SeamMemory memory, in SeamSet set)
+    {
+        Unsafe.SkipInit(out NeighbourLanes lanes);
+        lanes.Clear();
+        FindDirections(ref memory, set, isAgain: true, ref lanes);
+        lanes.Find(memory.Directions.Span.Memory);
     }
 
     /// <summary>Takes what was found along these directions.</summary>
@@ -155,95 +163,5 @@ static class TriangleNeighbours
     {
         Place(placed, isA, out var surface);
         return surface.Face;
-    }
-
-    // Along the triangle's normal, as faces touch. No bound leans towards the normal, so that what is as near to it is beyond none.
-    static bool IsFaceNormal(in Vector3 face, in Vector3 direction)
-    {
-        const float beyond = TriangleSurface.Beyond;
-        var along = Exact.Dot(direction, face);
-        var across = Exact.Cross(direction, face);
-        // All but the square of the sine of the angle between the two.
-        return along > 0 && Exact.Dot(across, across) < beyond * beyond / 4 * Exact.Dot(face, face);
-    }
-
-    static void AddDirections(ref DirectedTests tests, in PlacedChildren placed, in Vector3 normal, bool isA, int owner, ref RankedChild child, BufferPool pool)
-    {
-        var direction = isA ? -normal : normal;
-        // Two triangles that face each other do not meet any more once one has sunk into the other. What holds them then are the triangles beside them,
-        // which stand on the face of the other mesh with their edges, along its normal.
-        Place(placed, isA, out var surface);
-        if (IsFaceNormal(surface.Face, direction) || (placed.AreTriangles && IsFaceNormal(FaceVector(placed, !isA), -direction)))
-            return;
-        ref readonly var cone = ref isA ? ref placed.ConeA : ref placed.ConeB;
-        surface.Bound(cone);
-        // What is at the back of a triangle that has two sides has other neighbours there. In the plane of the triangle the sign is rounding.
-        if (Exact.Dot(direction, surface.Normal) < -TriangleFeature.BehindSine)
-            return;
-        var bound = surface.Violated(direction);
-        if (bound == default)
-            return;
-        ref readonly var triangle = ref isA ? ref placed.ShapeA : ref placed.ShapeB;
-        ref readonly var shape = ref isA ? ref placed.ShapeB : ref placed.ShapeA;
-        surface.PlaceCorners(triangle.Read<Triangle>(), isA ? placed.OrientationA : placed.OrientationB);
-        var other = new ShapeReach(isA ? placed.TypeB : placed.TypeA, shape, isA ? placed.OrientationB : placed.OrientationA);
-        var center = isA ? -placed.OffsetB : placed.OffsetB;
-        var best = new LeastDirection(surface.Normal, DepthAlong(surface.Normal, surface, other, center));
-        if (cone.Sines != default)
-        {
-            var clamped = direction;
-            for (int i = 0; i < MaximumClampCount && bound != default; ++i)
-            {
-                clamped = Exact.Normalize(clamped - bound * Exact.Dot(clamped, bound));
-                bound = surface.Violated(clamped);
-            }
-            if (bound == default)
-                best.Add(clamped, DepthAlong(clamped, surface, other, center));
-            for (int edge = 0; edge < 3; ++edge)
-            {
-                var (cosine, sine) = (cone.Cosines[edge], cone.Sines[edge]);
-                if (sine > 0 && surface.IsBound(edge))
-                {
-                    var neighbours = surface.Normal * cosine + surface.Outwards(edge) * sine;
-                    best.Add(neighbours, DepthAlong(neighbours, surface, other, center));
-                }
-            }
-        }
-        child.Class = 1;
-        if (HasNone(best, placed, surface, other, center))
-            child.IsOfNeighbours = true;
-        else
-            tests.Add(placed, isA ? -best.Direction : best.Direction, float.MaxValue, placed.SpeculativeMargin, owner, pool);
-    }
-
-    // By how much the two are in each other along a direction out of the triangle.
-    static float DepthAlong(in Vector3 direction, in TriangleSurface surface, in ShapeReach other, in Vector3 center) =>
-        Exact.Dot(center, direction) + surface.Along(direction) + other.Along(-direction);
-
-    // Whether there are no contacts for sure, without a test: the direction is the neighbours', or what touches is beside the triangle. What is near to that is
-    // tested. What is a triangle too may have gone through the neighbour, and be seen by nobody else.
-    static bool HasNone(in LeastDirection best, in PlacedChildren placed, in TriangleSurface surface, in ShapeReach other, in Vector3 center)
-    {
-        if (placed.AreTriangles)
-            return false;
-        if (Exact.Dot(best.Direction, surface.Normal) < LeastCosine)
-            return true;
-        if (!other.TryFindFeature(-best.Direction, out var feature))
-            return false;
-        var tolerance = Beside * (other.Size + surface.Size + Exact.Length(center));
-        return best.Depth < -placed.SpeculativeMargin - tolerance || surface.IsBeside(best.Direction, feature, center, tolerance);
-    }
-
-    // The direction of least depth of those that there are.
-    struct LeastDirection(in Vector3 direction, float depth)
-    {
-        public Vector3 Direction = direction;
-        public float Depth = depth;
-
-        public void Add(in Vector3 direction, float depth)
-        {
-            if (depth < Depth)
-                (Direction, Depth) = (direction, depth);
-        }
     }
 }

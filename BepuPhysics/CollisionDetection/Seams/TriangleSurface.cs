@@ -36,13 +36,10 @@ struct TriangleSurface
         public readonly Lanes CrossedBy(in Vector3 v) => new(v.Y * Z - v.Z * Y, v.Z * X - v.X * Z, v.X * Y - v.Y * X);
     }
 
-    // The edges; directions in the triangle's plane out of each; bounds of directions at each, zero where there is none.
-    Lanes edges, outwards, bounds;
+    // The edges; bounds of directions at each, zero where there is none.
+    Lanes edges, bounds;
     /// <summary>Length of a side, if not of the longest, m; there once <see cref="Bound"/> was said.</summary>
     public float Size;
-
-    // The corners, from the triangle's centre; there once PlaceCorners was said.
-    Lanes corners;
 
     /// <summary>Puts a triangle where it is.</summary>
     public TriangleSurface(in Triangle triangle, in Quaternion orientation)
@@ -59,36 +56,6 @@ struct TriangleSurface
         var z = Vector128.Create(triangle.A.Z, triangle.B.Z, triangle.C.Z, triangle.A.Z);
         edges = Rotate(new(Next(x) - x, Next(y) - y, Next(z) - z), orientation);
         Face = Exact.Cross(edges[0], edges[2]);
-    }
-
-    /// <summary>Finds the corners.</summary>
-    public void PlaceCorners(in Triangle triangle, in Quaternion orientation)
-    {
-        corners = Rotate(new(
-            Vector128.Create(triangle.A.X, triangle.B.X, triangle.C.X, triangle.A.X),
-            Vector128.Create(triangle.A.Y, triangle.B.Y, triangle.C.Y, triangle.A.Y),
-            Vector128.Create(triangle.A.Z, triangle.B.Z, triangle.C.Z, triangle.A.Z)), orientation);
-    }
-
-    /// <summary>How far the corners reach along a direction from the centre, m.</summary>
-    public readonly float Along(in Vector3 direction)
-    {
-        var along = corners.Dot(direction);
-        return MathHelper.Max(along[0], MathHelper.Max(along[1], along[2]));
-    }
-
-    /// <summary>Whether a feature is beyond an edge, seen along a direction that leaves the triangle in front: no part of it is over the triangle.</summary>
-    /// <param name="direction">Unit direction.</param>
-    /// <param name="feature">The feature of another shape that faces the triangle.</param>
-    /// <param name="center">Centre of the triangle less that of the other shape, m.</param>
-    /// <param name="tolerance">What counts as over the triangle all the same, m.</param>
-    public readonly bool IsBeside(in Vector3 direction, in ReachFeature feature, in Vector3 center, float tolerance)
-    {
-        var across = edges.CrossedBy(direction);
-        var lengths = Vector128.Sqrt(across.X * across.X + across.Y * across.Y + across.Z * across.Z);
-        var beyond = across.Dot(feature.Middle - center) - (across.X * corners.X + across.Y * corners.Y + across.Z * corners.Z) -
-            Vector128.Abs(across.Dot(feature.U)) - Vector128.Abs(across.Dot(feature.V)) - Vector128.Create(feature.Radius + tolerance) * lengths;
-        return (Vector128.GreaterThan(beyond, Vector128<float>.Zero).ExtractMostSignificantBits() & 7) != 0;
     }
 
     // Of each lane the next.
@@ -112,7 +79,7 @@ struct TriangleSurface
         var across = edges.CrossedBy(Normal);
         var lengths = Vector128.Sqrt(across.X * across.X + across.Y * across.Y + across.Z * across.Z);
         var scales = Vector128.ConditionalSelect(Vector128.Equals(lengths, Vector128<float>.Zero), Vector128<float>.Zero, Vector128<float>.One / lengths);
-        outwards = new(across.X * scales, across.Y * scales, across.Z * scales);
+        var outwards = new Lanes(across.X * scales, across.Y * scales, across.Z * scales);
         var (cosines, sines) = (cone.Cosines.AsVector128(), cone.Sines.AsVector128());
         var isBound = Vector128.Equals(Vector128.Create(1, 2, 4, 0) & Vector128.Create(cone.FreeMask), Vector128<int>.Zero).AsSingle();
         bounds = new(
@@ -121,12 +88,6 @@ struct TriangleSurface
             (outwards.Z * cosines - Normal.Z * sines) & isBound);
         Size = MathHelper.Max(Exact.Length(edges[0]), Exact.Length(edges[2]));
     }
-
-    /// <summary>The direction in the triangle's plane out of an edge.</summary>
-    public readonly Vector3 Outwards(int edge) => outwards[edge];
-
-    /// <summary>Whether directions at an edge are bound.</summary>
-    public readonly bool IsBound(int edge) => bounds[edge] != default;
 
     /// <summary>The direction of the bound that a direction is farthest beyond; zero where it is beyond none.</summary>
     public readonly Vector3 Violated(in Vector3 direction)

@@ -23,8 +23,6 @@ public sealed unsafe class ShapeReachTests : IDisposable
 
     public static TheoryData<ConvexKind, ConvexKind> Pairs => DirectedPairTests.Pairs;
 
-    public static TheoryData<ConvexKind> Kinds => new(Enum.GetValues<ConvexKind>());
-
     PlacedChildren Create(ConvexKind kindA, ConvexKind kindB, int number, ConvexRandom random, out Vector3 normal, out double depth, out double sizes)
     {
         var (sizeA, sizeB) = ConvexPoses.NextSizes(random);
@@ -59,44 +57,6 @@ public sealed unsafe class ShapeReachTests : IDisposable
             var placed = Create(kindA, kindB, i, random, out var normal, out var depth, out var sizes);
             Assert.InRange(placed.DepthAlong(normal), depth - DepthRounding * sizes, depth + DepthRounding * sizes);
         }
-    }
-
-    /// <summary>Where the feature of a shape is said to be beside a triangle, the test finds no contacts; and that is most of what has none.</summary>
-    [Theory, MemberData(nameof(Kinds))]
-    public void What_is_beside_a_triangle_has_no_contacts(ConvexKind kind)
-    {
-        const float tolerance = 1e-4f;
-        var random = new ConvexRandom(ConvexPoses.DevelopmentSeed, (ulong)(200 + (int)kind));
-        var tests = new DirectedTests();
-        var isBeside = new bool[CaseCount];
-        for (int i = 0; i < CaseCount; ++i)
-        {
-            var placed = Create(kind, ConvexKind.Triangle, 2, random, out _, out _, out _);
-            var triangle = placed.ShapeB.Read<Triangle>();
-            var surface = new TriangleSurface(triangle, placed.OrientationB);
-            surface.Bound(default);
-            surface.PlaceCorners(triangle, placed.OrientationB);
-            // Leans by up to a radian, and touches it or is at any place near.
-            var direction = Vector3.Normalize(surface.Normal + ConvexGenerator.ToVector(random.NextDirection()) * .8f);
-            var reach = new ShapeReach(placed.TypeA, placed.ShapeA, placed.OrientationA);
-            var size = reach.Size + surface.Size;
-            var place = (.7f * size) * ConvexGenerator.ToVector(random.NextDirection());
-            placed.OffsetB = place - direction * (Vector3.Dot(place, direction) + surface.Along(direction) + reach.Along(-direction) - .01f * size);
-            isBeside[i] = reach.TryFindFeature(-direction, out var feature) &&
-                surface.IsBeside(direction, feature, placed.OffsetB, tolerance * (size + placed.OffsetB.Length()));
-            tests.Add(placed, direction, float.MaxValue, size, i, pool);
-        }
-        tests.Execute();
-        var (beside, without) = (0, 0);
-        for (int i = 0; i < CaseCount; ++i)
-        {
-            Assert.False(isBeside[i] && tests[i].Manifold.Count > 0, $"{i}");
-            beside += isBeside[i] ? 1 : 0;
-            without += tests[i].Manifold.Count == 0 ? 1 : 0;
-        }
-        if (kind is not (ConvexKind.Hull or ConvexKind.Triangle))
-            Assert.InRange(beside, Math.Max(1, without / 2), without);
-        tests.Dispose(pool);
     }
 
     /// <summary>What is said to be deeper without a test is so for the test, which looks along faces too; and it is said of what is much deeper.</summary>
