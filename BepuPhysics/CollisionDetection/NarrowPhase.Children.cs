@@ -241,6 +241,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             SkipGone(ref worker, tested.Pair, ref known, result.Children.Order);
             var inherited = worker.Statics.FindInheritance(tested.Pair, result.Children);
             var frictionCenter = worker.Statics.FindFrictionCenter(tested.Pair, result.Children);
+            var surface = PatchLever.Write(material, result.Lever);
             var old = PairRecords<ChildManifold>.None;
             if (known != PairRecords<ChildManifold>.None && Pairs.Manifolds.Memory[known].Children == result.Children)
             {
@@ -252,7 +253,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                     ref readonly var contacts = ref tested.MayRoll && result.Children.IsPatch && result.Manifold.Count > 0
                         ? ref LeadAlong(tested.Pair, record->Patch.Normal, result.Manifold, ref moved)
                         : ref result.Manifold;
-                    if (TryKeep(ref worker, tested.Pair, ref record->Manifold, contacts, result.KeepsHistory, material, frictionCenter))
+                    if (TryKeep(ref worker, tested.Pair, ref record->Manifold, contacts, result.KeepsHistory, surface, frictionCenter))
                     {
                         if (result.Children.IsPatch)
                             record->Patch.Write(result.Manifold);
@@ -260,7 +261,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                     }
                 }
             }
-            NotePending(ref worker, tested, result, material, inherited, frictionCenter, old);
+            NotePending(ref worker, tested, result, surface, inherited, frictionCenter, old);
         }
         SkipGone(ref worker, tested.Pair, ref known, tested.IsCarried ? ChildIds.EndOfPatches : ulong.MaxValue);
     }

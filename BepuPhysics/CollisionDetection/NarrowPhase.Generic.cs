@@ -273,7 +273,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
-        Complete(ref worker, tested, convex, material, StaticPairs.Nothing, default);
+        Complete(ref worker, tested, convex, PatchLever.Write(material, FaceLever.OfOneFace), StaticPairs.Nothing, default);
     }
 
     // What is inherited, and a centre of friction, is of pairs that have waited.

@@ -272,7 +272,12 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 pair.PatchCount = agreement.BuildPatches(body.Number, number, known, room, worker.Pool);
             }
             else
-                ResultOf(i, pair.FirstResult).Manifold = agreement.Result(body.Number, pair.Slot).Manifold;
+            {
+                ref var result = ref ResultOf(i, pair.FirstResult);
+                ref var agreed = ref agreement.Result(body.Number, pair.Slot);
+                result.Manifold = agreed.Manifold;
+                result.Lever = agreed.Lever;
+            }
         }
     }
 
@@ -345,12 +350,13 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         }
         else if (pair.ResultCount > 0)
         {
-            ref var manifold = ref ResultOf(place, pair.FirstResult).Manifold;
+            ref var result = ref ResultOf(place, pair.FirstResult);
+            ref var manifold = ref result.Manifold;
             if (manifold.Count > 0)
             {
                 ref var statics = ref worker.Statics;
-                Complete(ref worker, pair.Tested, manifold, pair.Material, statics.FindInheritance(pair.Tested.Pair, ChildIds.None),
-                    statics.FindFrictionCenter(pair.Tested.Pair, ChildIds.None));
+                Complete(ref worker, pair.Tested, manifold, PatchLever.Write(pair.Material, result.Lever),
+                    statics.FindInheritance(pair.Tested.Pair, ChildIds.None), statics.FindFrictionCenter(pair.Tested.Pair, ChildIds.None));
             }
             else if (pair.Tested.KeepsHistory)
                 CompleteWithoutContacts(ref worker, pair.Tested);

@@ -6,6 +6,7 @@ using System.Reflection;
 using System.Runtime.CompilerServices;
 using BepuPhysics;
 using BepuPhysics.Constraints;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Memory;
 
 namespace DemoTests.Constraints;
@@ -123,8 +124,10 @@ static class RandomDescriptions
         var column = new List<float>();
         for (int i = 0; i <= typeId % 4; ++i)
             column.AddRange([.. Floats(samples.Vector(1)), samples.Uniform(-0.01f, 0.05f)]);
-        column.AddRange([
-            .. Floats(samples.Vector(2)), .. Floats(samples.Direction()), samples.Uniform(0, 1), .. Floats(samples.Spring()), samples.Uniform(0.1f, 3)]);
+        column.AddRange([.. Floats(samples.Vector(2)), .. Floats(samples.Direction()), samples.Uniform(0, 1), .. Floats(samples.Spring())]);
+        // Every other one is no single face.
+        var recovery = samples.Uniform(0.1f, 3);
+        column.Add(FaceLever.Write(recovery, samples.Coin() ? FaceLever.Code(recovery) : FaceLever.OfOneFace));
         return [.. column];
     }
 

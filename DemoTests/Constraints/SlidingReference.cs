@@ -54,14 +54,25 @@ static class SlidingReference
         if (contacts == 3 && joins)
             length = Math.Max(0, (length - 1 / 9.0) / (8 / 9.0));
         var round = contacts == 3 && !joins ? .46 : .6;
-        var lever = (round + (.5 - round) * length) * Mean(ways.Select(way => Math.Sqrt(RowTests.Dot(way, way))));
+        var part = round + (.5 - round) * length;
+        // What is not one face says its lever, in fiftieths from .46 on, by the last five bits of its greatest speed of recovery.
+        var (code, rim) = (BitConverter.SingleToInt32Bits(bench.Prestep(ContactPrestepLayout.MaximumRecovery(contacts))) & 31, 0.0);
+        if (code > 0)
+        {
+            part = .44 + code / 50.0;
+            rim = Math.Clamp(3 * part - 2, 0, 1);
+            length = 0;
+        }
+        var lever = part * Mean(ways.Select(way => Math.Sqrt(RowTests.Dot(way, way))));
         var off = (X: middle[0] - center.X, Y: middle[1] - center.Y);
 
         var (vx, vy, spin) = (motion[0] - motion[2] * off.Y, motion[1] + motion[2] * off.X, motion[2]);
         var (sliding, turning) = (Length(vx, vy), Math.Abs(spin) * lever);
-        var early = 2 / 3.0 + .15 * length;
+        var ratio = sliding / turning;
+        var early = 2 / 3.0 + .15 * length - rim / 6 * (1 - Math.Min(1, ratio * ratio));
+        var late = 1.5 + rim / 2 * (1 - Math.Min(1, 1 / (ratio * ratio)));
         var along = -maximum * early / Fourth(early * sliding, turning);
-        double[] wanted = [vx * along, vy * along, -maximum * lever * lever * spin / Fourth(1.5 * sliding, turning)];
+        double[] wanted = [vx * along, vy * along, -maximum * lever * lever * spin / Fourth(late * sliding, turning)];
         wanted[2] += off.X * wanted[1] - off.Y * wanted[0];
         var response = bench.Response(RowTests.Sum(bench, friction, wanted));
         var power = -RowTests.Dot(wanted, motion);

@@ -21,6 +21,7 @@ static class AccuracySuite
         .. GoingRoundCases.All,
         .. DeckCases.All,
         .. SlidingSpinCases.All,
+        .. FeetCases.All,
         .. RestitutionCases.All,
         .. RestCases.All,
         .. StackCases.All,

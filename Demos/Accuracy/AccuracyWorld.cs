@@ -43,6 +43,25 @@ sealed class AccuracyWorld : IDisposable
         return handle;
     }
 
+    /// <summary>A body of equal pieces of one convex shape.</summary>
+    /// <param name="piece">The shape.</param>
+    /// <param name="mass">Mass of all, kg.</param>
+    /// <param name="places">Where the pieces are from their middle, which is at the centre of mass.</param>
+    /// <param name="pose">Where that is.</param>
+    /// <param name="velocity">How it moves.</param>
+    public BodyHandle AddDynamicPieces<TShape>(in TShape piece, float mass, IReadOnlyCollection<Vector3> places, RigidPose pose, BodyVelocity velocity)
+        where TShape : unmanaged, IConvexShape
+    {
+        using var builder = new CompoundBuilder(Simulation.BufferPool, Simulation.Shapes, places.Count);
+        foreach (var place in places)
+            builder.Add(piece, new RigidPose(place), mass / places.Count);
+        builder.BuildDynamicCompound(out var children, out var inertia);
+        var collidable = new CollidableDescription(Simulation.Shapes.Add(new Compound(children)));
+        var handle = Bodies.Add(BodyDescription.CreateDynamic(pose, velocity, inertia, collidable, neverSleep));
+        dynamics.Add(handle);
+        return handle;
+    }
+
     public BodyHandle AddKinematic<TShape>(in TShape shape, RigidPose pose) where TShape : unmanaged, IConvexShape =>
         Bodies.Add(BodyDescription.CreateKinematic(pose, new CollidableDescription(Simulation.Shapes.Add(shape)), neverSleep));
 

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Numerics;
 
 namespace Demos.References;
 
@@ -10,16 +11,21 @@ sealed class EvenFriction
 {
     const double TimeStep = 5e-4;
     const int Cells = 40;
+    const int CellsOfFoot = 8;
 
     readonly List<(double X, double Y)> points = [];
 
-    EvenFriction(double width, double depth, bool isDisc)
+    EvenFriction()
     {
-        for (int i = 0; i < Cells; ++i)
+    }
+
+    EvenFriction(double width, double depth, bool isDisc, int cells = Cells)
+    {
+        for (int i = 0; i < cells; ++i)
         {
-            for (int j = 0; j < Cells; ++j)
+            for (int j = 0; j < cells; ++j)
             {
-                double x = (i + .5) / Cells - .5, y = (j + .5) / Cells - .5;
+                double x = (i + .5) / cells - .5, y = (j + .5) / cells - .5;
                 if (!isDisc || x * x + y * y < .25)
                     points.Add((x * width, y * depth));
             }
@@ -29,6 +35,20 @@ sealed class EvenFriction
     public static EvenFriction Disc(double radius) => new(2 * radius, 2 * radius, isDisc: true);
 
     public static EvenFriction Rectangle(double width, double depth) => new(width, depth, isDisc: false);
+
+    /// <summary>Feet that each bear as much as another: of no width in a point, elsewhere a rectangle or a disc.</summary>
+    /// <param name="width">Width of each, m.</param>
+    /// <param name="depth">Depth of each, m.</param>
+    /// <param name="isDisc">Whether each is a disc.</param>
+    /// <param name="places">Where their middles are from that of the body.</param>
+    public static EvenFriction Feet(double width, double depth, bool isDisc, IEnumerable<Vector2> places)
+    {
+        var feet = new EvenFriction();
+        var foot = new EvenFriction(width, depth, isDisc, width > 0 ? CellsOfFoot : 1);
+        foreach (var place in places)
+            feet.points.AddRange(foot.points.ConvertAll(point => (place.X + point.X, place.Y + point.Y)));
+        return feet;
+    }
 
     /// <summary>How far the body comes and turns until it rests, m and rad.</summary>
     /// <param name="deceleration">Coefficient of friction times gravity, m/s2.</param>

@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -12,6 +13,8 @@ struct ChildResult
     public ChildIds Children;
     /// <summary>Whether the test of the two shapes keeps a history.</summary>
     public bool KeepsHistory;
+    /// <summary>What friction against turning has for a lever; see <see cref="FaceLever"/>.</summary>
+    public byte Lever;
     /// <summary>Centre of A's child less that of A.</summary>
     public Vector3 OffsetA;
     /// <summary>The contacts: as the test found them until they are complete, then in the frame of A.</summary>
@@ -131,6 +134,7 @@ unsafe struct ChildPairs(BufferPool pool)
         ref var result = ref target.Slots[PatchSet.Capacity + target.SlotCount];
         result.Children = ids;
         result.KeepsHistory = keepsHistory;
+        result.Lever = FaceLever.OfOneFace;
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
         {

@@ -2,6 +2,7 @@ using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Numerics;
 using System.Runtime.InteropServices;
+using BepuPhysics.Constraints.Contact;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -31,6 +32,7 @@ struct LoneChild
     {
         Child.Children = ids;
         Child.KeepsHistory = keepsHistory;
+        Child.Lever = FaceLever.OfOneFace;
         Child.OffsetA = shapes.OffsetA;
         OffsetB = pair.OffsetB;
         PairId = pair.PairId;

@@ -3,6 +3,7 @@ using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using BepuPhysics.Collidables;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
@@ -106,6 +107,7 @@ struct ParentHistory
             ref var result = ref results[count];
             result.Children = ChildIds.Patch(codes[count] & (1 << NumberBits) - 1);
             result.KeepsHistory = false;
+            result.Lever = FaceLever.OfOneFace;
             result.OffsetA = default;
             patches[count].Carry(bound, (1 << (codes[count] >> NumberBits)) - 1, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB,
                 rolls: rolling != Rolling.Never, ref result.Manifold);

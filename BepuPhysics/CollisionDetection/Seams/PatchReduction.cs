@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -103,6 +104,10 @@ static unsafe class PatchReduction
                 else
                     AddIf(sides.RightExists | sides.BeyondMask, ref patch, sides.Right, lane);
             }
+            var turn = Exact.Dot(patch.Placed[patch.Patch.Slot].Motion.Turn, patch.Patch.Normal);
+            patch.Lever = MathF.Abs(turn) < PatchLever.LeastTurn
+                ? FaceLever.OfOneFace
+                : PatchLever.Find(candidates.AsSpan(), patch, lane);
         }
     }
 

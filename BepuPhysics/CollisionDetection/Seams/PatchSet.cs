@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Memory;
 
@@ -96,7 +97,7 @@ unsafe struct PatchSet
         {
             ref var patch = ref patches[i];
             if (patch.ChildCount == 1 && patch.ContactCount <= patch.Share)
-                Copy(results[patch.Slot], ref Find(target, patch).Manifold);
+                Copy(results[patch.Slot], ref Find(target, patch));
             else
                 Reduce(ref memory, patch, i, ranked.Length, first, results, placed, pool);
         }
@@ -125,9 +126,10 @@ unsafe struct PatchSet
     {
         foreach (ref var patch in reduced)
         {
-            ref var manifold = ref Find(target, patch.Patch).Manifold;
+            ref var result = ref Find(target, patch.Patch);
+            result.Lever = patch.Lever;
             foreach (var name in patch.Kept)
-                Add(results, name, ref manifold);
+                Add(results, name, ref result.Manifold);
         }
         foreach (ref var child in ranked)
             results[child.Slot].Manifold.Count = 0;
@@ -141,7 +143,7 @@ unsafe struct PatchSet
     {
         var nearest = FindNearest(known, child.Manifold.Normal, 0);
         Begin(ref target, nearest < 0 ? 0 : known.Number(nearest), child.Manifold.Normal, child.Manifold.OffsetB);
-        Copy(child, ref target.Manifold);
+        Copy(child, ref target);
         child.Manifold.Count = 0;
     }
 
@@ -180,8 +182,12 @@ unsafe struct PatchSet
         {
             foreach (ref var child in ranked)
             {
-                if (child.Patch == patch.Number)
-                    LeaveKept(patch.Kept, ref child, ref results[child.Slot].Manifold);
+                if (child.Patch != patch.Number)
+                    continue;
+                ref var result = ref results[child.Slot];
+                result.Lever = patch.Lever;
+                child.HasYielded |= patch.Lever != FaceLever.OfOneFace;
+                LeaveKept(patch.Kept, ref child, ref result.Manifold);
             }
         }
     }
@@ -346,6 +352,7 @@ unsafe struct PatchSet
     {
         target.Children = ChildIds.Patch(number);
         target.KeepsHistory = false;
+        target.Lever = FaceLever.OfOneFace;
         target.OffsetA = default;
         target.Manifold.OffsetB = offsetB;
         target.Manifold.Normal = normal;
@@ -361,16 +368,18 @@ unsafe struct PatchSet
         return ref target[i];
     }
 
-    static void Copy(in ChildResult source, ref ConvexContactManifold target)
+    static void Copy(in ChildResult source, ref ChildResult target)
     {
-        target.Count = source.Manifold.Count;
-        target.Contact0 = source.Manifold.Contact0;
-        target.Contact1 = source.Manifold.Contact1;
-        target.Contact2 = source.Manifold.Contact2;
-        target.Contact3 = source.Manifold.Contact3;
-        for (int i = 0; i < target.Count; ++i)
+        target.Lever = source.Lever;
+        ref var manifold = ref target.Manifold;
+        manifold.Count = source.Manifold.Count;
+        manifold.Contact0 = source.Manifold.Contact0;
+        manifold.Contact1 = source.Manifold.Contact1;
+        manifold.Contact2 = source.Manifold.Contact2;
+        manifold.Contact3 = source.Manifold.Contact3;
+        for (int i = 0; i < manifold.Count; ++i)
         {
-            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref target, i);
+            ref var contact = ref ConvexContactManifold.GetConvexContactReference(ref manifold, i);
             contact.FeatureId = source.Children.Mix(contact.FeatureId);
         }
     }

@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Constraints.Contact;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -21,6 +22,8 @@ unsafe struct ReducedPatch
     public float Limit;
     /// <summary>Whether contacts that do not touch are candidates too.</summary>
     public bool IsLeaning;
+    /// <summary>What friction against turning has for a lever; see <see cref="FaceLever"/>.</summary>
+    public byte Lever;
     int count;
     Names names;
 

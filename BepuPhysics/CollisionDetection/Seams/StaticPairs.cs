@@ -190,6 +190,7 @@ struct StaticPairs
         ref var result = ref Results.Allocate(pool);
         result.Children = ChildIds.None;
         result.KeepsHistory = tested.KeepsHistory;
+        result.Lever = FaceLever.OfOneFace;
         result.OffsetA = default;
         result.Manifold = manifold;
         return Pairs.Count - 1;

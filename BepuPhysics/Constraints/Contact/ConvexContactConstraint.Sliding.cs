@@ -81,8 +81,14 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         var inverse = Vector<float>.One / Wide.Max(Wide.Max(sliding, turning), new Vector<float>(LeastMotion));
         (sliding, turning) = (sliding * inverse, turning * inverse);
         var early = new Vector<float>(2 / 3f) + face.Elongation * new Vector<float>(0.15f);
+        var late = new Vector<float>(3 / 2f);
+        if (face.Rim != Vector<float>.Zero)
+        {
+            early -= face.Rim * new Vector<float>(1 / 6f) * (Vector<float>.One - sliding * sliding);
+            late += face.Rim * new Vector<float>(0.5f) * (Vector<float>.One - turning * turning);
+        }
         var along = -maximum * inverse * early / NormOfFour(sliding * early, turning);
-        var couple = -maximum * face.Lever * face.Lever * spin * inverse / NormOfFour(sliding * new Vector<float>(3 / 2f), turning);
+        var couple = -maximum * face.Lever * face.Lever * spin * inverse / NormOfFour(sliding * late, turning);
         var twist = couple + (face.Middle.X * slip.Y - face.Middle.Y * slip.X) * along;
         var friction = (x * slip.X + y * slip.Y) * along;
 
@@ -146,6 +152,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         public Vector<float> Elongation;
         /// <summary>Mean distance of its points from the middle, m.</summary>
         public Vector<float> Lever;
+        /// <summary>From 0 of a full face to 1 of one that presses at its rim alone.</summary>
+        public Vector<float> Rim;
     }
 
     // The middle is the mean of the contacts by their loads. Parts of a patch do not know the loads of the others; but what nothing else pushes is not turned
@@ -213,7 +221,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             face.Elongation = Wide.Select(joins, part, face.Elongation);
             round = Wide.Select(joins, round, new Vector<float>(triangle));
         }
-        face.Lever = (round + (new Vector<float>(line) - round) * face.Elongation) * distance;
+        face.Lever = round + (new Vector<float>(line) - round) * face.Elongation;
+        FaceLever.Read(prestep.Material.MaximumRecoveryVelocity, ref face.Lever, ref face.Elongation, out face.Rim);
+        face.Lever *= distance;
         return face;
     }
 
