@@ -73,6 +73,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             FinishColumns(dispatcher, appliesNotes: true);
         }
+        GoAlongBends();
         WatchBouncingPairs();
         WatchFastPairs();
     }

@@ -251,7 +251,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 if (inherited == StaticPairs.Nothing)
                 {
                     ref readonly var contacts = ref tested.MayRoll && result.Children.IsPatch && result.Manifold.Count > 0
-                        ? ref LeadAlong(tested.Pair, record->Patch.Normal, result.Manifold, ref moved)
+                        ? ref LeadAlong(ref worker, tested.Pair, record->Patch, result.Manifold, ref moved)
                         : ref result.Manifold;
                     if (TryKeep(ref worker, tested.Pair, ref record->Manifold, contacts, result.KeepsHistory, surface, frictionCenter))
                     {

@@ -18,20 +18,25 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         shapeA.Type is Sphere.Id or Capsule.Id or Cylinder.Id && !tested.IsImpact && tested.Pair.B.Mobility == CollidableMobility.Static;
 
     /// <summary>Turns the normal of what rolls by as much as the surface will have turned below it when the solver needs it in the mean.</summary>
+    /// <param name="worker">Who notes what bends.</param>
     /// <param name="pair">What is round, and a static.</param>
-    /// <param name="last">Normal of the contacts in the last step.</param>
+    /// <param name="last">Its patch of the last step.</param>
     /// <param name="found">Its contacts as they were found.</param>
     /// <param name="led">Room for others.</param>
     // The surface turns by t in a step, in which the body goes by v dt: it bends up ahead where v . t < 0. The plane that the body touches at the part s of the
     // step has the normal n + s t, and is below it by -s^2 v . t dt / 2 now.
     [MethodImpl(MethodImplOptions.NoInlining)]
     ref readonly ConvexContactManifold LeadAlong(
-        in CollidablePair pair, in Vector3 last, in ConvexContactManifold found, ref ConvexContactManifold led)
+        ref Worker worker, in CollidablePair pair, in PatchMemory last, in ConvexContactManifold found, ref ConvexContactManifold led)
     {
-        var turn = found.Normal - last;
+        var turn = found.Normal - last.Normal;
         var rise = -Exact.Dot(VelocityOf(pair.A).Linear, turn);
-        // What bends away gives nothing. What turns by more than what one patch may have of normals is an edge.
-        if (!(rise > 0) || Exact.Dot(found.Normal, last) < PatchSet.SameNormal || !TryGetRollingRadius(pair.A, found.Normal, out var radius))
+        // What bends away gives nothing.
+        if (!(rise > 0))
+            return ref found;
+        var isSmooth = last.IsSmooth(Exact.LengthSquared(turn)) && found.GreatestDepth >= -0.5f * stepTime * rise;
+        // What turns by more than what one patch may have of normals is an edge elsewhere.
+        if ((!isSmooth && Exact.Dot(found.Normal, last.Normal) < PatchSet.SameNormal) || !TryGetRollingRadius(pair.A, found.Normal, out var radius))
             return ref found;
         var share = rimTime / stepTime;
         var normal = found.Normal + turn * share;
@@ -46,7 +51,59 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             ConvexContactManifold.GetConvexContactReference(ref led, i).Offset += shift;
             led.AddDepth(i, -below);
         }
+        // What touches with one end alone has another velocity there.
+        if (isSmooth && (led.Count > 1 || IsBall(pair.A)))
+            Note(ref worker.Bends, new() { Pair = pair, Normal = led.Normal, Turn = turn, Depth = led.GreatestDepth }, worker.Pool);
         return ref led;
+    }
+
+    // A smooth surface that bends up below what rolls.
+    struct Bend : INote
+    {
+        public CollidablePair Pair { get; init; }
+        /// <summary>Normal of the plane that holds it in this step.</summary>
+        public Vector3 Normal;
+        /// <summary>By how much the normal has turned since the last step.</summary>
+        public Vector3 Turn;
+        /// <summary>Depth of the deepest contact with the plane, m.</summary>
+        public float Depth;
+    }
+
+    bool IsBall(CollidableReference body)
+    {
+        Simulation.GetPoseAndShape(body, out _, out var shape);
+        return shape.Type == Sphere.Id;
+    }
+
+    // A plane stops what comes towards it, and each step has another: by itself that takes the part p^2 / 2 of the speed at a turn by p, on any surface. But
+    // the force of a smooth one is across the way: the velocity of what it holds turns along, and stays as great.
+    void GoAlongBends()
+    {
+        order.Count = 0;
+        for (int i = 0; i < workers.Length; ++i)
+            Gather(ref workers[i].Bends, i);
+        SortByKey();
+        foreach (ref var note in order.AsSpan())
+            GoAlong(workers[note.Worker].Bends[note.Index]);
+    }
+
+    void GoAlong(in Bend bend)
+    {
+        ref var location = ref Simulation.Bodies.Locations[bend.Pair.A.Slot];
+        ref var set = ref Simulation.Bodies.SetOf(location);
+        if (!(set.LocalInertias[location.Index].InverseMass > 0))
+            return;
+        ref var velocity = ref set.MotionStates[location.Index].Velocity.Linear;
+        var turned = Exact.Dot(velocity, bend.Turn);
+        // What hits it besides is stopped as ever.
+        var into = MathHelper.Max(Exact.Dot(velocity, bend.Normal), turned);
+        if (!(into < 0) || !(bend.Depth >= into * stepTime))
+            return;
+        // What went away from the last plane, as it was pushed out, was no part of the way.
+        var apart = into - turned;
+        var squared = Exact.LengthSquared(velocity) - apart * apart;
+        velocity -= bend.Normal * into;
+        velocity *= MathF.Sqrt(squared / Exact.LengthSquared(velocity));
     }
 
     // A cylinder that stands, or leans, has another place than that of its side.

@@ -31,6 +31,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         public QuickList<ContactPatch> Old;
         public QuickList<BouncingPair> Bouncing;
         public QuickList<GoneManifold> Gone;
+        public QuickList<Bend> Bends;
         public QuickList<FastNote> Fast;
         public QuickList<CollidablePair> Sensed;
         /// <summary>Pairs that wait for others of their body.</summary>
@@ -386,6 +387,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         worker.Pending.DisposeIfTaken(worker.Pool);
         worker.Old.DisposeIfTaken(worker.Pool);
         worker.Bouncing.DisposeIfTaken(worker.Pool);
+        worker.Bends.DisposeIfTaken(worker.Pool);
         worker.Gone.DisposeIfTaken(worker.Pool);
         worker.Fast.DisposeIfTaken(worker.Pool);
         worker.Sensed.DisposeIfTaken(worker.Pool);

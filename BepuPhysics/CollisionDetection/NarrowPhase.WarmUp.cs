@@ -31,6 +31,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         Precompilation.Compile(typeof(QuickList<PendingManifold>));
         Precompilation.Compile(typeof(QuickList<ContactPatch>));
         Precompilation.Compile(typeof(QuickList<BouncingPair>));
+        Precompilation.Compile(typeof(QuickList<Bend>));
         Precompilation.Compile(typeof(QuickList<NoteKey>));
         Precompilation.Compile(typeof(RadixSort<NoteKey, ByKey>));
         OverlapFinder.Compile<Overlaps>();

@@ -57,7 +57,7 @@ struct CachedManifold
 }
 
 /// <summary>One manifold of a pair of shapes of which one at least is made of children: a patch, or two children with their history.</summary>
-// As large as a cache line: four bytes more than what it holds, so that none lies across two.
+// As large as a cache line, so that none lies across two.
 [StructLayout(LayoutKind.Sequential, Size = 64)]
 struct ChildManifold
 {

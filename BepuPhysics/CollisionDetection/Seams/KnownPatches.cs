@@ -1,5 +1,7 @@
+using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 
 namespace BepuPhysics.CollisionDetection;
 
@@ -10,10 +12,26 @@ struct PatchMemory
     public Vector3 Normal;
     /// <summary>Features of the first two contacts, which are preferred to others that are as good.</summary>
     public int First, Second;
+    // By how much the normal has turned since the step before, squared: negative where it turned otherwise in the step before that, zero where nothing touches.
+    float squaredTurn;
+
+    // Least part of one squared turn that another is which is like it: half as much, or twice.
+    const float LeastAlike = 0.25f;
+
+    /// <summary>Whether the surface is a smooth bend, along which a normal turns in each step: it has turned twice by about as much as now.</summary>
+    // Between sides that are longer than the way of a step there are edges, and a lip is over after two steps.
+    public readonly bool IsSmooth(float squaredTurn) => AreAlike(this.squaredTurn, squaredTurn);
+
+    static bool AreAlike(float a, float b) => a >= LeastAlike * b && b >= LeastAlike * a;
 
     /// <summary>Remembers the patch as it is now.</summary>
     public void Write(in ConvexContactManifold manifold)
     {
+        var turn = Normal == default ? 0 : Exact.DistanceSquared(manifold.Normal, Normal);
+        // On its way along a bend that is wider than itself, what is held by planes gets no farther from it than this.
+        if (!(manifold.GreatestDepth >= -turn * Exact.Length(manifold.Contact0.Offset)))
+            turn = 0;
+        squaredTurn = AreAlike(MathF.Abs(squaredTurn), turn) ? turn : -turn;
         Normal = manifold.Normal;
         First = manifold.Contact0.FeatureId;
         Second = manifold.Count > 1 ? manifold.Contact1.FeatureId : First;

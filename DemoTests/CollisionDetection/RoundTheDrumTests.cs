@@ -1,0 +1,98 @@
+using System;
+using System.Numerics;
+using BepuPhysics;
+using BepuPhysics.Collidables;
+using BepuUtilities.Memory;
+using Demos.Accuracy;
+using DemoTests.Scenes;
+using Xunit;
+
+namespace DemoTests.CollisionDetection;
+
+/// <summary>A ball on the inside of a drum of many flat sides: what holds it is across its way, and takes nothing of its speed.</summary>
+public class RoundTheDrumTests
+{
+    const float Radius = 2;
+
+    // An edge of N sides takes what comes towards the next side, the part (2 pi / N)^2 / 2 of the speed: 2 pi^2 / N in a lap. A smooth drum takes nothing, and
+    // none gives any.
+    [Theory]
+    [InlineData(1600, 4, 0), InlineData(1600, 16, 0), InlineData(3200, 4, 0), InlineData(1600, 4, 1), InlineData(3200, 8, 1)]
+    public void A_ball_that_goes_round_keeps_its_speed(int sides, int substeps, float friction)
+    {
+        const float radius = .2f;
+        const int laps = 3;
+        var settings = new AccuracySettings { Friction = friction, Gravity = default, SubstepCount = substeps };
+        using var world = new TestWorld(settings);
+        using var drum = AddDrum(world, sides);
+        var pose = new RigidPose(new Vector3(Radius - radius, 0, 0));
+        // Rolling from the beginning: its surface does not slide.
+        var velocity = new BodyVelocity(new Vector3(0, 5, 0), friction > 0 ? new Vector3(0, 0, -5 / radius) : default);
+        var ball = world.AddDynamic(new Sphere(radius), 1, pose, velocity);
+        var (turned, steps) = (0.0, 0);
+        var before = world.Bodies[ball].Pose.Position;
+        for (; turned < laps * Math.Tau && steps < 1000; ++steps)
+        {
+            world.Step();
+            var now = world.Bodies[ball].Pose.Position;
+            turned += Math.Atan2(before.X * now.Y - before.Y * now.X, before.X * now.X + before.Y * now.Y);
+            before = now;
+        }
+        var share = world.Bodies[ball].Velocity.Linear.Length() / 5;
+        Assert.InRange(share, 1 - laps * 2 * Math.PI * Math.PI / sides, 1.001);
+        Assert.InRange(before.Length(), Radius - radius - .005, Radius - radius + .005);
+    }
+
+    // With gravity: so fast that the wall turns by 6 and 10 degrees in a step.
+    [Theory]
+    [InlineData(12, 512), InlineData(12, 2048), InlineData(20, 512), InlineData(20, 2048)]
+    public void What_loops_the_loop_gains_nothing(float speed, int sides)
+    {
+        const float radius = .25f;
+        using var world = new TestWorld(new AccuracySettings { Friction = 0 });
+        using var drum = AddDrum(world, sides);
+        var bottom = -(Radius - radius);
+        var ball = world.AddDynamic(new Sphere(radius), 1, new RigidPose(new Vector3(0, bottom, 0)), new BodyVelocity(new Vector3(speed, 0, 0)));
+        double Energy() => world.Bodies[ball].Velocity.Linear.LengthSquared() / 2 + 9.81 * (world.Bodies[ball].Pose.Position.Y - bottom);
+        var first = Energy();
+        var greatest = 0.0;
+        for (int i = 0; i < 150; ++i)
+        {
+            world.Step();
+            greatest = Math.Max(greatest, Energy());
+        }
+        Assert.InRange(greatest, .95 * first, 1.01 * first);
+        Assert.InRange(Energy(), .9 * first, 1.01 * first);
+    }
+
+    static DrumShape AddDrum(TestWorld world, int sides)
+    {
+        world.Pool.Take(2 * sides, out Buffer<Triangle> triangles);
+        var across = new Vector3(0, 0, 1);
+        for (int i = 0; i < sides; ++i)
+        {
+            var (a, b) = (Edge(i, sides), Edge(i + 1, sides));
+            triangles[2 * i] = new(a - across, b - across, b + across);
+            triangles[2 * i + 1] = new(a - across, b + across, a + across);
+        }
+        var shape = world.Simulation.Shapes.Add(new Mesh(triangles, Vector3.One, world.Pool));
+        var handle = world.Statics.Add(new StaticDescription(Vector3.Zero, shape));
+        return new(world, handle, shape);
+    }
+
+    // The last edge is the first, bit for bit.
+    static Vector3 Edge(int i, int sides)
+    {
+        var angle = Math.Tau * (i % sides) / sides;
+        return new((float)(Radius * Math.Cos(angle)), (float)(Radius * Math.Sin(angle)), 0);
+    }
+
+    readonly struct DrumShape(TestWorld world, StaticHandle handle, TypedIndex shape) : IDisposable
+    {
+        public void Dispose()
+        {
+            world.Statics.Remove(handle);
+            world.Simulation.Shapes.RecursivelyRemoveAndDispose(shape, world.Pool);
+        }
+    }
+}
