@@ -124,8 +124,15 @@ sealed unsafe class RowBench : IDisposable
     }
 
     /// <summary>Linear and angular velocity of each body.</summary>
-    public double[] Velocities =>
-        [.. Enumerable.Range(0, BodyCount).SelectMany(i => Coordinates(motions[i].Velocity.Linear, motions[i].Velocity.Angular))];
+    public double[] Velocities
+    {
+        get => [.. Enumerable.Range(0, BodyCount).SelectMany(i => Coordinates(motions[i].Velocity.Linear, motions[i].Velocity.Angular))];
+        set
+        {
+            for (int i = 0; i < BodyCount; ++i)
+                motions[i].Velocity = new(Part(value, i * 6), Part(value, i * 6 + 3));
+        }
+    }
 
     public void Dispose() => pool.Dispose();
 

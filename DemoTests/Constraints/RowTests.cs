@@ -256,6 +256,8 @@ public class RowTests
             var limit = bench.Processor.LimitOf(start);
             if (limit == RowLimit.Friction)
                 (pressedVelocities, pressedImpulses) = ([.. velocities], [.. impulses]);
+            if (IsContact(typeId) && limit == RowLimit.Positive)
+                rows[start] = RowAt(bench, substep, start, velocities);
             var count = limit == RowLimit.Friction ? 2 : IsContact(typeId) ? 1 : rows.Length;
             var block = rows[start..(start + count)];
             var first = start;
@@ -284,6 +286,16 @@ public class RowTests
         if (IsContact(typeId))
             SlidingReference.Slide(bench, typeId, rows, pressedVelocities, pressedImpulses, velocities, impulses);
         return (velocities, impulses);
+    }
+
+    // How soft a contact is whose recovery is limited depends on the velocity that the rows before it have left.
+    static ConstraintRow RowAt(RowBench bench, in Substep substep, int row, double[] velocities)
+    {
+        var before = bench.Velocities;
+        bench.Velocities = velocities;
+        var read = bench.Rows(substep)[row];
+        bench.Velocities = before;
+        return read;
     }
 
     internal static double[,] MassMatrix(RowBench bench, ConstraintRow[] rows)

@@ -1,5 +1,6 @@
 using System;
 using System.Numerics;
+using BepuPhysics;
 using BepuPhysics.Collidables;
 using Demos.Accuracy;
 using Xunit;
@@ -55,5 +56,34 @@ public class RecoveryForceTests
 
         Assert.InRange(fastest, .9 * maximumRecoveryVelocity, 1.001 * maximumRecoveryVelocity);
         Assert.True(world.Position(body).Y > .5);
+    }
+
+    /// <summary>
+    /// Each of a column of overlapping bodies may leave the one below by the limit, so the topmost has one limit per body. (Impulses that had thrown
+    /// them were given again in the next substep, as if they bore a load: the topmost of two came out with 2.4 limits, of four with 4.7.)
+    /// </summary>
+    [Theory]
+    [InlineData(2, 2, true)]
+    [InlineData(4, 2, true)]
+    [InlineData(4, 1, true)]
+    [InlineData(2, 2, false)]
+    [InlineData(4, 2, false)]
+    public void Who_is_deep_in_a_column_leaves_the_next_no_faster_than_it_may(int count, float maximumRecoveryVelocity, bool isRound)
+    {
+        const float depth = .15f;
+        using var world = new AccuracyWorld(new AccuracySettings { MaximumRecoveryVelocity = maximumRecoveryVelocity });
+        world.AddGround();
+        var bodies = new BodyHandle[count];
+        for (int i = 0; i < count; ++i)
+        {
+            var place = new Vector3(0, .5f - depth + i * (1 - depth), 0);
+            bodies[i] = isRound ? world.AddDynamic(new Sphere(.5f), 1, place) : world.AddDynamic(new Box(1, 1, 1), 1, place);
+        }
+        double fastest = 0;
+
+        world.Run(1, () => fastest = Math.Max(fastest, world.LinearVelocity(bodies[^1]).Y));
+
+        // At least what would separate them at all; a twentieth above the limits is what sweeps leave.
+        Assert.InRange(fastest, .5 * count * maximumRecoveryVelocity, 1.05 * count * maximumRecoveryVelocity);
     }
 }

@@ -69,7 +69,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             row.PositionError = Displacement(turned, row) - patch.Contacts[i].Depth;
             row.MaximumImpulse = new(float.PositiveInfinity);
             row.HardMask = Vector.LessThanOrEqual(patch.Material.SpringSettings.AngularFrequency, Vector<float>.Zero);
-            AimNormal(substep, patch.Material, ref row);
+            AimNormal(turned, substep, patch.Material, ref row);
             row.TargetVelocity -= pressed;
             load += row.Impulse;
             moment += row.Impulse * row.Lever;
@@ -142,8 +142,24 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         return apart;
     }
 
-    // The velocity that SolveNormal wants, and how softly.
-    static void AimNormal(in Substep substep, in ContactMaterialWide material, ref ConstraintRowWide row)
+    // How fast the surfaces part, and how much faster by an impulse of one.
+    static (Vector<float> Velocity, Vector<float> InverseMass) Motion(in TBodies bodies, in ConstraintRowWide row)
+    {
+        ref var slots = ref Unsafe.AsRef(in bodies);
+        ref var a = ref BodySlots.At(ref slots, 0);
+        var velocity = Vector3Wide.Dot(a.Linear, row.A.Linear) + Vector3Wide.Dot(a.Angular, row.A.Angular);
+        var inverseMass = a.InverseMass + Vector3Wide.Dot(a.InverseInertia * row.A.Angular, row.A.Angular);
+        if (TBodies.Count > 1)
+        {
+            ref var b = ref BodySlots.At(ref slots, 1);
+            velocity += Vector3Wide.Dot(b.Linear, row.B.Linear) + Vector3Wide.Dot(b.Angular, row.B.Angular);
+            inverseMass += b.InverseMass + Vector3Wide.Dot(b.InverseInertia * row.B.Angular, row.B.Angular);
+        }
+        return (velocity, inverseMass);
+    }
+
+    // The velocity that SolveNormal wants, and how softly. Where recovery is limited that depends on the velocity, which the contacts before this one change.
+    static void AimNormal(in TBodies bodies, in Substep substep, in ContactMaterialWide material, ref ConstraintRowWide row)
     {
         var softness = material.SpringSettings.ForSubstep(substep, substep.Contacts);
         var band = Harden(material.IsHeld, substep, material.SpringSettings.AngularFrequency, ref softness);
@@ -155,7 +171,11 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
         row.MassScale = softness.MassScale;
         row.ImpulseScale = softness.ImpulseScale;
         if (!Vector.EqualsAll(isLimited, Vector<int>.Zero))
-            Stiffen(isLimited, material.MaximumRecoveryVelocity / recovery, ref row.MassScale, ref row.ImpulseScale);
+        {
+            var (velocity, inverseMass) = Motion(bodies, row);
+            var kept = KeptSoftness(material.MaximumRecoveryVelocity, recovery, velocity, row.Impulse * inverseMass);
+            Stiffen(isLimited, kept, ref row.MassScale, ref row.ImpulseScale);
+        }
         if (substep.IsRelaxation)
             row.MassScale = Wide.Mask(Vector.GreaterThan(row.Impulse, Vector<float>.Zero), row.MassScale);
     }

@@ -21,7 +21,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     IConstraint<TBodies, ConvexContactPrestepWide<TContacts>, ConvexContactImpulsesWide<TNormals>>
     where TBodies : unmanaged, IBodySlots where TContacts : unmanaged, IFew<ContactPrestepWide> where TNormals : unmanaged, IFew<Vector<float>>
 {
-    // Least part of its softness that a row keeps whose recovery is limited.
+    // Least part of its softness that a row keeps whose recovery is limited, and which bears a load.
     const float LeastSoftness = 0.25f;
     // Part of the overlap beyond the band that a held contact takes out in a substep.
     const float HeldRecovery = 0.04f;
@@ -225,7 +225,10 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         var massScale = softness.MassScale;
         var impulseScale = softness.ImpulseScale;
         if (!Vector.EqualsAll(isLimited, Vector<int>.Zero))
-            Stiffen(isLimited, prestep.Material.MaximumRecoveryVelocity / recovery, ref massScale, ref impulseScale);
+        {
+            var kept = KeptSoftness(prestep.Material.MaximumRecoveryVelocity, recovery, velocity, impulse * inverseMass);
+            Stiffen(isLimited, kept, ref massScale, ref impulseScale);
+        }
         // What has not pushed in this substep has left nothing behind; what will be hit in the next one keeps its speed until then.
         if (substep.IsRelaxation)
             massScale = Wide.Mask(Vector.GreaterThan(impulse, Vector<float>.Zero), massScale);
@@ -258,12 +261,23 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     // body under a pile would sink without end. Its softness falls with the velocity, and the force goes on to rise with the depth; to
     // four times what it was, as many bodies in one place throw each other about when their rows are all but hard.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void Stiffen(Vector<int> isLimited, Vector<float> ratio, ref Vector<float> massScale, ref Vector<float> impulseScale)
+    static void Stiffen(Vector<int> isLimited, Vector<float> kept, ref Vector<float> massScale, ref Vector<float> impulseScale)
     {
-        var softness = impulseScale / massScale * Wide.Max(ratio, new Vector<float>(LeastSoftness));
+        var softness = impulseScale / massScale * kept;
         var stiffMassScale = Vector<float>.One / (Vector<float>.One + softness);
         massScale = Wide.Select(isLimited, stiffMassScale, massScale);
         impulseScale = Wide.Select(isLimited, softness * stiffMassScale, impulseScale);
+    }
+
+    // The part of its softness that a limited row keeps. Only what bears a load needs the force. What of the velocity that the last impulse gave, as this
+    // substep began with it, is there now was no load, and given once more it throws the upper of two bodies on each other out faster than the limit,
+    // which one sweep does not take back. So much has all its softness, which forgets the impulse.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector<float> KeptSoftness(Vector<float> maximum, Vector<float> recovery, Vector<float> velocity, Vector<float> given)
+    {
+        var least = Wide.Max(maximum / recovery, new Vector<float>(LeastSoftness));
+        var thrown = Wide.Clamp(Wide.DivideOrZero(velocity, Wide.Max(given, maximum)), Vector<float>.Zero, Vector<float>.One);
+        return least + thrown * (Vector<float>.One - least);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
