@@ -121,6 +121,7 @@ public sealed partial class Simulation
         if (NarrowPhase.IsAtRest && !BroadPhase.IsUpdateDue)
         {
             NarrowPhase.Rest();
+            Statics.ForgetMoved();
             return;
         }
         if (bodiesMayBeWritten)
@@ -134,6 +135,7 @@ public sealed partial class Simulation
         }
         using (Profiler.Time(SimulationProfiler.Flush))
             NarrowPhase.Flush(threadDispatcher);
+        Statics.ForgetMoved();
     }
 
     /// <summary>Constraints to velocities, velocities to poses, in substeps.</summary>

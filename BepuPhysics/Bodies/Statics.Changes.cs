@@ -55,6 +55,8 @@ public sealed unsafe partial class Statics
         var bounds = CheckedBounds(index, pose, description.Shape);
         RequestAround(index, bounds, ref filter);
         shapes.ChangeUse(target.Shape, description.Shape);
+        if (target.Pose.Position != pose.Position || target.Pose.Orientation != pose.Orientation)
+            NoteMoved(handle.Slot, BoundsAt(index), bounds);
         target.Pose = pose;
         target.Shape = description.Shape;
         target.Continuity = description.Continuity;
@@ -73,6 +75,7 @@ public sealed unsafe partial class Statics
         var bounds = CheckedBounds(index, target.Pose, target.Shape);
         var filter = default(StaticsShouldntAwakenKinematics);
         RequestAround(index, bounds, ref filter);
+        NoteMoved(handle.Slot, BoundsAt(index), bounds);
         Replace(index, bounds);
     }
 

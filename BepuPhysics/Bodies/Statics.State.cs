@@ -14,6 +14,7 @@ public sealed unsafe partial class Statics
             EnsureSlots(Indices.Length);
         copy.Rows(ref IndexToHandle, Count);
         Count = copy.Rows(ref StaticsBuffer, Count);
+        CopyMoved(copy);
     }
 
     /// <exception cref="System.ArgumentException">A static would be beyond all positions; nothing was changed.</exception>

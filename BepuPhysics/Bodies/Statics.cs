@@ -328,6 +328,7 @@ public sealed unsafe partial class Statics
             shapes.EndUse(StaticsBuffer[i].Shape);
         }
         owners.ReleaseAll();
+        ForgetMoved();
         Count = 0;
         HandlePool.Clear();
     }
@@ -340,6 +341,7 @@ public sealed unsafe partial class Statics
         pool.Return(ref IndexToHandle);
         pool.Return(ref StaticsBuffer);
         HandlePool.Dispose(pool);
+        DisposeMoved();
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
@@ -349,6 +351,8 @@ public sealed unsafe partial class Statics
         Indices = default;
         IndexToHandle = default;
         StaticsBuffer = default;
+        moved = default;
+        movedPlaces = default;
         owners = default;
         HandlePool = default;
     }

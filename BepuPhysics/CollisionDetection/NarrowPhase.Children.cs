@@ -329,6 +329,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return false;
         NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, manifold, material);
+        LetGoOfMoved(tested.Pair, manifold.Normal, ref material);
         return true;
     }
 
@@ -346,6 +347,11 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             if (result.Manifold.Count != 0)
                 CallbackChecks.Contacts(tested.Pair, result.Manifold, material);
+        }
+        foreach (ref var result in results)
+        {
+            if (result.Manifold.Count != 0)
+                LetGoOfMoved(tested.Pair, result.Manifold.Normal, ref material);
         }
         return true;
     }

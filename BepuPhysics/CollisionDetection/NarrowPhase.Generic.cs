@@ -274,6 +274,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
+        LetGoOfMoved(tested.Pair, convex.Normal, ref material);
         Complete(ref worker, tested, convex, PatchLever.Write(material, FaceLever.OfOneFace), StaticPairs.Nothing, default);
     }
 
@@ -325,6 +326,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var convex = ref Unsafe.As<TManifold, ConvexContactManifold>(ref manifold);
         NoteSurface(workerIndex, tested, ref manifold);
         CallbackChecks.Contacts(tested.Pair, convex, material);
+        LetGoOfMoved(tested.Pair, convex.Normal, ref material);
         var isOfGame = !BytesOf.AreEqual(shown, manifold);
         var index = worker.Statics.Add(tested, convex, material, isOfGame, worker.Pool);
         if (isOfGame)
