@@ -77,7 +77,7 @@ public sealed unsafe class IslandSleeper
         {
             var island = search.SlotsOf(i);
             // Who is no number is looked at here, where few are looked at, and keeps its island awake.
-            if ((!looksAtAll && !HasJustRipened(island)) || !AreSound(island))
+            if ((!looksAtAll && !HasJustRipened(island)) || !AreSound(island) || IsOnItsWay(island))
                 continue;
             hasMore = slots.Count >= left;
             if (hasMore)
@@ -180,6 +180,24 @@ public sealed unsafe class IslandSleeper
             ends.Dispose(pool);
             pool.Return(ref isFound);
         }
+    }
+
+    // What rests while its joints go over from the sweeps to being solved at once would sleep with the gaps that they still have.
+    bool IsOnItsWay(ReadOnlySpan<int> slots)
+    {
+        if (solver.DirectJoints == DirectJointsMode.Off)
+            return false;
+        foreach (var slot in slots)
+        {
+            var list = bodies.Awake.Constraints[bodies.Locations[slot].Index];
+            var edge = list.First;
+            for (int i = 0; i < list.Count; ++i, edge = solver.Edges.Next(edge))
+            {
+                if (solver.IsOnItsWay(solver.Edges.ConstraintSlot(edge)))
+                    return true;
+            }
+        }
+        return false;
     }
 
     void CheckSound(int slot)

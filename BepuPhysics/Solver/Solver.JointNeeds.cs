@@ -41,7 +41,11 @@ public sealed unsafe partial class Solver
     /// <summary>Which joints are looked at in the present step.</summary>
     internal int NeedTurn => needTurn;
 
-    /// <summary>What is remembered of a joint. Only where the solver chooses.</summary>
+    /// <summary>Whether a constraint that exists is a joint on its way from the sweeps to being solved at once.</summary>
+    internal bool IsOnItsWay(int slot) =>
+        directJoints != DirectJointsMode.Off && KindOf(Locations[slot]) == BatchKind.Direct && needs[slot].Eases > 0;
+
+    /// <summary>What is remembered of a joint. Only where joints may be solved at once.</summary>
     internal ref JointNeed NeedOf(ConstraintHandle joint) => ref needs[joint.Slot];
 
     // Of a joint that was just added or enabled.
@@ -71,14 +75,15 @@ public sealed unsafe partial class Solver
             if (Locations[slot].SetIndex < 0 || Locations[slot].TypeId < ConstraintTypeIds.ContactTypeCount)
                 continue;
             ref var need = ref RefOfNeed(slot);
-            need = new() { Number = need.Number > 0 ? need.Number : ++numbered };
+            need = need.Renewed(need.Number > 0 ? need.Number : ++numbered);
             if (!ChoosesDirectJoints || KindOf(Locations[slot]) != BatchKind.Direct || !MayAsk(Locations[slot].TypeId))
                 continue;
             need.Ask();
             RemembersNeeds = true;
         }
-        // What is there has been swept over for long.
-        numberedBefore = numberedAtTurn = numberedAtLastTurn = numbered;
+        // What is there has been swept over for long, unless there was no step yet.
+        numberedAtTurn = numberedAtLastTurn = numbered;
+        numberedBefore = stepNumber > 0 ? numbered : 0;
     }
 
     void ForgetNeeds()
@@ -111,8 +116,8 @@ public sealed unsafe partial class Solver
                 need.Refuse();
             if (joint.IsDirect != IsSwept(joint.Handle))
                 continue;
-            // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected as in any mode.
-            if (joint.IsDirect && ChoosesDirectJoints && need.Number <= numberedBefore)
+            // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected at once.
+            if (joint.IsDirect && need.Number <= numberedBefore)
                 need.Ease();
             joints[count++] = joint;
         }
@@ -125,9 +130,9 @@ public sealed unsafe partial class Solver
         needTurn = (needTurn + 1) % NeedTurns;
         if (needTurn == 0)
             (numberedAtLastTurn, numberedAtTurn) = (numberedAtTurn, numbered);
+        numberedBefore = numbered;
         if (!ChoosesDirectJoints)
             return;
-        numberedBefore = numbered;
         needsChanged |= needStage.HasChanged;
     }
 

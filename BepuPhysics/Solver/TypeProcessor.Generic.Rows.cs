@@ -37,6 +37,9 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         ref var impulses = ref ((TImpulses*)batch.AccumulatedImpulses.Memory)[bundle];
         if (!TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var ofFirst, out var ofLast, out _))
             return;
+        var margin = new Vector<float>(GeometricStiffness.DirectMargin);
+        ofFirst *= margin;
+        ofLast *= margin;
         ReadLoadedArms(slots, prestep, impulses, ofFirst, ofLast, out var squareOfFirst, out var squareOfLast);
         var lanes = Math.Min(Vector<float>.Count, batch.ConstraintCount - bundle * Vector<float>.Count);
         for (int lane = 0; lane < lanes; ++lane)

@@ -161,7 +161,9 @@ public class DirectStateTests
         world.Step();
     }
 
-    /// <summary>From sweeps to all at once and back, in mid-swing: impulses stay, so that nothing jumps.</summary>
+    /// <summary>
+    /// From sweeps to all at once and back, in mid-swing: impulses stay, so that nothing jumps. What the sweeps had let open is closed when it has gone over.
+    /// </summary>
     [Fact]
     public void The_mode_may_change_at_any_time()
     {
@@ -170,7 +172,7 @@ public class DirectStateTests
         for (int i = 0; i < 6; ++i)
         {
             world.Solver.DirectJoints = i % 2 == 0 ? DirectJointsMode.Always : DirectJointsMode.Off;
-            world.Step(10);
+            world.Step(i % 2 == 0 ? 90 : 10);
             world.Simulation.Validate();
             if (i % 2 == 0)
                 Assert.InRange(Gap(world, chain), 0, 1e-3f);

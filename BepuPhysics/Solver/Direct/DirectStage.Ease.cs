@@ -4,14 +4,12 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
-// Where the solver chooses how joints are solved: how those that come from the sweeps are put right.
+// How joints that come from the sweeps are put right.
 sealed unsafe partial class DirectStage
 {
     // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
     static void Ease(in JointLane joint, ref JointNeed need, in BodySet set, in Substep substep, bool corrects)
     {
-        if (need.Eases <= 0)
-            return;
         var substepDt = substep.Dt;
         if (!corrects)
         {
@@ -22,15 +20,13 @@ sealed unsafe partial class DirectStage
         var turn = TurnSquared(joint, set);
         var mayHurry = JointNeed.MayHurry(turn);
         var opened = OpenedByLoad(joint, set.WorldInertias, substep, need.Shrunk * linear, need.Shrunk * angular);
+        var error = Math.Max(linear > 0 ? linear / Correction.Reach(joint, set.LocalInertias) : 0, angular);
         var pace = 1f;
-        if (mayHurry || opened > 1)
-        {
-            var error = Math.Max(linear / Correction.Reach(joint, set.LocalInertias), angular);
-            if (mayHurry)
-                pace = JointNeed.PaceOf(turn, error);
-            if (opened > 1)
-                pace *= JointNeed.PaceUnder(opened, error);
-        }
+        if (mayHurry)
+            pace = JointNeed.PaceOf(turn, error);
+        if (opened > 1)
+            pace *= JointNeed.PaceUnder(opened, error);
+        pace = MathHelper.Min(pace, JointNeed.PaceOfLarge(error));
         double linearPart = 0, angularPart = 0;
         if (joint.Kind.HasLinear)
             linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);

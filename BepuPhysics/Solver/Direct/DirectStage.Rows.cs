@@ -10,8 +10,10 @@ sealed unsafe partial class DirectStage
     // Of what is as stiff as can be where it may not be rigid, as a part of its own K: 1 / (w h (w h + 2)).
     static readonly double hardSoftness = SubstepStiffness.DirectSoftness;
 
-    void ReadBundles(in Substep substep, int block)
+    // Returns whether any joint is on its way from the sweeps.
+    bool ReadBundles(in Substep substep, int block)
     {
+        var anyEases = false;
         var start = bundleCount * block / BundleBlocks;
         var end = bundleCount * (block + 1) / BundleBlocks;
         var awake = new SolverBodies(bodies.Awake);
@@ -33,22 +35,36 @@ sealed unsafe partial class DirectStage
                 {
                     var index = bundle * Vector<float>.Count + lane;
                     var count = Math.Min(DirectPlan.Lanes, batch.ConstraintCount - index);
-                    if (count > 0)
-                        ReadLanes(kind, rows, lane, ref processor.BodyReference(ref batch, index, 0), first * Vector<float>.Count + index, count, substep);
+                    if (count <= 0)
+                        continue;
+                    var member = first * Vector<float>.Count + index;
+                    var easing = anyMayEase ? LanesThatEase(memberOfLane.Memory + member, count) : 0;
+                    anyEases |= easing != 0;
+                    ReadLanes(kind, rows, lane, ref processor.BodyReference(ref batch, index, 0), member, count, easing, substep);
                 }
             }
             first += batch.BundleCount;
         }
+        return anyEases;
+    }
+
+    // A bit for each joint that is on its way from the sweeps.
+    int LanesThatEase(int* members, int count)
+    {
+        var lanes = 0;
+        for (int lane = 0; lane < count; ++lane)
+            lanes |= (solver.NeedOf(plan.Members[members[lane]].Handle).Eases > 0 ? 1 : 0) << lane;
+        return lanes;
     }
 
     // The joints of a bundle, or as many of them as structures can be side by side.
     void ReadLanes(
-        in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, int firstLane, ref int references, int first, int count, in Substep substep)
+        in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, int firstLane, ref int references, int first, int count, int easing, in Substep substep)
     {
         Span<double> targets = stackalloc double[DirectPlan.MostRows * DirectPlan.MostLanes];
         var members = memberOfLane.Memory + first;
         var isWhole = count == DirectPlan.Lanes && AreOfOneIsland(members);
-        var lessened = LanesToLessen(kind, rows, ref references, members, firstLane, count, substep);
+        var lessened = easing | LanesToLessen(kind, rows, ref references, firstLane, count, substep);
         var mayLessen = lessened != 0;
         for (int row = 0; row < rows.Length && (mayLessen || !isWhole); ++row)
         {
@@ -58,7 +74,8 @@ sealed unsafe partial class DirectStage
         for (var left = lessened; left != 0; left &= left - 1)
         {
             var lane = BitOperations.TrailingZeroCount(left);
-            Lessen(new(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]), members[lane], substep);
+            var joint = new JointLane(kind, rows, firstLane + lane, ref Unsafe.Add(ref references, lane), ref targets[lane]);
+            Lessen(joint, members[lane], (easing >> lane & 1) != 0, substep);
         }
         if (isWhole)
         {
@@ -96,10 +113,9 @@ sealed unsafe partial class DirectStage
         return members[0] % DirectPlan.Lanes == 0;
     }
 
-    // A bit for each joint whose targets may be lessened. Most are not: nothing is corrected of limits that are not reached, nor lessened of what is off by
-    // little. Only those that are on their way from the sweeps are looked at in any case.
-    int LanesToLessen(
-        in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, ref int references, int* members, int firstLane, int count, in Substep substep)
+    // A bit for each joint whose targets may be lessened, whether it is on its way from the sweeps or not. Most are not: nothing is corrected of limits that are
+    // not reached, nor lessened of what is off by little.
+    int LanesToLessen(in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, ref int references, int firstLane, int count, in Substep substep)
     {
         if (kind.Limit == RowLimit.Length)
             return (1 << count) - 1;
@@ -109,9 +125,7 @@ sealed unsafe partial class DirectStage
         for (int lane = 0; lane < count; ++lane)
         {
             bool isLessened;
-            if (solver.ChoosesDirectJoints && solver.NeedOf(plan.Members[members[lane]].Handle).Eases > 0)
-                isLessened = true;
-            else if (kind.Limit == RowLimit.Positive)
+            if (kind.Limit == RowLimit.Positive)
                 isLessened = JointLane.LaneOf(rows[0].PositionError, firstLane + lane) < 0;
             else
             {
@@ -132,13 +146,13 @@ sealed unsafe partial class DirectStage
     }
 
     // Lessens what a joint is after.
-    void Lessen(in JointLane joint, int member, in Substep substep)
+    void Lessen(in JointLane joint, int member, bool eases, in Substep substep)
     {
         if (!joint.IsHard)
             return;
         ref var set = ref bodies.Awake;
         var corrects = joint.Limit == RowLimit.None || CorrectsAll(joint, substep);
-        if (solver.ChoosesDirectJoints)
+        if (eases)
             Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep, corrects);
         if (corrects && joint.Limit != RowLimit.Length)
             Correction.Limit(joint, set, substep.Dt);

@@ -19,7 +19,13 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     Buffer<int> memberOfLane;
     // The equations of all structures (DirectMemory.cs).
     Buffer<Vector256<double>> memory;
+    // What the loads of joints that are swept over stiffen the rotation of the bodies of the plan by: all of the step.
+    Buffer<BodyInertia> sweptStiffness;
     int bundleCount;
+    // Whether any joint of a block of bundles was on its way from the sweeps when the block was last read, and whether any was when the step began. When
+    // joints have been chosen anew all may be.
+    readonly bool[] mayEase = new bool[MaximumBlocks];
+    bool anyMayEase;
 
     /// <summary>Chooses joints anew.</summary>
     internal void Replace(in DirectPlan next)
@@ -35,6 +41,8 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         pool.Take(plan.MemoryCount, out memory);
         // Lanes without a structure have zeros.
         memory.Clear(0, plan.MemoryCount);
+        pool.Take(plan.Bodies.Count, out sweptStiffness);
+        mayEase.AsSpan().Fill(true);
         new DirectArrangement(solver, plan, pool).Arrange(ref LeftOut);
         FindLanes();
     }
@@ -77,7 +85,11 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     /// <summary>Whether there is any joint to solve.</summary>
     internal bool HasJoints => !plan.IsEmpty;
 
-    bool ISolverStage.BeginStep() => HasJoints;
+    bool ISolverStage.BeginStep()
+    {
+        anyMayEase = mayEase.AsSpan().Contains(true);
+        return HasJoints;
+    }
 
     int ISolverStage.GetBlockCount(SolverPoint point) => point switch
     {
@@ -95,7 +107,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         switch (point)
         {
             case SolverPoint.BeforeWarmStart:
-                ReadBundles(substep, block);
+                mayEase[block] = ReadBundles(substep, block);
                 break;
             case SolverPoint.AfterWarmStart or SolverPoint.AfterSolve:
                 for (int i = block; i < plan.Islands.Count; i += IslandBlocks)
@@ -262,6 +274,25 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         }
     }
 
+    /// <summary>Before the loads of a substep are added to what is there of joints that are swept over.</summary>
+    internal void BeginLoads(bool isFirst, Buffer<BodyInertia> stiffness)
+    {
+        foreach (ref var island in plan.Islands.AsSpan())
+        {
+            for (int i = island.FirstBody; i < island.FirstBody + island.DynamicCount; ++i)
+            {
+                for (int place = i * DirectPlan.Lanes; place < i * DirectPlan.Lanes + island.MemberCount; ++place)
+                {
+                    ref var row = ref stiffness[plan.Bodies[place]];
+                    if (isFirst)
+                        sweptStiffness[place] = row;
+                    else
+                        (row.InverseInertiaTensor, row.InverseMass) = (sweptStiffness[place].InverseInertiaTensor, sweptStiffness[place].InverseMass);
+                }
+            }
+        }
+    }
+
     /// <summary>Gives all memory back.</summary>
     internal void Dispose()
     {
@@ -270,6 +301,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
             return;
         pool.Return(ref memory);
         pool.Return(ref memberOfLane);
+        pool.Return(ref sweptStiffness);
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
@@ -278,5 +310,6 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         plan = default;
         memory = default;
         memberOfLane = default;
+        sweptStiffness = default;
     }
 }

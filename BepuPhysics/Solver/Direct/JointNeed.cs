@@ -29,6 +29,8 @@ struct JointNeed
     const float EaseTime = 0.5f;
     // Time constant of what is beyond that error, s: about that of the sweeps at the default setting.
     const float BeyondTime = 0.02f;
+    // What an error is at most that goes in that time, as a part of the size of the bodies or in radians; one of four times that takes twice as long.
+    const double LargeError = 0.02;
     // Part of the size of bodies that is no way for them to go within a radian of their turn.
     const float SmallError = 0.01f;
     // After which a five hundredth is left of it: exp(-2.5^2).
@@ -89,6 +91,9 @@ struct JointNeed
     /// <summary>Its structure would take too long to be solved at once: neither it nor another joint of it asks for a time.</summary>
     internal void Refuse() => (Asks, Refused) = (0, GreatestPeriod);
 
+    /// <summary>What stays when the mode becomes another one: how far it is on its way from the sweeps.</summary>
+    internal readonly JointNeed Renewed(long number) => new() { Number = number, Eases = Eases, Gap = Gap, Turn = Turn };
+
     /// <summary>Begins to go over from the sweeps.</summary>
     internal void Ease() => (Eases, Gap, Turn) = (EaseEnd, 0, 0);
 
@@ -107,6 +112,11 @@ struct JointNeed
     // To put a joint right that is off by C takes its load times C, which nothing gives back: little where that is the load that opened it, and a part of all
     // motion, about twice that of the size, where what hangs in it has begun to whirl since. So it waits for the load to be less, but for what is small.
     internal static float PaceUnder(double opened, double error) => (float)Math.Max(1 / opened, Math.Min(1, QuietPart * Tolerance / error));
+
+    /// <summary>How many times as fast a large error goes at most.</summary>
+    /// <param name="error">The error, as a part of the size of the bodies or in radians.</param>
+    // Long chains are long ways: of fifty links each of which is off by half of its size the last goes by twenty-five sizes, and what it pulls in is thrown.
+    internal static float PaceOfLarge(double error) => error > LargeError ? (float)Math.Sqrt(LargeError / error) : float.PositiveInfinity;
 
     /// <summary>The error that a joint came with, in parts of what is to be left of it by now.</summary>
     // exp((t / T)^2) as (1 + (t / T)^2 / 64)^64: products are the same everywhere.
