@@ -33,8 +33,8 @@ public class GoingOverTests(ITestOutputHelper output)
 
     /// <summary>
     /// Let go by sweeps for half a second, in which they stretch by up to several times their length. Nothing explodes, and none comes to be longer than the
-    /// sweeps alone would let it. What is pulled in as it swings gains by that, as a skater does who pulls in her arms. With errors that went at once, or all in
-    /// half a second, 91 and 15 of these gained, up to 62 times what there was.
+    /// sweeps alone would let it. What is pulled in as it swings gains by that, as a skater does who pulls in her arms. With errors that went at once, or all
+    /// in half a second, 91 and 15 of these gained, up to 62 times what there was.
     /// </summary>
     [Theory]
     [InlineData(DirectJointsMode.Always)]

@@ -11,7 +11,7 @@ using DemoTests.Support;
 
 namespace DemoTests.DirectJoints;
 
-/// <summary>Light links with a heavy load at their end, drawn by lot: how many, how large, of which joints, which way they hang and how they are kicked.</summary>
+/// <summary>Light links with a heavy load at their end, drawn by lot: how many, how large, of which joints, how they hang and are kicked.</summary>
 sealed class HeavyChain : IDisposable
 {
     const double Gravity = 9.81;

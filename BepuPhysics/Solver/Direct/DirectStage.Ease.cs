@@ -18,15 +18,11 @@ sealed unsafe partial class DirectStage
         }
         var (linear, angular) = joint.Error();
         var turn = TurnSquared(joint, set);
-        var mayHurry = JointNeed.MayHurry(turn);
         var opened = OpenedByLoad(joint, set.WorldInertias, substep, need.Shrunk * linear, need.Shrunk * angular);
         var error = Math.Max(linear > 0 ? linear / Correction.Reach(joint, set.LocalInertias) : 0, angular);
-        var pace = 1f;
-        if (mayHurry)
-            pace = JointNeed.PaceOf(turn, error);
+        var pace = JointNeed.PaceOf(turn, error);
         if (opened > 1)
             pace *= JointNeed.PaceUnder(opened, error);
-        pace = MathHelper.Min(pace, JointNeed.PaceOfLarge(error));
         double linearPart = 0, angularPart = 0;
         if (joint.Kind.HasLinear)
             linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);

@@ -113,8 +113,8 @@ sealed unsafe partial class DirectStage
         return members[0] % DirectPlan.Lanes == 0;
     }
 
-    // A bit for each joint whose targets may be lessened, whether it is on its way from the sweeps or not. Most are not: nothing is corrected of limits that are
-    // not reached, nor lessened of what is off by little.
+    // A bit for each joint whose targets may be lessened, on its way from the sweeps or not. Most are not: nothing is corrected of limits that are not reached,
+    // nor lessened of what is off by little.
     int LanesToLessen(in JointKind kind, ReadOnlySpan<ConstraintRowWide> rows, ref int references, int firstLane, int count, in Substep substep)
     {
         if (kind.Limit == RowLimit.Length)

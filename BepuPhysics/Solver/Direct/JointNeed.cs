@@ -100,11 +100,13 @@ struct JointNeed
     /// <summary>Goes a substep further on the way from the sweeps.</summary>
     internal void GoOn(float substepDt) => Eases = MathHelper.Max(Eases - substepDt, 0);
 
-    /// <summary>How many times as fast an error goes if a body of the joint turns: within a radian, as a gap that turns with it is a brake.</summary>
+    /// <summary>How many times as fast an error goes: slower where it is large, and faster if a body of the joint turns.</summary>
     /// <param name="turnSquared">Square of the angular speed of the body that turns fastest, rad2/s2.</param>
     /// <param name="error">The error, as a part of the size of the bodies or in radians: one that is not small is not taken back faster than they move.</param>
-    internal static float PaceOf(float turnSquared, double error) =>
-        MathHelper.Max(1, EaseTime * MathF.Sqrt(turnSquared) * (float)Math.Min(1, SmallError / error));
+    // Long chains are long ways: of fifty links each of which is off by half of its size the last goes by twenty-five sizes, and what it pulls in is thrown.
+    // But a gap that turns with a body is a brake: it goes within a radian.
+    internal static float PaceOf(float turnSquared, double error) => MathHelper.Max(
+        (float)Math.Sqrt(Math.Min(1, LargeError / error)), EaseTime * MathF.Sqrt(turnSquared) * (float)Math.Min(1, SmallError / error));
 
     /// <summary>How many times as fast an error goes under a load that would open the joint further: never faster.</summary>
     /// <param name="opened">What the sweeps would let it open to under its load, as a part of the error that it came with: more than one.</param>
@@ -112,11 +114,6 @@ struct JointNeed
     // To put a joint right that is off by C takes its load times C, which nothing gives back: little where that is the load that opened it, and a part of all
     // motion, about twice that of the size, where what hangs in it has begun to whirl since. So it waits for the load to be less, but for what is small.
     internal static float PaceUnder(double opened, double error) => (float)Math.Max(1 / opened, Math.Min(1, QuietPart * Tolerance / error));
-
-    /// <summary>How many times as fast a large error goes at most.</summary>
-    /// <param name="error">The error, as a part of the size of the bodies or in radians.</param>
-    // Long chains are long ways: of fifty links each of which is off by half of its size the last goes by twenty-five sizes, and what it pulls in is thrown.
-    internal static float PaceOfLarge(double error) => error > LargeError ? (float)Math.Sqrt(LargeError / error) : float.PositiveInfinity;
 
     /// <summary>The error that a joint came with, in parts of what is to be left of it by now.</summary>
     // exp((t / T)^2) as (1 + (t / T)^2 / 64)^64: products are the same everywhere.
@@ -131,9 +128,6 @@ struct JointNeed
             return power;
         }
     }
-
-    /// <summary>Whether an error can go faster if a body of the joint turns.</summary>
-    internal static bool MayHurry(float turnSquared) => turnSquared > 1 / (EaseTime * EaseTime);
 
     /// <summary>Part of an error that is corrected in a substep.</summary>
     /// <param name="left">What is left of the one that the joint came with: <see cref="Gap"/> or <see cref="Turn"/>; found in the first substep.</param>
