@@ -185,7 +185,7 @@ public sealed unsafe class IslandSleeper
     // What rests while its joints go over from the sweeps to being solved at once would sleep with the gaps that they still have.
     bool IsOnItsWay(ReadOnlySpan<int> slots)
     {
-        if (solver.DirectJoints == DirectJointsMode.Off)
+        if (!solver.MayHaveDirectJoints)
             return false;
         foreach (var slot in slots)
         {

@@ -30,11 +30,12 @@ public sealed unsafe partial class Solver
             using var change = world.Change("Solver.DirectJoints");
             if (directJoints == value)
                 return;
+            var areNumbered = AreNumbered;
             directJoints = value;
-            if (value == DirectJointsMode.Off)
+            if (value != DirectJointsMode.Off)
+                BeginNeeds(areNumbered);
+            else if (!AreNumbered)
                 EndNeeds();
-            else
-                BeginNeeds();
         }
     }
 
@@ -74,6 +75,8 @@ public sealed unsafe partial class Solver
             SetSwept(joints[i].Handle, !joints[i].IsDirect);
         joints.Dispose(pool);
         directStage.Replace(plan);
+        if (directJoints == DirectJointsMode.Off)
+            EndNeeds();
         chosenMode = directJoints;
         chosenVersion = jointVersion;
         needsChanged = false;

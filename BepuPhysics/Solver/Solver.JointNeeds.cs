@@ -41,17 +41,23 @@ public sealed unsafe partial class Solver
     /// <summary>Which joints are looked at in the present step.</summary>
     internal int NeedTurn => needTurn;
 
-    /// <summary>Whether a constraint that exists is a joint on its way from the sweeps to being solved at once.</summary>
-    internal bool IsOnItsWay(int slot) =>
-        directJoints != DirectJointsMode.Off && KindOf(Locations[slot]) == BatchKind.Direct && needs[slot].Eases > 0;
+    /// <summary>Whether joints may be solved at once, and some that are awake are, or were.</summary>
+    // Not what was chosen last: a restored world has to choose first.
+    internal bool MayHaveDirectJoints => directJoints != DirectJointsMode.Off && FindBatch(ActiveSet, BatchKind.Direct) >= 0;
+
+    /// <summary>Whether a constraint that exists is a joint on its way from the sweeps to being solved at once. Only where some are.</summary>
+    internal bool IsOnItsWay(int slot) => KindOf(Locations[slot]) == BatchKind.Direct && needs[slot].IsUnderway;
 
     /// <summary>What is remembered of a joint. Only where joints may be solved at once.</summary>
     internal ref JointNeed NeedOf(ConstraintHandle joint) => ref needs[joint.Slot];
 
+    // Whether joints have numbers. What a game takes back between two steps has not happened: nothing is forgotten before a step has left all to the sweeps.
+    bool AreNumbered => directJoints != DirectJointsMode.Off || chosenMode != DirectJointsMode.Off;
+
     // Of a joint that was just added or enabled.
     void NumberJoint(ConstraintHandle joint)
     {
-        if (directJoints != DirectJointsMode.Off && Locations[joint.Slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
+        if (AreNumbered && Locations[joint.Slot].TypeId >= ConstraintTypeIds.ContactTypeCount)
             RefOfNeed(joint.Slot) = new() { Number = ++numbered };
     }
 
@@ -67,7 +73,7 @@ public sealed unsafe partial class Solver
     }
 
     // The mode has become another one. Where the solver chooses, what is solved at once already goes on so until its load says that it need not.
-    void BeginNeeds()
+    void BeginNeeds(bool areNumbered)
     {
         needsChanged = RemembersNeeds = false;
         for (int slot = 0; slot < UsedSlotCount; ++slot)
@@ -81,9 +87,10 @@ public sealed unsafe partial class Solver
             need.Ask();
             RemembersNeeds = true;
         }
-        // What is there has been swept over for long, unless there was no step yet.
         numberedAtTurn = numberedAtLastTurn = numbered;
-        numberedBefore = stepNumber > 0 ? numbered : 0;
+        // What had no number has been swept over for long, unless there was no step yet.
+        if (!areNumbered)
+            numberedBefore = stepNumber > 0 ? numbered : 0;
     }
 
     void ForgetNeeds()

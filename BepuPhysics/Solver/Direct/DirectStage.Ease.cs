@@ -7,7 +7,7 @@ namespace BepuPhysics.Constraints;
 // How joints that come from the sweeps are put right.
 sealed unsafe partial class DirectStage
 {
-    // A joint that comes from the sweeps is not put right at once. Each is read by one worker.
+    // A joint that comes from the sweeps is not put right at once. Each is read by one worker. What corrects nothing now, or is a spring, has only to wait.
     static void Ease(in JointLane joint, ref JointNeed need, in BodySet set, in Substep substep, bool corrects)
     {
         var substepDt = substep.Dt;
@@ -28,7 +28,7 @@ sealed unsafe partial class DirectStage
             linearPart = need.CorrectedPart(ref need.Gap, linear, substepDt, pace);
         if (joint.Kind.HasAngular)
             angularPart = need.CorrectedPart(ref need.Turn, angular, substepDt, pace);
-        need.GoOn(pace * substepDt);
+        need.GoOn(substepDt, pace);
         for (int row = 0; row < joint.RowCount; ++row)
             joint.Target(row) *= joint.IsLinear(row) ? linearPart : angularPart;
     }

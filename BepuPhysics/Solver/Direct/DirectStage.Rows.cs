@@ -148,10 +148,8 @@ sealed unsafe partial class DirectStage
     // Lessens what a joint is after.
     void Lessen(in JointLane joint, int member, bool eases, in Substep substep)
     {
-        if (!joint.IsHard)
-            return;
         ref var set = ref bodies.Awake;
-        var corrects = joint.Limit == RowLimit.None || CorrectsAll(joint, substep);
+        var corrects = joint.IsHard && (joint.Limit == RowLimit.None || CorrectsAll(joint, substep));
         if (eases)
             Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep, corrects);
         if (corrects && joint.Limit != RowLimit.Length)

@@ -87,7 +87,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
 
     bool ISolverStage.BeginStep()
     {
-        anyMayEase = mayEase.AsSpan().Contains(true);
+        anyMayEase = HasJoints && mayEase.AsSpan(0, BundleBlocks).Contains(true);
         return HasJoints;
     }
 

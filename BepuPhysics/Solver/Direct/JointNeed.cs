@@ -56,6 +56,8 @@ struct JointNeed
     public float Refused;
     /// <summary>Time for which it is on its way from the sweeps yet, s.</summary>
     public float Eases;
+    /// <summary>Time since it began that way, s: longer, where it goes slowly.</summary>
+    public float Underway;
     /// <summary>What is to be left on the way of the error along directions with which it came, m.</summary>
     public float Gap;
     /// <summary>The same about axes, rad.</summary>
@@ -92,13 +94,20 @@ struct JointNeed
     internal void Refuse() => (Asks, Refused) = (0, GreatestPeriod);
 
     /// <summary>What stays when the mode becomes another one: how far it is on its way from the sweeps.</summary>
-    internal readonly JointNeed Renewed(long number) => new() { Number = number, Eases = Eases, Gap = Gap, Turn = Turn };
+    internal readonly JointNeed Renewed(long number) => new() { Number = number, Eases = Eases, Underway = Underway, Gap = Gap, Turn = Turn };
 
     /// <summary>Begins to go over from the sweeps.</summary>
-    internal void Ease() => (Eases, Gap, Turn) = (EaseEnd, 0, 0);
+    internal void Ease() => (Eases, Underway, Gap, Turn) = (EaseEnd, 0, 0, 0);
 
     /// <summary>Goes a substep further on the way from the sweeps.</summary>
-    internal void GoOn(float substepDt) => Eases = MathHelper.Max(Eases - substepDt, 0);
+    internal void GoOn(float substepDt, float pace = 1)
+    {
+        Eases = MathHelper.Max(Eases - pace * substepDt, 0);
+        Underway += substepDt;
+    }
+
+    /// <summary>Whether it is on its way from the sweeps, and may get there soon: of joints that contradict each other some never do.</summary>
+    internal readonly bool IsUnderway => Eases > 0 && Underway < GreatestPeriod;
 
     /// <summary>How many times as fast an error goes: slower where it is large, and faster if a body of the joint turns.</summary>
     /// <param name="turnSquared">Square of the angular speed of the body that turns fastest, rad2/s2.</param>
