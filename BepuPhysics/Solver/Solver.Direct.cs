@@ -18,7 +18,8 @@ public sealed unsafe partial class Solver
     /// <summary>Whether all joints of a structure are solved at once.</summary>
     /// <remarks>
     /// May be changed between any two steps: impulses stay. From <see cref="DirectJointsMode.Always"/> to <see cref="DirectJointsMode.WhereNeeded"/> nothing
-    /// changes at first, until the loads say which structures the sweeps bear.
+    /// changes at first, until the loads say which structures the sweeps bear. What sweeps have let open closes within a second or some, not at once, and does
+    /// not fall asleep by itself meanwhile.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
     public DirectJointsMode DirectJoints
