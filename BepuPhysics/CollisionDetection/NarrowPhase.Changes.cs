@@ -73,7 +73,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             FinishColumns(dispatcher, appliesNotes: true);
         }
-        GoAlongBends();
+        NoteSmoothBends();
         WatchBouncingPairs();
         WatchFastPairs();
     }

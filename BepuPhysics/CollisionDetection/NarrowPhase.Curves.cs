@@ -75,19 +75,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         return shape.Type == Sphere.Id;
     }
 
-    // A plane stops what comes towards it, and each step has another: by itself that takes the part p^2 / 2 of the speed at a turn by p, on any surface. But
-    // the force of a smooth one is across the way: the velocity of what it holds turns along, and stays as great.
-    void GoAlongBends()
+    // In the order of pairs, with velocities as they are when all have been noted.
+    void NoteSmoothBends()
     {
+        SmoothBends.Clear();
         order.Count = 0;
         for (int i = 0; i < workers.Length; ++i)
             Gather(ref workers[i].Bends, i);
         SortByKey();
         foreach (ref var note in order.AsSpan())
-            GoAlong(workers[note.Worker].Bends[note.Index]);
+            AddSmoothBend(workers[note.Worker].Bends[note.Index]);
     }
 
-    void GoAlong(in Bend bend)
+    void AddSmoothBend(in Bend bend)
     {
         ref var location = ref Simulation.Bodies.Locations[bend.Pair.A.Slot];
         ref var set = ref Simulation.Bodies.SetOf(location);
@@ -95,15 +95,18 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         ref var velocity = ref set.MotionStates[location.Index].Velocity.Linear;
         var turned = Exact.Dot(velocity, bend.Turn);
-        // What hits it besides is stopped as ever.
+        // What hits it besides is stopped for good.
         var into = MathHelper.Max(Exact.Dot(velocity, bend.Normal), turned);
         if (!(into < 0) || !(bend.Depth >= into * stepTime))
             return;
         // What went away from the last plane, as it was pushed out, was no part of the way.
         var apart = into - turned;
-        var squared = Exact.LengthSquared(velocity) - apart * apart;
-        velocity -= bend.Normal * into;
-        velocity *= MathF.Sqrt(squared / Exact.LengthSquared(velocity));
+        var across = into * into - apart * apart;
+        if (across > 0)
+        {
+            var along = Exact.LengthSquared(velocity - bend.Normal * into);
+            SmoothBends.Add(new() { Body = bend.Pair.A.BodyHandle, Normal = bend.Normal, Across = across, Along = along });
+        }
     }
 
     // A cylinder that stands, or leans, has another place than that of its side.

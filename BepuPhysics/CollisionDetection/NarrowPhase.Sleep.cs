@@ -51,6 +51,7 @@ public abstract partial class NarrowPhase
         SkippedPairCount = 0;
         Simulation.Events.BeginDetection();
         Restitution.BeginStep();
+        SmoothBends.Clear();
     }
 
     /// <summary>Whether a kinematic body that is awake moves, be it only that a game has put it elsewhere since the last step. Before the solver.</summary>

@@ -21,6 +21,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     internal PairCache Pairs;
     internal readonly Restitution Restitution;
     internal readonly FastPairs FastPairs;
+    internal readonly SmoothBends SmoothBends;
     readonly LoadPathStage loadPath;
     private protected Buffer<CollidablePair> pairOfConstraint;
     internal AgreedPairs AgreedPairs;
@@ -50,6 +51,8 @@ public abstract partial class NarrowPhase : IBufferPoolUser
             ]);
         Restitution = new Restitution(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(Restitution);
+        SmoothBends = new SmoothBends(simulation.Solver, simulation.Bodies, Pool);
+        simulation.Solver.OptionalStages.Add(SmoothBends);
         loadPath = new LoadPathStage(simulation.Solver, simulation.Bodies, Pool);
         simulation.Solver.OptionalStages.Add(loadPath);
     }
@@ -120,6 +123,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         AgreedPairs.Clear();
         PairCount = 0;
         Restitution.BeginStep();
+        SmoothBends.Clear();
         FastPairs.BeginStep();
     }
 
@@ -136,6 +140,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         if (!copy.Restores)
             return;
         Restitution.BeginStep();
+        SmoothBends.Clear();
         FastPairs.BeginStep();
     }
 
@@ -147,6 +152,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         pairOfConstraint = default;
         PairCount = 0;
         Restitution.Abandon();
+        SmoothBends.Abandon();
         FastPairs.Abandon();
         loadPath.Abandon();
     }
@@ -156,6 +162,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
         Pairs.Dispose(Pool);
         AgreedPairs.Dispose(Pool);
         Restitution.Dispose();
+        SmoothBends.Clear();
         FastPairs.Dispose();
         loadPath.Dispose();
         Pool.ReturnIfTaken(ref pairOfConstraint);
@@ -200,6 +207,7 @@ public abstract partial class NarrowPhase : IBufferPoolUser
             Pairs.Remove(i, Pool);
         }
         Restitution.BeginStep();
+        SmoothBends.Clear();
     }
 
     /// <summary>Removes all constraints of a pair.</summary>
