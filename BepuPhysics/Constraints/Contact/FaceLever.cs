@@ -23,9 +23,9 @@ static class FaceLever
     /// <summary>The number that says a lever; never that of one face.</summary>
     public static byte Code(float lever) => (byte)MathHelper.Max(1, MathHelper.Min((lever - Before) * (1 / Step) + 0.5f, Bits));
 
-    /// <summary>A greatest speed of recovery that says a lever too. What is never pushed out has no room for it.</summary>
-    public static float Write(float recovery, byte code) => recovery > 0
-        ? BitConverter.Int32BitsToSingle((BitConverter.SingleToInt32Bits(MathHelper.Min(recovery, float.MaxValue)) & ~Bits) | code)
+    /// <summary>A greatest speed of recovery that says a lever too: of what is never pushed out it is next to nothing.</summary>
+    public static float Write(float recovery, byte code) => recovery >= 0
+        ? BitConverter.Int32BitsToSingle((BitConverter.SingleToInt32Bits(MathHelper.Min(recovery, float.MaxValue)) & int.MaxValue & ~Bits) | code)
         : recovery;
 
     /// <summary>Reads what is said of some patches, and leaves those alone that are one face.</summary>
