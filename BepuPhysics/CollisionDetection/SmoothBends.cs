@@ -57,9 +57,9 @@ sealed class SmoothBends(Solver solver, Bodies bodies, BufferPool pool) : ISolve
         {
             ref var bend = ref bends[i];
             // Where a game calls the stages of a step by itself, it may have removed the body since, or put it to sleep.
-            if (!bodies.BodyExists(bend.Body) || bodies.Locations[bend.Body.Value].SetIndex != 0)
+            if (!bodies.BodyExists(bend.Body) || bodies.Locations[bend.Body.Slot].SetIndex != 0)
                 continue;
-            var index = bodies.Locations[bend.Body.Value].Index;
+            var index = bodies.Locations[bend.Body.Slot].Index;
             ref var motion = ref bodies.Awake.MotionStates[index];
             var energy = Energy(motion, bodies.Awake.LocalInertias[index]);
             if (point == SolverPoint.BeforeWarmStart)

@@ -28,6 +28,8 @@ public class RoundTheDrumTests
         var pose = new RigidPose(new Vector3(Radius - radius, 0, 0));
         // Rolling from the beginning: its surface does not slide.
         var velocity = new BodyVelocity(new Vector3(0, 5, 0), friction > 0 ? new Vector3(0, 0, -5 / radius) : default);
+        // Its handle was another's before, and is no index.
+        world.Bodies.Remove(world.AddDynamic(new Sphere(radius), 1, pose));
         var ball = world.AddDynamic(new Sphere(radius), 1, pose, velocity);
         var (turned, steps) = (0.0, 0);
         var before = world.Bodies[ball].Pose.Position;
@@ -62,7 +64,8 @@ public class RoundTheDrumTests
             greatest = Math.Max(greatest, Energy());
         }
         Assert.InRange(greatest, .95 * first, 1.01 * first);
-        Assert.InRange(Energy(), .9 * first, 1.01 * first);
+        // Edges take up to 4 pi^2 / N of it in each of five laps.
+        Assert.InRange(Energy(), Math.Min(.9, Math.Pow(1 - 4 * Math.PI * Math.PI / sides, 5)) * first, 1.01 * first);
     }
 
     // What slides is pressed on by v^2 / r, which friction has its share of: dv/dt = -mu v^2 / r, so v = v0 / (1 + mu v0 t / r), and a ball turns by
