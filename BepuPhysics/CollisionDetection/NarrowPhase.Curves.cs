@@ -36,7 +36,9 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return ref found;
         var isSmooth = last.IsSmooth(Exact.LengthSquared(turn)) && found.GreatestDepth >= -0.5f * stepTime * rise;
         // What turns by more than what one patch may have of normals is an edge elsewhere.
-        if ((!isSmooth && Exact.Dot(found.Normal, last.Normal) < PatchSet.SameNormal) || !TryGetRollingRadius(pair.A, found.Normal, out var radius))
+        if (!isSmooth && Exact.Dot(found.Normal, last.Normal) < PatchSet.SameNormal)
+            return ref found;
+        if (!TryGetRollingRadius(pair.A, found.Normal, out var radius, out var isBall))
             return ref found;
         var share = rimTime / stepTime;
         var normal = found.Normal + turn * share;
@@ -52,7 +54,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             led.AddDepth(i, -below);
         }
         // What touches with one end alone has another velocity there.
-        if (isSmooth && (led.Count > 1 || IsBall(pair.A)))
+        if (isSmooth && (led.Count > 1 || isBall))
             Note(ref worker.Bends, new() { Pair = pair, Normal = led.Normal, Turn = turn, Depth = led.GreatestDepth }, worker.Pool);
         return ref led;
     }
@@ -67,12 +69,6 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         public Vector3 Turn;
         /// <summary>Depth of the deepest contact with the plane, m.</summary>
         public float Depth;
-    }
-
-    bool IsBall(CollidableReference body)
-    {
-        Simulation.GetPoseAndShape(body, out _, out var shape);
-        return shape.Type == Sphere.Id;
     }
 
     // In the order of pairs, with velocities as they are when all have been noted.
@@ -93,7 +89,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         ref var set = ref Simulation.Bodies.SetOf(location);
         if (!(set.LocalInertias[location.Index].InverseMass > 0))
             return;
-        ref var velocity = ref set.MotionStates[location.Index].Velocity.Linear;
+        var velocity = set.MotionStates[location.Index].Velocity.Linear;
         var turned = Exact.Dot(velocity, bend.Turn);
         // What hits it besides is stopped for good.
         var into = MathHelper.Max(Exact.Dot(velocity, bend.Normal), turned);
@@ -110,9 +106,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // A cylinder that stands, or leans, has another place than that of its side.
-    bool TryGetRollingRadius(CollidableReference body, in Vector3 normal, out float radius)
+    bool TryGetRollingRadius(CollidableReference body, in Vector3 normal, out float radius, out bool isBall)
     {
         Simulation.GetPoseAndShape(body, out var pose, out var shape);
+        isBall = shape.Type == Sphere.Id;
         radius = shape.Type switch
         {
             Sphere.Id => Simulation.Shapes.GetShape<Sphere>(shape.Index).Radius,

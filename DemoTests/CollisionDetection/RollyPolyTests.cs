@@ -27,24 +27,22 @@ public class RollyPolyTests
         LaterBody,
     }
 
-    [Theory]
-    [InlineData(Ground.Box, .1f, 4, 0)]
-    [InlineData(Ground.Box, .3f, 4, 0)]
-    [InlineData(Ground.Box, .3f, 16, 1)]
-    [InlineData(Ground.HalfSpace, .3f, 4, 0)]
-    [InlineData(Ground.Triangles, .3f, 4, 0)]
-    [InlineData(Ground.LaterBody, .3f, 4, 0)]
+    public static TheoryData<Ground, float, int, int> Rockers => new()
+    {
+        { Ground.Box, .1f, 4, 0 },
+        { Ground.Box, .3f, 4, 0 },
+        { Ground.Box, .3f, 16, 1 },
+        { Ground.HalfSpace, .3f, 4, 0 },
+        { Ground.Triangles, .3f, 4, 0 },
+        { Ground.LaterBody, .3f, 4, 0 },
+    };
+
+    [Theory, MemberData(nameof(Rockers))]
     public void It_rocks_with_its_period_and_no_higher(Ground ground, float depth, int substeps, int relaxations) =>
         Rock(ground, depth, substeps, relaxations, shapes => shapes.Add(new Sphere(Radius)), Quaternion.Identity);
 
     // A runner: a capsule across the way that it rocks, which is as round as the ball. It rose by 3.5 times its energy within 20 s.
-    [Theory]
-    [InlineData(Ground.Box, .1f, 4, 0)]
-    [InlineData(Ground.Box, .3f, 4, 0)]
-    [InlineData(Ground.Box, .3f, 16, 1)]
-    [InlineData(Ground.HalfSpace, .3f, 4, 0)]
-    [InlineData(Ground.Triangles, .3f, 4, 0)]
-    [InlineData(Ground.LaterBody, .3f, 4, 0)]
+    [Theory, MemberData(nameof(Rockers))]
     public void So_does_a_capsule_across(Ground ground, float depth, int substeps, int relaxations) => Rock(
         ground, depth, substeps, relaxations, shapes => shapes.Add(new Capsule(Radius, 1)),
         Quaternion.CreateFromAxisAngle(Vector3.UnitX, MathF.PI / 2));

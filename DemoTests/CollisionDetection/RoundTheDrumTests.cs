@@ -2,7 +2,6 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuUtilities.Memory;
 using Demos.Accuracy;
 using DemoTests.Scenes;
 using Xunit;
@@ -92,24 +91,9 @@ public class RoundTheDrumTests
 
     static DrumShape AddDrum(TestWorld world, int sides)
     {
-        world.Pool.Take(2 * sides, out Buffer<Triangle> triangles);
-        var across = new Vector3(0, 0, 1);
-        for (int i = 0; i < sides; ++i)
-        {
-            var (a, b) = (Edge(i, sides), Edge(i + 1, sides));
-            triangles[2 * i] = new(a - across, b - across, b + across);
-            triangles[2 * i + 1] = new(a - across, b + across, a + across);
-        }
-        var shape = world.Simulation.Shapes.Add(new Mesh(triangles, Vector3.One, world.Pool));
+        var shape = world.Simulation.Shapes.Add(FacetedCylinder.Create(world.Pool, Radius, halfLength: 1, sides, Math.Tau));
         var handle = world.Statics.Add(new StaticDescription(Vector3.Zero, shape));
         return new(world, handle, shape);
-    }
-
-    // The last edge is the first, bit for bit.
-    static Vector3 Edge(int i, int sides)
-    {
-        var angle = Math.Tau * (i % sides) / sides;
-        return new((float)(Radius * Math.Cos(angle)), (float)(Radius * Math.Sin(angle)), 0);
     }
 
     readonly struct DrumShape(TestWorld world, StaticHandle handle, TypedIndex shape) : IDisposable

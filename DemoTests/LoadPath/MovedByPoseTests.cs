@@ -42,21 +42,11 @@ public class MovedByPoseTests
     public void What_stands_on_a_lift_sinks_in_no_deeper_than_by_sweeps(int count, float speed) =>
         Assert.InRange(Sunk(LoadPathMode.WhereNeeded, count, speed), 0, 2 * Sunk(LoadPathMode.Off, count, speed) + .001f);
 
-    static float Sunk(LoadPathMode mode, int count, float speed)
+    static float Sunk(LoadPathMode mode, int count, float speed) => LiftedStack.Sunk(mode, count, speed, world =>
     {
-        using var world = new LoadPathWorld(mode, friction: .5f);
-        var lift = AddKinematic(world, new Vector3(0, .75f, 0), new Vector3(4, .5f, 4));
-        var boxes = Enumerable.Range(0, count).Select(i => world.Add(new Vector3(0, 1.5f + i, 0), Vector3.One, 1)).ToList();
-        float deepest = 0;
-        for (int i = 0; i < 180; ++i)
-        {
-            world.Simulation.Bodies[lift].Pose.Position.Y += speed * Dt;
-            world.Step();
-            for (int box = 0; box < count; ++box)
-                deepest = MathF.Max(deepest, .75f + box - (Of(world, boxes[box]).Y - Of(world, lift).Y));
-        }
-        return deepest;
-    }
+        var lift = AddKinematic(world, LiftedStack.Start, new Vector3(4, .5f, 4));
+        return way => world.Simulation.Bodies[lift].Pose.Position += way;
+    });
 
     /// <summary>A belt has a velocity and is put back to its place in each step: what stands on it stands as on the ground.</summary>
     [Fact]

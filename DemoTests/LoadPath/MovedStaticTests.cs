@@ -1,4 +1,3 @@
-using System;
 using System.Linq;
 using System.Numerics;
 using BepuPhysics;
@@ -11,34 +10,17 @@ namespace DemoTests.LoadPath;
 /// <remarks>The load path took the speed at which contacts push out for a load: eight boxes on such a lift of .2 m/s sank in by 1.1 m, and fell.</remarks>
 public class MovedStaticTests
 {
-    const float Dt = LoadPathWorld.Dt;
-
     // Nothing is handed down to such a lift, so a stack stands on it as it does by sweeps.
     [Theory]
     [InlineData(1, .2f, false), InlineData(3, .2f, false), InlineData(8, .2f, false), InlineData(8, .2f, true), InlineData(3, 1, true), InlineData(8, 1, false)]
     public void What_stands_on_a_lift_sinks_in_no_deeper_than_by_sweeps(int count, float speed, bool inPlace) =>
         Assert.InRange(Sunk(LoadPathMode.WhereNeeded, count, speed, inPlace), 0, 2 * Sunk(LoadPathMode.Off, count, speed, inPlace) + .001f);
 
-    static float Sunk(LoadPathMode mode, int count, float speed, bool inPlace)
+    static float Sunk(LoadPathMode mode, int count, float speed, bool inPlace) => LiftedStack.Sunk(mode, count, speed, world =>
     {
-        using var world = new LoadPathWorld(mode);
         var lift = AddStatic(world);
-        var boxes = AddStack(world, count);
-        float deepest = 0;
-        for (int i = 0; i < 180; ++i)
-        {
-            Move(world, lift, new Vector3(0, speed * Dt, 0), inPlace);
-            world.Step();
-            var below = world.Simulation.Statics[lift].Pose.Position.Y - .25f;
-            foreach (var box in boxes)
-            {
-                var height = world.Simulation.Bodies[box].Pose.Position.Y;
-                deepest = MathF.Max(deepest, below + 1 - height);
-                below = height;
-            }
-        }
-        return deepest;
-    }
+        return way => Move(world, lift, way, inPlace);
+    });
 
     /// <summary>What is moved along under a stack, or away from it, bears it like the ground.</summary>
     [Theory, InlineData(.2f, 0, 0), InlineData(0, -.2f, .5f)]
@@ -46,12 +28,12 @@ public class MovedStaticTests
     {
         using var world = new LoadPathWorld(LoadPathMode.WhereNeeded, friction: friction);
         var floor = AddStatic(world);
-        var boxes = AddStack(world, 8);
+        var boxes = LiftedStack.Add(world, 8);
         for (int i = 0; i < 60; ++i)
             world.Step();
         for (int i = 0; i < 180; ++i)
         {
-            Move(world, floor, new Vector3(aside, down, 0) * Dt, inPlace: false);
+            Move(world, floor, new Vector3(aside, down, 0) * LoadPathWorld.Dt, inPlace: false);
             world.Step();
         }
         var ground = world.Simulation.Statics[floor].Pose.Position.Y + .25f;
@@ -69,7 +51,7 @@ public class MovedStaticTests
     {
         using var world = new LoadPathWorld(LoadPathMode.WhereNeeded);
         var lift = AddStatic(world);
-        var boxes = AddStack(world, 3);
+        var boxes = LiftedStack.Add(world, 3);
         for (int i = 0; i < 30; ++i)
             world.Step();
         Move(world, lift, new Vector3(0, .02f, 0), inPlace: false);
@@ -91,10 +73,7 @@ public class MovedStaticTests
     }
 
     static StaticHandle AddStatic(LoadPathWorld world) =>
-        world.Simulation.Statics.Add(new StaticDescription(new Vector3(0, .75f, 0), world.Simulation.Shapes.Add(new Box(8, .5f, 8))));
-
-    static BodyHandle[] AddStack(LoadPathWorld world, int count) =>
-        [.. Enumerable.Range(0, count).Select(i => world.Add(new Vector3(0, 1.5f + i, 0), Vector3.One, 1))];
+        world.Simulation.Statics.Add(new StaticDescription(LiftedStack.Start, world.Simulation.Shapes.Add(new Box(8, .5f, 8))));
 
     static void Move(LoadPathWorld world, StaticHandle handle, Vector3 way, bool inPlace)
     {

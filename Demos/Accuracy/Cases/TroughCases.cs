@@ -4,7 +4,6 @@ using System.Linq;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuUtilities.Memory;
 using Demos.JointTables;
 using Demos.References;
 
@@ -31,7 +30,7 @@ static class TroughCases
     {
         using var world = new AccuracyWorld(settings with { Friction = friction });
         var pool = world.Simulation.BufferPool;
-        var trough = CreateTrough(pool, sideCount);
+        var trough = FacetedCylinder.Create(pool, TroughRadius, halfLength: 2, sideCount, Math.PI);
         world.Simulation.Statics.Add(new StaticDescription(Vector3.Zero, world.Simulation.Shapes.Add(trough)));
         var arm = TroughRadius - Radius;
         var body = world.AddDynamic(new Sphere(Radius), 1, new RigidPose(new((float)(arm * Math.Sin(Start)), (float)(-arm * Math.Cos(Start)), 0)));
@@ -48,20 +47,4 @@ static class TroughCases
         result.Limit("period", clock.Mean(4) / expected - 1, .01, "%").Limit("energy", sideCount < 1024 ? Math.Max(0, gained) : gained, .05, "%");
         trough.Dispose(pool);
     }
-
-    static Mesh CreateTrough(BufferPool pool, int sideCount)
-    {
-        pool.Take(2 * sideCount, out Buffer<Triangle> triangles);
-        var across = new Vector3(0, 0, 2);
-        for (int i = 0; i < sideCount; ++i)
-        {
-            var (a, b) = (Edge(i, sideCount), Edge(i + 1, sideCount));
-            triangles[2 * i] = new(a - across, b - across, a + across);
-            triangles[2 * i + 1] = new(b - across, b + across, a + across);
-        }
-        return new Mesh(triangles, Vector3.One, pool);
-    }
-
-    static Vector3 Edge(int i, int sideCount) => new(
-        (float)(-TroughRadius * Math.Cos(Math.PI * i / sideCount)), (float)(-TroughRadius * Math.Sin(Math.PI * i / sideCount)), 0);
 }
