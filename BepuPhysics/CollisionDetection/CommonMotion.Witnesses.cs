@@ -46,8 +46,7 @@ sealed unsafe partial class CommonMotion
         for (int i = start; Remembers && i < companions.Count && near.AllMoveAlong; ++i)
         {
             near.Self = companions[i];
-            near.Bounds = BoundsOf(near.Self);
-            if (!TryFind(WitnessOf(near.Self), near.Bounds, out var witness))
+            if (!TryFind(WitnessOf(near.Self), BoundsOf(near.Self), out var witness))
                 return;
             near.LoopBody(witness);
             NoteFound(start, i);

@@ -53,16 +53,26 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
             return;
         // In an order that does not depend on where bodies lie: of two that move alike the first tells their margins, to rounding.
         var kinematics = new QuickList<ulong>(8, pool);
+        var (isInOrder, last) = (true, 0ul);
         for (int i = 0; i < count; ++i)
         {
-            if (motions[i].Moves && IsKnown(i))
-                kinematics.Add((ulong)motions[i].Body.Slot << 32 | (uint)i, pool);
+            if (!motions[i].Moves || !IsKnown(i))
+                continue;
+            var key = (ulong)motions[i].Body.Slot << 32 | (uint)i;
+            isInOrder &= key >= last;
+            last = key;
+            kinematics.Add(key, pool);
         }
-        kinematics.AsSpan().Sort();
+        if (!isInOrder)
+            kinematics.AsSpan().Sort();
         if (kinematics.Count > 0)
+        {
             MakeRoomForWitnesses();
+            FindNeighbours(kinematics.Count);
+        }
         for (int i = 0; i < kinematics.Count; ++i)
             Apply((int)(uint)kinematics[i]);
+        ForgetNeighbours();
         kinematics.Dispose(pool);
         count = 0;
     }
@@ -73,6 +83,7 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
         companions.DisposeIfTaken(pool);
         triangles.DisposeIfTaken(pool);
         ForgetWitnesses();
+        ForgetNeighbours();
         count = 0;
     }
 
@@ -81,6 +92,8 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
         motions = default;
         companions = triangles = foundBy = default;
         witnesses = default;
+        neighbours = default;
+        firstNeighbours = default;
         count = 0;
     }
 
@@ -128,14 +141,15 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
         companions.Add(body, pool);
         foundBy.Count = 0;
         NoteFound(start, start);
-        FollowWitnesses(ref near, start);
+        if (!firstNeighbours.Allocated)
+            FollowWitnesses(ref near, start);
         for (int i = start; i < companions.Count && near.AllMoveAlong; ++i)
         {
             near.Self = companions[i];
             Find(ref near);
             NoteFound(start, i);
         }
-        if (!near.AllMoveAlong)
+        if (!near.AllMoveAlong && !firstNeighbours.Allocated)
             Remember(near, start);
         for (int i = start; i < companions.Count; ++i)
             motions[companions[i]].Surroundings = near.AllMoveAlong ? PredictedSurroundings.MoveAlong : PredictedSurroundings.Others;
@@ -144,8 +158,10 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
 
     void Find(ref Near near)
     {
-        near.Bounds = BoundsOf(near.Self);
-        simulation.BroadPhase.FindOverlapping(near.Bounds, ref near);
+        if (firstNeighbours.Allocated)
+            AskNeighbours(ref near);
+        else
+            simulation.BroadPhase.FindOverlapping(BoundsOf(near.Self), ref near);
     }
 
     BoundingBox BoundsOf(int body)
@@ -217,7 +233,6 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
     struct Near : IBreakableForEach<CollidableReference>
     {
         public CommonMotion Owner;
-        public BoundingBox Bounds;
         public int Kinematic;
         public int Self;
         public bool AllMoveAlong;
@@ -238,7 +253,7 @@ sealed unsafe partial class CommonMotion(Simulation simulation, BufferPool pool)
             if (index == Self)
                 return true;
             if (index < 0)
-                AllMoveAlong &= other.Mobility == CollidableMobility.Static && !Owner.Reaches(other, Bounds);
+                AllMoveAlong &= other.Mobility == CollidableMobility.Static && !Owner.Reaches(other, Owner.BoundsOf(Self));
             else if (other.Mobility == CollidableMobility.Kinematic)
                 AllMoveAlong &= Owner.MovesAlong(index, Kinematic);
             else

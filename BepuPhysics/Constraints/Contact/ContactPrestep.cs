@@ -51,14 +51,17 @@ struct ContactMaterialWide
     /// </summary>
     internal readonly Vector<int> SharesFriction => Vector.LessThan(Vector.AsVectorInt32(FrictionCoefficient), Vector<int>.Zero);
 
-    /// <summary>Held patches whose first body has no constraint but them: the last bit of their frequency says so.</summary>
-    internal readonly Vector<int> IsHeldAlone => HeldWith(LoneBit);
+    /// <summary>With one body, held patches whose body has no constraint but them: the last bit of their frequency says so.</summary>
+    internal readonly Vector<int> IsHeldAlone => HeldWith(SpringSettings.AngularFrequency, LoneBit);
 
     /// <summary>Of two bodies, held patches on a floor that turns; the same bit.</summary>
-    internal readonly Vector<int> TurnsAlong => HeldWith(LoneBit);
+    internal readonly Vector<int> TurnsAlong => HeldWith(SpringSettings.AngularFrequency, LoneBit);
+
+    /// <inheritdoc cref="TurnsAlong"/>
+    internal static Vector<int> TurnsAlongOf(Vector<float> frequency) => HeldWith(frequency, LoneBit);
 
     /// <summary>Of those that are held alone, patches whose body the warm start of this substep has brought to rest: the last bit but one.</summary>
-    internal readonly Vector<int> IsAtRest => HeldWith(RestBit);
+    internal readonly Vector<int> IsAtRest => HeldWith(SpringSettings.AngularFrequency, RestBit);
 
     /// <summary>Says which of the patches that are held alone have their body at rest.</summary>
     internal void SetAtRest(Vector<int> lone, Vector<int> rests)
@@ -70,12 +73,12 @@ struct ContactMaterialWide
 
     /// <summary>The frequency of a held patch.</summary>
     /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
-    /// <param name="lone">Whether its first body has no other constraint.</param>
+    /// <param name="bit">With one body, whether that has no other constraint; with two, whether it <see cref="TurnsAlong"/>.</param>
     // A band of no width at all would be a spring that is not held.
-    internal static Vector<float> HeldSpring(Vector<float> band, Vector<int> lone)
+    internal static Vector<float> HeldSpring(Vector<float> band, Vector<int> bit)
     {
         var bits = Vector.AsVectorInt32(-Wide.Max(band, new(LeastBand)));
-        return Vector.AsVectorSingle((bits & new Vector<int>(~(LoneBit | RestBit))) | (lone & new Vector<int>(LoneBit)));
+        return Vector.AsVectorSingle((bits & new Vector<int>(~(LoneBit | RestBit))) | (bit & new Vector<int>(LoneBit)));
     }
 
     /// <summary>The frequency of a held patch of a body that has other constraints too.</summary>
@@ -85,9 +88,9 @@ struct ContactMaterialWide
         (BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit)) | (turnsAlong ? LoneBit : 0));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    readonly Vector<int> HeldWith(int bit)
+    static Vector<int> HeldWith(Vector<float> frequency, int bit)
     {
-        var bits = Vector.AsVectorInt32(SpringSettings.AngularFrequency);
+        var bits = Vector.AsVectorInt32(frequency);
         var wanted = new Vector<int>(int.MinValue | bit);
         return Vector.Equals(bits & wanted, wanted);
     }

@@ -25,7 +25,7 @@ sealed unsafe partial class LoadPathStage
     const float AlikeShare = 1f / (1 << 18);
     // Greatest acceleration by which a floor that turns takes along what rests on it, in what pulls at that from outside. What goes round faster is left to
     // friction, whose limit is near.
-    const float GreatestInwardPull = 0.125f;
+    internal const float GreatestInwardPull = 0.125f;
 
     // Of each block of bodies: whether any is a floor.
     readonly bool[] hasFloorsIn = new bool[MaximumBlocks];
@@ -156,6 +156,24 @@ sealed unsafe partial class LoadPathStage
                     link.TurnArms(TurnIn(dt, both * 0.5f - floor));
                 }
             }
+        }
+    }
+
+    // The same of what is held alone on a floor, and is no node.
+    void TurnLone(ref TypeBatch batch, int bundle, int count, Vector<int> lanes, float dt)
+    {
+        ref var set = ref bodies.Awake;
+        var references = (Vector<int>*)batch.BodyReferences.Memory + 2 * bundle;
+        var prestep = (float*)((Vector<float>*)batch.Prestep.Memory + bundle * ContactPrestepLayout.PrestepFloats(count));
+        var impulses = (float*)((Vector<float>*)batch.AccumulatedImpulses.Memory + bundle * ContactPrestepLayout.ImpulseFloats(count));
+        lanes &= SupportFinder.AreFixed(references[1]);
+        for (var left = Wide.Bits(lanes); left != 0; left &= left - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(left);
+            if (graph.Nodes.Count > 0 && graph.NodeOf[references[0][lane] & EncodedBody.IndexMask] >= 0)
+                continue;
+            var link = new SupportLink { Prestep = prestep + lane, Impulses = impulses + lane, Count = (byte)count };
+            link.Turn(TurnIn(dt, set.MotionStates[references[1][lane] & EncodedBody.IndexMask].Velocity.Angular));
         }
     }
 

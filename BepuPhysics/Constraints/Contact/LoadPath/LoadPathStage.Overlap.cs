@@ -14,7 +14,7 @@ namespace BepuPhysics.Constraints.Contact;
 sealed unsafe partial class LoadPathStage
 {
     // Overlap that is worth waiting for, in half widths of the band in which held contacts know none.
-    const float LeastOverlap = 6;
+    internal const float LeastOverlap = 6;
 
     // Part of its overlap that a patch of a heap does not know. What is left is taken out as fast as that of others, so that all of it takes twenty times as
     // long: at four substeps of a sixtieth, two seconds.

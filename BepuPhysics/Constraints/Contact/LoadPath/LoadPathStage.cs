@@ -144,9 +144,10 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                     Transfer(island, block, substep);
                 break;
             case SolverPoint.AfterSubsteps:
+                var length = substep.Dt * solver.LastSubstepCount;
                 if (HasFloors || hasTipped.AsSpan(0, blockCount).Contains(true))
-                    TurnPatches(block, substep.Dt * solver.LastSubstepCount);
-                LetGo(block);
+                    TurnPatches(block, length);
+                LetGo(block, HasFloors ? length : 0);
                 break;
         }
     }
@@ -382,7 +383,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         if (!hasBegun)
             graph.Dispose(pool);
         for (int block = 0; hasBegun && block < blockCount; ++block)
-            LetGo(block);
+            LetGo(block, 0);
         hasBegun = false;
         // Last taken, first returned: in the next step each gets the block that it had, and touches no other.
         pool.ReturnIfTaken(ref columns);
@@ -400,8 +401,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         pool.ReturnIfTaken(ref before);
     }
 
-    // The sign of the zero tells the next step that they were held.
-    void LetGo(int block)
+    // The sign of the zero tells the next step that they were held. Where floors have moved for some time, what is held alone on them has turned along.
+    void LetGo(int block, float dt)
     {
         if (!mayHold[block])
             return;
@@ -414,11 +415,15 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             var count = ConstraintTypeIds.ContactCount(batch.TypeId);
             var stride = ContactPrestepLayout.PrestepFloats(count);
             var spring = (Vector<float>*)batch.Prestep.Memory + bundles.First * stride + ContactPrestepLayout.Spring(count);
+            var turnsAlong = dt > 0 && holdsLone[block] && batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
             for (int i = bundles.First; i < bundles.End; ++i, spring += stride)
             {
                 var isHeld = Vector.LessThan(*spring, Vector<float>.Zero);
-                if (isHeld != Vector<int>.Zero)
-                    *spring = Wide.Select(isHeld, new Vector<float>(-0f), *spring);
+                if (isHeld == Vector<int>.Zero)
+                    continue;
+                if (turnsAlong && ContactMaterialWide.TurnsAlongOf(*spring) is var turning && turning != Vector<int>.Zero)
+                    TurnLone(ref batch, i, count, turning, dt);
+                *spring = Wide.Select(isHeld, new Vector<float>(-0f), *spring);
             }
         }
     }

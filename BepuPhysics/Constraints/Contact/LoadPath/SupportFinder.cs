@@ -23,11 +23,7 @@ namespace BepuPhysics.Constraints.Contact;
 /// <param name="dt">Length of a substep, s.</param>
 // Only contacts that are quiet carry: their surfaces move no faster along or apart than the acceleration from outside gives in some substeps. What
 // slides, rolls fast, tumbles or is hit is left to the sweeps, and so is what rests on something that moves.
-//
-// A body whose only constraint is a patch on a static has nobody on it. If what its contacts bore in the last substep bears it now, there is nothing to hand
-// down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the usual
-// way, as friction knows its limit only once the load is there.
-readonly unsafe struct SupportFinder(
+readonly unsafe partial struct SupportFinder(
     SolverBodies bodies, BodyVelocity* before, BodyVelocity* turnsBefore, ConstraintList* constraints, byte* spoilt, byte* reached, Vector4* elsewhere,
     float quietSteps, RestTolerance tolerance, float warmStartScale, float dt)
 {
@@ -56,7 +52,7 @@ readonly unsafe struct SupportFinder(
     // less would touch again as soon as it is let go, and so on for ever.
     const float SinkingSteps = 6.5f;
 
-    /// <summary>Holds the contacts of what rests alone on a static, and writes what else is found in a bundle, in the order of lanes.</summary>
+    /// <summary>Holds the contacts of what rests alone on what nothing pushes, and writes what else is found in a bundle, in the order of lanes.</summary>
     /// <param name="batch">The type batch.</param>
     /// <param name="bundle">The bundle.</param>
     /// <param name="found">Room for one per lane.</param>
@@ -74,8 +70,8 @@ readonly unsafe struct SupportFinder(
         var carries = Vector.Equals(prestep[ContactPrestepLayout.Spring(count)], Vector<float>.Zero);
         carries &= Vector.GreaterThanOrEqual(references[0], Vector<int>.Zero);
         // On so few contacts nothing rests by itself.
-        if (!hasB && count < LeastContacts && carries != Vector<int>.Zero)
-            carries = Vector.AndNot(carries, IsAlone((int*)references));
+        if (count < LeastContacts && carries != Vector<int>.Zero)
+            carries = Vector.AndNot(carries, (hasB ? AreFixed(references[1]) : new(-1)) & IsAlone((int*)references));
         if (carries == Vector<int>.Zero)
             return 0;
         // What is on its way is most of what does not rest: the velocities of the centres tell it from the others.
@@ -88,7 +84,7 @@ readonly unsafe struct SupportFinder(
         if (hasB)
         {
             Read(references[1], ref bodyB, out gainB);
-            fixedB = Vector.Equals(references[1] & new Vector<int>(EncodedBody.KinematicFlag), new(EncodedBody.KinematicFlag));
+            fixedB = AreFixed(references[1]);
             gain = Vector3Wide.Select(fixedB, gainA, gainA + gainB);
             fastest = Wide.Max(fastest, Wide.Select(fixedB, Vector<float>.Zero, gainB.Length()));
         }
@@ -200,19 +196,25 @@ readonly unsafe struct SupportFinder(
         Spoil(Vector.AndNot(leans, carries), references, hasB);
         var whole = count < LeastContacts ? Vector<int>.Zero : flat & Vector.Equals(Vector.AndNot(open, near), Vector<int>.Zero);
         radius = Vector.SquareRoot(radius);
-        if (!hasB)
+        var alone = Vector.AndNot(carries & flat & fixedB, sways);
+        var turns = Vector<int>.Zero;
+        if (hasB && alone != Vector<int>.Zero)
         {
-            var alone = Vector.AndNot(carries & flat, sways) & IsBorne(count, bodyA, normal, impulses, fastest, radius);
-            if (alone != Vector<int>.Zero)
-                alone &= IsAlone((int*)references);
-            if (alone != Vector<int>.Zero)
-            {
-                holds = true;
-                Hold(Vector.AndNot(alone, slides), count, Vector.AndNot(open, near), band, prestep + ContactPrestepLayout.Spring(count));
-                carries = Vector.AndNot(carries, alone);
-                if (carries == Vector<int>.Zero)
-                    return 0;
-            }
+            alone &= Wide.Select(isFloor, RestsOnSteady(bodyA.Linear - gainA - earlierB, gainA, gainB, turnGainB, bodyB.Angular, offsetB), ~moves);
+            alone = Vector.AndNot(alone, IsSunken(count, prestep, band));
+            turns = Turns(bodyB.Angular);
+        }
+        if (alone != Vector<int>.Zero)
+            alone &= IsBorne(count, bodyA, bodyB, offsetB, normal, impulses, fastest, radius);
+        if (alone != Vector<int>.Zero)
+            alone &= IsAlone((int*)references);
+        if (alone != Vector<int>.Zero)
+        {
+            holds = true;
+            Hold(Vector.AndNot(alone, slides), hasB ? turns : new(-1), count, Vector.AndNot(open, near), band, prestep + ContactPrestepLayout.Spring(count));
+            carries = Vector.AndNot(carries, alone);
+            if (carries == Vector<int>.Zero)
+                return 0;
         }
 
         var lowerA = Vector.AndNot(new Vector<int>(-1), isUpperA);
@@ -247,17 +249,6 @@ readonly unsafe struct SupportFinder(
             };
         }
         return foundCount;
-    }
-
-    // Whether the warm start alone brings A to rest on what does not move. That it turns would be seen in the next step.
-    Vector<int> IsBorne(int count, in SolverBodyWide body, in Vector3Wide normal, Vector<float>* impulses, Vector<float> gain, Vector<float> radius)
-    {
-        var load = impulses[0];
-        for (int i = 1; i < count; ++i)
-            load += impulses[i];
-        var impulse = normal * load + *(Vector3Wide*)(impulses + ContactPrestepLayout.FrictionImpulse(count));
-        var left = body.Linear + impulse * (body.InverseMass * new Vector<float>(warmStartScale));
-        return Vector.LessThan(left.Length() + body.Angular.Length() * radius, tolerance.Of(gain, radius));
     }
 
     // Slow, or falling slowly and straight. Where nothing pulls at a body its gain is zero, and nothing is a fall.
@@ -324,24 +315,6 @@ readonly unsafe struct SupportFinder(
             if (hasB)
                 spoilt[references[1][lane] & EncodedBody.IndexMask] = 1;
         }
-    }
-
-    // Whether a body has no constraint but this one.
-    Vector<int> IsAlone(int* references)
-    {
-        var counts = Vector<int>.Zero;
-        for (int lane = 0; lane < Vector<int>.Count; ++lane)
-            ((int*)&counts)[lane] = references[lane] >= 0 ? constraints[references[lane] & EncodedBody.IndexMask].Count : 0;
-        return Vector.Equals(counts, Vector<int>.One);
-    }
-
-    static void Hold(Vector<int> lanes, int count, Vector<int> away, Vector<float> band, Vector<float>* spring)
-    {
-        var touching = new Vector<int>(count);
-        for (int i = 0; i < count; ++i)
-            touching -= away >> i & Vector<int>.One;
-        lanes &= Vector.GreaterThanOrEqual(touching, new(LeastContacts));
-        *spring = Wide.Select(lanes, ContactMaterialWide.HeldSpring(band, lone: new(-1)), *spring);
     }
 
     static Vector<int> IsAtLimit(int count, Vector<float>* prestep, Vector<float>* impulses)
