@@ -7,12 +7,14 @@ namespace BepuPhysics.CollisionDetection;
 
 // Whom all bodies meet, found at once.
 //
-// Where kinematic bodies are many beside all others, as lifts and platforms that carry a thing or two each, most of what is awake is asked for what its bounds
-// overlap. One by one that is a way from the root of a tree for each, which takes more than all else that is done with it. All pairs of a tree are found in a
-// fifth of the time, by runs of leaves. Whoever is asked, and how, finds the same, in another order, on which nothing depends.
+// Where kinematic bodies are many beside all others, as lifts and platforms that carry a thing or two each, most of what is awake is
+// asked for what its bounds overlap. One by one that is a way from the root of a tree for each, which takes more than all else that is done
+// with it. All pairs of a tree are found in a fifth of the time, by runs of leaves. Whoever is asked, and how, finds the same, in another
+// order, on which nothing depends.
 sealed unsafe partial class CommonMotion
 {
-    // Pairs per body from which on they are not listed: of what lies in one heap each body meets many, and the first that does not move along ends its search.
+    // Pairs per body from which on they are not listed: of what lies in one heap each body meets many, and the first that does not move
+    // along ends its search.
     const int PairsPerBody = 8;
 
     // Where those that each active leaf meets begin, and they themselves; not there where bodies are asked one by one.
@@ -20,8 +22,9 @@ sealed unsafe partial class CommonMotion
     Buffer<CollidableReference> neighbours;
 
     /// <summary>
-    /// Bodies that are awake for each kinematic one that moves, up to which those that all of them meet are found at once: each kinematic one is asked with what
-    /// it carries, and a search takes some four times what the share of a body in all pairs takes. Tests ask in either way, to the same bits.
+    /// Bodies that are awake for each kinematic one that moves, up to which those that all of them meet are found at once: each kinematic
+    /// one is asked with what it carries, and a search takes some four times what the share of a body in all pairs takes. Tests ask in
+    /// either way, to the same bits.
     /// </summary>
     internal int BodiesPerKinematic = 4;
 

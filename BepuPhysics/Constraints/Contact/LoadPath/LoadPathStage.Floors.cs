@@ -18,7 +18,7 @@ namespace BepuPhysics.Constraints.Contact;
 sealed unsafe partial class LoadPathStage
 {
     // Greatest change of a floor's velocity in a step, in what acceleration from outside gives a body in that time. What is hit harder is hit.
-    const float GreatestChange = 1;
+    internal const float GreatestChange = 1;
     // Changes below this part of a velocity, or of a position in a step, are rounding.
     const float Rounding = 1f / (1 << 21);
     // The same, of what a game makes of a turn and places, as velocities of parts that turn as one.
@@ -27,10 +27,25 @@ sealed unsafe partial class LoadPathStage
     // friction, whose limit is near.
     internal const float GreatestInwardPull = 0.125f;
 
+    // What rests alone on floors whose velocities have changed; not there where there is no floor.
+    Buffer<FloorRider> riders;
     // Of each block of bodies: whether any is a floor.
     readonly bool[] hasFloorsIn = new bool[MaximumBlocks];
 
     bool HasFloors => hasFloorsIn.AsSpan(0, BodyBlockCount).Contains(true);
+
+    bool HasRiders
+    {
+        get
+        {
+            for (int block = 0; block < blockCount; ++block)
+            {
+                if (lone[block].RiderCount > 0)
+                    return true;
+            }
+            return false;
+        }
+    }
 
     // Of a kinematic body, whose velocity was copied.
     bool IsFloor(int body) =>
@@ -95,30 +110,47 @@ sealed unsafe partial class LoadPathStage
         }
     }
 
-    void FindFloorChange(ref LoadNode node)
+    void FindFloorChange(ref LoadNode node) => FindFloorChange(node.Body, node.Floor, out node.FloorChange, out node.FloorTurnChange);
+
+    // Of the velocity of what moves along with a floor, where a body is.
+    void FindFloorChange(int body, int kinematic, out Vector3 linear, out Vector3 angular)
     {
         ref var set = ref bodies.Awake;
-        ref var floor = ref set.MotionStates[node.Floor];
-        node.FloorTurnChange = TurnChange(floor, turnsBefore[node.Floor]);
-        node.FloorChange = Change(floor, before[node.Floor]) +
-            Exact.Cross(node.FloorTurnChange, set.MotionStates[node.Body].Pose.Position - floor.Pose.Position);
+        ref var floor = ref set.MotionStates[kinematic];
+        angular = TurnChange(floor, turnsBefore[kinematic]);
+        linear = Change(floor, before[kinematic]) + Exact.Cross(angular, set.MotionStates[body].Pose.Position - floor.Pose.Position);
     }
+
+    float PartOfChange(int substep) => (substep == 0 ? 1 : 0) - 1f / solver.LastSubstepCount;
 
     void PushAlong(int start, int end, int substep)
     {
-        ref var set = ref bodies.Awake;
-        var part = -1f / solver.LastSubstepCount;
-        if (substep == 0)
-            part += 1;
+        var part = PartOfChange(substep);
         for (int i = start; i < end; ++i)
         {
             ref var node = ref graph.Nodes[i];
-            if (node.Floor < 0)
-                continue;
-            ref var velocity = ref set.MotionStates[node.Body].Velocity;
-            velocity.Linear += node.FloorChange * part;
-            velocity.Angular += node.FloorTurnChange * part;
+            if (node.Floor >= 0)
+                Push(node.Body, node.FloorChange * part, node.FloorTurnChange * part);
         }
+    }
+
+    void PushRiders(int block, int substep)
+    {
+        var part = PartOfChange(substep);
+        var found = new Span<FloorRider>(lone[block].Riders, lone[block].RiderCount);
+        foreach (ref var rider in found)
+        {
+            if (substep == 0)
+                FindFloorChange(rider.Body, rider.Floor, out rider.FloorChange, out rider.FloorTurnChange);
+            Push(rider.Body, rider.FloorChange * part, rider.FloorTurnChange * part);
+        }
+    }
+
+    void Push(int body, Vector3 linear, Vector3 angular)
+    {
+        ref var velocity = ref bodies.Awake.MotionStates[body].Velocity;
+        velocity.Linear += linear;
+        velocity.Angular += angular;
     }
 
     // What is remembered of a patch for the next step (where its arms end, along which normal and with which friction it pushes) is remembered in the world.

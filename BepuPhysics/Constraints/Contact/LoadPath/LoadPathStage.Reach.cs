@@ -1,3 +1,5 @@
+using System;
+using System.Numerics;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
 
@@ -31,6 +33,7 @@ sealed unsafe partial class LoadPathStage
         ref var set = ref bodies.Awake;
         pool.TakeAtLeast(set.Count, out reached);
         reached.Clear(0, set.Count);
+        pool.TakeAtLeast(Math.Max(1, bundleCount * Vector<float>.Count), out riders);
         var waiting = new QuickList<int>(64, pool);
         for (int i = 0; i < set.Count; ++i)
         {

@@ -20,7 +20,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     const int LeastBundlesPerBlock = 8;
     const int LeastBodiesPerBlock = 256;
     // Steps of acceleration up to which a contact is quiet.
-    const float QuietSteps = 2;
+    internal const float QuietSteps = 2;
     // Part of its tolerance up to which a body that rests alone is none of the graph's: half, as it may have more left after other substeps than the first.
     const float AloneShare = 0.5f;
     // Part of the tolerance from which on a body takes part, and from which on an island is worked on again that was worked on in the last substep.
@@ -51,9 +51,9 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     readonly int[] rooms = new int[MaximumBlocks];
     readonly int[] patchRooms = new int[MaximumBlocks];
     readonly int[] bodyRooms = new int[MaximumBlocks];
-    // Of each block: whether contacts that it has found may be held, and whether it holds any that are none of the graph's.
+    // Of each block: whether contacts that it has found may be held, and which it holds that are none of the graph's.
     readonly bool[] mayHold = new bool[MaximumBlocks];
-    readonly bool[] holdsLone = new bool[MaximumBlocks];
+    readonly LoneRests[] lone = new LoneRests[MaximumBlocks];
     // Whether any island that each block has worked on tips over.
     readonly bool[] hasTipped = new bool[MaximumBlocks];
     // Of each block: patches that were relaxed, once for each round.
@@ -108,7 +108,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
     int ISolverStage.CountBlocks(SolverPoint point, int most) => point switch
     {
         SolverPoint.LastBeforeSubsteps when !HasFloors && !HasElsewhere => 0,
-        SolverPoint.LastBeforeFirstWarmStart or SolverPoint.AfterWarmStart or SolverPoint.LastAfterWarmStart when graph.Nodes.Count == 0 => 0,
+        SolverPoint.AfterWarmStart when graph.Nodes.Count == 0 && !HasRiders => 0,
+        SolverPoint.LastBeforeFirstWarmStart or SolverPoint.LastAfterWarmStart when graph.Nodes.Count == 0 => 0,
         _ => most,
     };
 
@@ -137,6 +138,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 Fill(block, substep.Dt);
                 break;
             case SolverPoint.AfterWarmStart:
+                PushRiders(block, substep.Index);
                 FindLoads(block, substep);
                 break;
             case SolverPoint.LastAfterWarmStart:
@@ -186,12 +188,12 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         var start = FirstOf(block, blockCount, bundleCount);
         var links = found.Memory + start * Vector<float>.Count;
         int count = 0;
-        holdsLone[block] = false;
+        lone[block] = new() { Riders = riders.Memory + (riders.Allocated ? start * Vector<float>.Count : 0) };
         hasTipped[block] = false;
         for (var bundles = BundlesOf(block); bundles.MoveNext();)
         {
             for (int i = bundles.First; i < bundles.End; ++i)
-                count += finder.Find(ref bundles.TypeBatch, i, links + count, ref holdsLone[block]);
+                count += finder.Find(ref bundles.TypeBatch, i, links + count, ref lone[block]);
         }
         pieces[block] = (start * Vector<float>.Count, count);
     }
@@ -394,6 +396,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         if (!reached.Allocated)
             jointSets.Dispose(pool);
         pool.ReturnIfTaken(ref elsewhere);
+        pool.ReturnIfTaken(ref riders);
         pool.ReturnIfTaken(ref reached);
         pool.ReturnIfTaken(ref spoilt);
         pool.ReturnIfTaken(ref found);
@@ -407,7 +410,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         if (!mayHold[block])
             return;
         mayHold[block] = false;
-        if (!holdsLone[block] && graph.Nodes.Count == 0)
+        if (!lone[block].AreHeld && graph.Nodes.Count == 0)
             return;
         for (var bundles = BundlesOf(block); bundles.MoveNext();)
         {
@@ -415,7 +418,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             var count = ConstraintTypeIds.ContactCount(batch.TypeId);
             var stride = ContactPrestepLayout.PrestepFloats(count);
             var spring = (Vector<float>*)batch.Prestep.Memory + bundles.First * stride + ContactPrestepLayout.Spring(count);
-            var turnsAlong = dt > 0 && holdsLone[block] && batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
+            var turnsAlong = dt > 0 && lone[block].AreHeld && batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
             for (int i = bundles.First; i < bundles.End; ++i, spring += stride)
             {
                 var isHeld = Vector.LessThan(*spring, Vector<float>.Zero);

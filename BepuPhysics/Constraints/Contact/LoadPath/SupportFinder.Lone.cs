@@ -9,12 +9,11 @@ namespace BepuPhysics.Constraints.Contact;
 // to hand down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the
 // usual way, as friction knows its limit only once the load is there.
 //
-// So it is on a floor that goes on as it did, straight or round: all is as on the ground, seen from it. On one whose velocity has changed the load changes with
-// it in each substep, and the graph sees to that.
+// So it is on a floor: all is as on the ground, seen from it. Where a game changes its velocities, what rests on it is pushed along as the graph's bodies are.
 readonly unsafe partial struct SupportFinder
 {
-    // Part of the greatest pull inwards for which a body is known to go round slowly, as arms that are kept are not quite where contacts are.
-    const float SlowShare = 0.9f;
+    // Part of the greatest pull inwards, and change of velocity, for which a body is known to follow: arms that are kept are not quite where contacts are.
+    const float SureShare = 0.9f;
 
     /// <summary>Which of some bodies are kinematic.</summary>
     internal static Vector<int> AreFixed(Vector<int> references) =>
@@ -23,18 +22,24 @@ readonly unsafe partial struct SupportFinder
     static Vector<int> Turns(in Vector3Wide angular) => Vector.GreaterThan(
         Wide.Max(Wide.Abs(angular.X), Wide.Max(Wide.Abs(angular.Y), Wide.Abs(angular.Z))), Vector<float>.Zero);
 
-    // Whether A rests on a floor whose velocities are those of the step before, and which takes it round slowly: all that the graph asks of what rests on a
-    // floor. What falls onto it goes the usual way.
-    Vector<int> RestsOnSteady(
+    // Whether A rests on a floor that takes it round slowly and changes its velocities by no more than A follows: all that the graph asks of what rests on a
+    // floor. What falls onto it goes the usual way, and so does what is pressed on by a floor that starts upwards at once.
+    Vector<int> RestsOnFloor(
         in Vector3Wide velocity, in Vector3Wide gain, in Vector3Wide change, in Vector3Wide turnChange, in Vector3Wide turn, in Vector3Wide toB)
     {
         var squared = gain.LengthSquared();
-        var isSteady = Vector.Equals(change.LengthSquared() + turnChange.LengthSquared(), Vector<float>.Zero);
         var rests = Vector.LessThan(velocity.LengthSquared(), new Vector<float>(RestingSteps * RestingSteps) * squared);
         var inwards = turn.LengthSquared() * toB.Length() * new Vector<float>(dt);
-        const float slow = SlowShare * LoadPathStage.GreatestInwardPull;
-        return isSteady & rests & Vector.LessThanOrEqual(inwards * inwards, new Vector<float>(slow * slow) * squared);
+        const float slow = SureShare * LoadPathStage.GreatestInwardPull;
+        var most = SureShare * LoadPathStage.GreatestChange * SubstepCount;
+        return rests & Vector.LessThanOrEqual(inwards * inwards, new Vector<float>(slow * slow) * squared) &
+            Vector.LessThanOrEqual(ChangeAt(change, turnChange, toB).LengthSquared(), new Vector<float>(most * most) * squared);
     }
+
+    float SubstepCount => quietSteps / LoadPathStage.QuietSteps;
+
+    // What a floor has changed of the velocity of what moves along with it, at A.
+    static Vector3Wide ChangeAt(in Vector3Wide change, in Vector3Wide turnChange, in Vector3Wide toB) => change + Vector3Wide.Cross(toB, turnChange);
 
     // Whether A overlaps its floor by so much that it does not sleep until it is out, which the graph sees to.
     static Vector<int> IsSunken(int count, Vector<float>* prestep, Vector<float> band)
@@ -45,11 +50,11 @@ readonly unsafe partial struct SupportFinder
         return Vector.GreaterThan(depth, new Vector<float>(count * LoadPathStage.LeastOverlap) * band);
     }
 
-    // Whether the warm start alone brings A to rest on what nothing pushes, as that takes it along in the middle of the substep. That A turns otherwise
-    // would be seen in the next step.
+    // Whether the warm start alone brings A to rest on what nothing pushes, as that takes it along in the middle of the substep, once it was pushed along for
+    // what the floor has changed. That A turns otherwise would be seen in the next step.
     Vector<int> IsBorne(
-        int count, in SolverBodyWide body, in SolverBodyWide floor, in Vector3Wide toFloor, in Vector3Wide normal, Vector<float>* impulses,
-        Vector<float> gain, Vector<float> radius)
+        int count, in SolverBodyWide body, in SolverBodyWide floor, in Vector3Wide toFloor, in Vector3Wide change, in Vector3Wide turnChange,
+        in Vector3Wide normal, Vector<float>* impulses, Vector<float> gain, Vector<float> radius)
     {
         var load = impulses[0];
         for (int i = 1; i < count; ++i)
@@ -58,7 +63,22 @@ readonly unsafe partial struct SupportFinder
         var left = body.Linear + impulse * (body.InverseMass * new Vector<float>(warmStartScale));
         var along = Vector3Wide.Cross(toFloor, floor.Angular);
         left -= floor.Linear + along + Vector3Wide.Cross(floor.Angular, along) * new Vector<float>(0.5f * dt);
-        return Vector.LessThan(left.Length() + (body.Angular - floor.Angular).Length() * radius, tolerance.Of(gain, radius));
+        var part = new Vector<float>(1 - 1 / SubstepCount);
+        left += ChangeAt(change, turnChange, toFloor) * part;
+        var turn = body.Angular - floor.Angular + turnChange * part;
+        return Vector.LessThan(left.Length() + turn.Length() * radius, tolerance.Of(gain, radius));
+    }
+
+    // What has to be pushed along with its floor in each substep.
+    static void ListRiders(Vector<int> lanes, Vector<int>* references, ref LoneRests lone)
+    {
+        for (var left = Wide.Bits(lanes); left != 0; left &= left - 1)
+        {
+            var lane = BitOperations.TrailingZeroCount(left);
+            ref var rider = ref lone.Riders[lone.RiderCount++];
+            rider.Body = references[0][lane] & EncodedBody.IndexMask;
+            rider.Floor = references[1][lane] & EncodedBody.IndexMask;
+        }
     }
 
     // Whether a body has no constraint but this one.

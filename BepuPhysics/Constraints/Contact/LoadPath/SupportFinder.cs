@@ -56,10 +56,10 @@ readonly unsafe partial struct SupportFinder(
     /// <param name="batch">The type batch.</param>
     /// <param name="bundle">The bundle.</param>
     /// <param name="found">Room for one per lane.</param>
-    /// <param name="holds">Becomes true where contacts are held.</param>
+    /// <param name="lone">Becomes known where contacts are held here.</param>
     /// <returns>How many were found, at most one per lane.</returns>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    internal int Find(ref TypeBatch batch, int bundle, SupportLink* found, ref bool holds)
+    internal int Find(ref TypeBatch batch, int bundle, SupportLink* found, ref LoneRests lone)
     {
         var count = ConstraintTypeIds.ContactCount(batch.TypeId);
         var hasB = batch.TypeId >= ConstraintTypeIds.ContactTwoBody;
@@ -104,7 +104,7 @@ readonly unsafe partial struct SupportFinder(
         var rests = Rests(bodyA.Linear - gainA, gainA, resting) & Rests(bodyB.Linear - gainB, gainB, resting);
         var moves = Vector<int>.Zero;
         var offsetB = *(Vector3Wide*)(prestep + ContactPrestepLayout.OffsetB(count));
-        Vector3Wide turnGainB = default;
+        Vector3Wide turnGainB = default, givenB = gainB, turnGivenB = default;
         var earlierB = bodyB.Linear - gainB;
         var mayMove = Reached(references[0]);
         var anyMoves = mayMove != Vector<int>.Zero;
@@ -113,7 +113,8 @@ readonly unsafe partial struct SupportFinder(
             // What moves nearly alike may rest on what moves: the graph knows it, and asks each of both.
             gainB = Vector3Wide.Select(fixedB & mayMove, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
             var turn = ReadEarlier(turnsBefore, references[1]);
-            turnGainB = Vector3Wide.Mask(fixedB & mayMove, ReadNow(turnsBefore, references[1]) - turn);
+            turnGivenB = ReadNow(turnsBefore, references[1]);
+            turnGainB = Vector3Wide.Mask(fixedB & mayMove, turnGivenB - turn);
             // What turns moves A along where that is.
             earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(fixedB & mayMove, Vector3Wide.Cross(turn, offsetB));
             var most = resting + resting + new Vector<float>(FallingShare * quietSteps) * fastest;
@@ -200,17 +201,25 @@ readonly unsafe partial struct SupportFinder(
         var turns = Vector<int>.Zero;
         if (hasB && alone != Vector<int>.Zero)
         {
-            alone &= Wide.Select(isFloor, RestsOnSteady(bodyA.Linear - gainA - earlierB, gainA, gainB, turnGainB, bodyB.Angular, offsetB), ~moves);
+            alone &= Wide.Select(isFloor, RestsOnFloor(bodyA.Linear - gainA - earlierB, gainA, gainB, turnGainB, bodyB.Angular, offsetB), ~moves);
+            // What callbacks give a floor in each substep is no change of the game's.
+            var given = givenB.LengthSquared() + (bodyB.Angular - turnGivenB).LengthSquared();
+            alone &= Vector.Equals(given, Vector<float>.Zero) | ~isFloor;
             alone = Vector.AndNot(alone, IsSunken(count, prestep, band));
             turns = Turns(bodyB.Angular);
         }
         if (alone != Vector<int>.Zero)
-            alone &= IsBorne(count, bodyA, bodyB, offsetB, normal, impulses, fastest, radius);
+            alone &= IsBorne(count, bodyA, bodyB, offsetB, Vector3Wide.Mask(isFloor, gainB), turnGainB, normal, impulses, fastest, radius);
         if (alone != Vector<int>.Zero)
             alone &= IsAlone((int*)references);
         if (alone != Vector<int>.Zero)
         {
-            holds = true;
+            lone.AreHeld = true;
+            if (anyMoves)
+            {
+                var changed = ~Vector.Equals(gainB.LengthSquared() + turnGainB.LengthSquared(), Vector<float>.Zero);
+                ListRiders(Vector.AndNot(alone & isFloor & changed, slides), references, ref lone);
+            }
             Hold(Vector.AndNot(alone, slides), hasB ? turns : new(-1), count, Vector.AndNot(open, near), band, prestep + ContactPrestepLayout.Spring(count));
             carries = Vector.AndNot(carries, alone);
             if (carries == Vector<int>.Zero)
