@@ -60,6 +60,9 @@ public abstract partial class NarrowPhase : IBufferPoolUser
     /// <summary>See <see cref="LoadPathStage.RelaxedCount"/>.</summary>
     internal int RelaxedCount => loadPath.RelaxedCount;
 
+    /// <summary>See <see cref="LoadPathStage.NodeCount"/>.</summary>
+    internal int LoadNodeCount => loadPath.NodeCount;
+
     /// <summary>See <see cref="LoadPathStage.MostWalked"/>.</summary>
     internal int MostWalkedFromFloors
     {

@@ -34,7 +34,7 @@ public class UnrelatedIslandTests
     public void What_is_hit_is_read_in_each_substep() =>
         Compare(53, new SolveDescription(1, 4) { RelaxationIterationCount = 1, DirectJoints = DirectJointsMode.WhereNeeded });
 
-    /// <summary>Whether all constraints of what hangs on a floor are gone over, or sets of bodies are joined; and whom a body is with.</summary>
+    /// <summary>Whether all constraints of what hangs on a floor are gone over, or sets of bodies are joined; and whom a body is with, one by one or all at once.</summary>
     [Theory]
     [InlineData(0), InlineData(1), InlineData(2), InlineData(3)]
     public void What_is_found_in_another_way_changes_no_bit(int block)
@@ -42,14 +42,15 @@ public class UnrelatedIslandTests
         const int seeds = 6;
         for (int seed = 1000 + block * seeds; seed < 1000 + (block + 1) * seeds; ++seed)
         {
-            var expected = Run(seed, SolveDescription.Default, false, Find(0, true));
-            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(int.MaxValue, false)));
-            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(7, true)));
+            var expected = Run(seed, SolveDescription.Default, false, Find(0, true, 0));
+            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(int.MaxValue, false, 0)));
+            Compare(seed, expected, Run(seed, SolveDescription.Default, false, Find(7, true, int.MaxValue)));
         }
     }
 
-    static Action<Simulation> Find(int mostWalked, bool remembersWitnesses) => simulation =>
+    static Action<Simulation> Find(int mostWalked, bool remembersWitnesses, int bodiesPerKinematic) => simulation =>
     {
+        simulation.CommonMotion.BodiesPerKinematic = bodiesPerKinematic;
         simulation.NarrowPhase.MostWalkedFromFloors = mostWalked;
         simulation.CommonMotion.Remembers = remembersWitnesses;
     };

@@ -111,12 +111,16 @@ readonly unsafe partial struct SupportFinder(
         if (hasB && anyMoves)
         {
             // What moves nearly alike may rest on what moves: the graph knows it, and asks each of both.
-            gainB = Vector3Wide.Select(fixedB & mayMove, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
-            var turn = ReadEarlier(turnsBefore, references[1]);
-            turnGivenB = ReadNow(turnsBefore, references[1]);
-            turnGainB = Vector3Wide.Mask(fixedB & mayMove, turnGivenB - turn);
-            // What turns moves A along where that is.
-            earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(fixedB & mayMove, Vector3Wide.Cross(turn, offsetB));
+            var onFloor = fixedB & mayMove;
+            if (onFloor != Vector<int>.Zero)
+            {
+                gainB = Vector3Wide.Select(onFloor, bodyB.Linear - ReadEarlier(before, references[1]), gainB);
+                var turn = ReadEarlier(turnsBefore, references[1]);
+                turnGivenB = ReadNow(turnsBefore, references[1]);
+                turnGainB = Vector3Wide.Mask(onFloor, turnGivenB - turn);
+                // What turns moves A along where that is.
+                earlierB = bodyB.Linear - gainB - Vector3Wide.Mask(onFloor, Vector3Wide.Cross(turn, offsetB));
+            }
             var most = resting + resting + new Vector<float>(FallingShare * quietSteps) * fastest;
             var together = flat & mayMove & Vector.LessThan((bodyA.Linear - gainA - earlierB).LengthSquared(), most * most);
             moves = Vector.AndNot(together, rests);
