@@ -34,7 +34,9 @@ public class UnrelatedIslandTests
     public void What_is_hit_is_read_in_each_substep() =>
         Compare(53, new SolveDescription(1, 4) { RelaxationIterationCount = 1, DirectJoints = DirectJointsMode.WhereNeeded });
 
-    /// <summary>Whether all constraints of what hangs on a floor are gone over, or sets of bodies are joined; and whom a body is with, one by one or all at once.</summary>
+    /// <summary>
+    /// Whether all constraints of what hangs on a floor are gone over, or sets of bodies are joined; and whom a body is with, one by one or all at once.
+    /// </summary>
     [Theory]
     [InlineData(0), InlineData(1), InlineData(2), InlineData(3)]
     public void What_is_found_in_another_way_changes_no_bit(int block)

@@ -109,7 +109,8 @@ public class LoneRiderTests(ITestOutputHelper output)
     }
 
     [Theory]
-    [InlineData("stands", 1), InlineData("straight", 1), InlineData("sways", 1), InlineData("turns", 1), InlineData("turns to and fro", 1), InlineData("tips", 1)]
+    [InlineData("stands", 1), InlineData("straight", 1), InlineData("sways", 1)]
+    [InlineData("turns", 1), InlineData("turns to and fro", 1), InlineData("tips", 1)]
     [InlineData("straight", 1e-3f), InlineData("sways", 1e-3f), InlineData("straight", 50), InlineData("sways", 50)]
     public void One_box_goes_where_its_platform_does(string motion, float size)
     {
