@@ -13,6 +13,8 @@ struct ChildResult
     public ChildIds Children;
     /// <summary>Whether the test of the two shapes keeps a history.</summary>
     public bool KeepsHistory;
+    /// <summary>Whether it has no contacts because what touches it there is a neighbour's.</summary>
+    public bool IsLeftToNeighbours;
     /// <summary>What friction against turning has for a lever; see <see cref="FaceLever"/>.</summary>
     public byte Lever;
     /// <summary>Centre of A's child less that of A.</summary>
@@ -134,6 +136,7 @@ unsafe struct ChildPairs(BufferPool pool)
         ref var result = ref target.Slots[PatchSet.Capacity + target.SlotCount];
         result.Children = ids;
         result.KeepsHistory = keepsHistory;
+        result.IsLeftToNeighbours = false;
         result.Lever = FaceLever.OfOneFace;
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)

@@ -32,6 +32,7 @@ struct LoneChild
     {
         Child.Children = ids;
         Child.KeepsHistory = keepsHistory;
+        Child.IsLeftToNeighbours = false;
         Child.Lever = FaceLever.OfOneFace;
         Child.OffsetA = shapes.OffsetA;
         OffsetB = pair.OffsetB;

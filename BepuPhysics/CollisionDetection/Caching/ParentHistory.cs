@@ -107,6 +107,7 @@ struct ParentHistory
             ref var result = ref results[count];
             result.Children = ChildIds.Patch(codes[count] & (1 << NumberBits) - 1);
             result.KeepsHistory = false;
+            result.IsLeftToNeighbours = false;
             result.Lever = FaceLever.OfOneFace;
             result.OffsetA = default;
             patches[count].Carry(bound, (1 << (codes[count] >> NumberBits)) - 1, offsetB, translation, rotation, bound.AIsLarger ? currentA : currentB,

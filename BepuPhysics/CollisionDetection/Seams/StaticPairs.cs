@@ -190,6 +190,7 @@ struct StaticPairs
         ref var result = ref Results.Allocate(pool);
         result.Children = ChildIds.None;
         result.KeepsHistory = tested.KeepsHistory;
+        result.IsLeftToNeighbours = false;
         result.Lever = FaceLever.OfOneFace;
         result.OffsetA = default;
         result.Manifold = manifold;

@@ -19,6 +19,10 @@ namespace BepuPhysics.CollisionDetection;
 /// Two triangles, which both have no depth, do not cross any more as soon as one has sunk into the other as a whole. So that is asked for wherever two lie
 /// across what held them: as long as they are no deeper than that was, and their way since then.
 /// </para>
+/// <para>
+/// A triangle that is touched beyond one of its edges, and so left to its neighbour, is in front of what touches it: beside a step that is as high as half of
+/// a box, the top of the step is not below the box.
+/// </para>
 /// <para>What has come from behind was not held, and is deeper than what holds it. So is what a game has put there.</para>
 /// </remarks>
 static class SunkChildren
@@ -28,6 +32,9 @@ static class SunkChildren
 
     // Part of the inner radius from which on a shape may be taken to be at the back of what it touches.
     const float Deep = 0.75f;
+
+    // Part of the inner radius by which it has to have come, or been pressed, in the last step: what lies beside a step half as high did neither.
+    const float LeastWay = 1 / 16f;
 
     // By how much it may be deeper than it may have become, as a part of that: the way of a contact is taken to be straight.
     const float Deeper = 2;
@@ -115,7 +122,7 @@ static class SunkChildren
         for (int i = 0; i < count; ++i)
         {
             ref var placed = ref set.Placed[i];
-            if (set.Results[i].Manifold.Count > 0 || !IsOneSided(placed))
+            if (set.Results[i].Manifold.Count > 0 || set.Results[i].IsLeftToNeighbours || !IsOneSided(placed))
                 continue;
             if (TryFindNormal(placed, known, out var normal))
                 memory.Tests.Add(placed, normal, float.MaxValue, placed.SpeculativeMargin, i, pool);
@@ -165,6 +172,7 @@ static class SunkChildren
         if (manifold.Count == 0)
             return false;
         var before = motion.Depth(Find(known, manifold.Normal));
+        var greatest = 0f;
         for (int i = 0; i < manifold.Count; ++i)
         {
             var arm = manifold.GetOffset(i);
@@ -172,7 +180,8 @@ static class SunkChildren
             var way = MathHelper.Max(0, -row.Along(motion.OfA, motion.OfB));
             if (!(manifold.GetDepth(i) <= innerRadius + Deeper * (before + way)))
                 return false;
+            greatest = MathHelper.Max(greatest, before + way);
         }
-        return manifold.GreatestDepth > Deep * innerRadius;
+        return manifold.GreatestDepth > Deep * innerRadius && greatest >= LeastWay * innerRadius;
     }
 }

@@ -116,8 +116,10 @@ static unsafe class TriangleNeighbours
             return;
         foreach (ref var child in view.Ranked)
         {
-            if (child.IsOfNeighbours)
-                view.Result(child).Manifold.Count = 0;
+            if (!child.IsOfNeighbours)
+                continue;
+            view.Result(child).Manifold.Count = 0;
+            view.Result(child).IsLeftToNeighbours = true;
         }
     }
 

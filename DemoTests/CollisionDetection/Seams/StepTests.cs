@@ -175,6 +175,29 @@ public class StepTests(ITestOutputHelper output)
         Assert.InRange(cosine, LeastCosine, 1.001f);
     }
 
+    /// <summary>
+    /// What was put against a step that is as high as half of it stands there, though the top of the step is as deep in it as in something that was pressed
+    /// through that.
+    /// </summary>
+    [Theory, InlineData(SeamMover.Box, .25f), InlineData(SeamMover.StandingCylinder, .2f)]
+    public void A_step_that_is_half_as_high_lifts_nothing(SeamMover mover, float height)
+    {
+        var radius = mover == SeamMover.Box ? .25f : .3f;
+        foreach (var material in new[] { StepMaterial.Mesh, StepMaterial.FineMesh })
+        {
+            foreach (var depth in new[] { -1e-5f, 0, 1e-6f, 1e-5f, 5e-5f, 1e-4f, 1e-3f })
+            {
+                using var world = new ClusterWorld(isCluster: true);
+                Add(world, material, Floor, (new(1, -1, -1), new(2, height, 1)));
+                var body = AddMover(world, mover, new(1 - radius + depth, 0, .1f), 0);
+                var y = world.Simulation.Bodies[body].Pose.Position.Y;
+                Step(world, 30, Vector3.UnitY, -Vector3.UnitX);
+                output.WriteLine($"{material}, {depth} deep: {world.Simulation.Bodies[body].Pose.Position}");
+                Assert.InRange(world.Simulation.Bodies[body].Pose.Position.Y, y - 1e-3f, y + 1e-3f);
+            }
+        }
+    }
+
     /// <summary>A box in a corner of a floor and two walls is pushed by these three, and by nothing between them.</summary>
     [Theory, InlineData(StepMaterial.Boxes), InlineData(StepMaterial.Compound), InlineData(StepMaterial.Mesh), InlineData(StepMaterial.FineMesh)]
     public void A_corner_has_three_normals(StepMaterial material)
