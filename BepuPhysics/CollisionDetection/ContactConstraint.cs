@@ -54,8 +54,9 @@ unsafe readonly struct ContactConstraint
     internal void Update(in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
         var wasHeld = WasHeld;
+        var landing = Landing;
         var knewB = KnowsB;
-        WriteMaterial(material, frictionCenter, wasHeld);
+        WriteMaterial(material, frictionCenter, wasHeld, landing);
         if (KeptArms.MayKeep(contactCount, manifold, wasHeld, hasTwoBodies))
         {
             ReadArms(features, knewB, out var arms);
@@ -89,7 +90,7 @@ unsafe readonly struct ContactConstraint
     internal void WriteNew(
         ref ContactPatch old, in ConvexContactManifold manifold, in PairMaterialProperties material, in Vector3 frictionCenter, ref FeatureIds features)
     {
-        WriteMaterial(material, frictionCenter, old.WasHeld);
+        WriteMaterial(material, frictionCenter, old.WasHeld, old.Count > 0 ? old.Landing : 0);
         WriteGeometry(manifold, frictionCenter);
         if (KeptArms.MayKeep(old.Count, manifold, old.WasHeld, old.KnowsB))
         {
@@ -122,6 +123,9 @@ unsafe readonly struct ContactConstraint
 
     /// <summary>Whether the load path held the patch in the last step.</summary>
     internal bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
+
+    float Landing => prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count] == 0
+        ? MathF.Abs(prestep[ContactPrestepLayout.Damping(contactCount) * Vector<float>.Count]) : 0;
 
     // Whether the place of B is written, and not that of friction; see ContactMaterialWide.SharesFriction.
     bool KnowsB => hasTwoBodies && !float.IsNegative(prestep[ContactPrestepLayout.Friction(contactCount) * Vector<float>.Count]);
@@ -199,14 +203,14 @@ unsafe readonly struct ContactConstraint
         ContactPrestepLayout.OffsetB(contactCount),
         hasTwoBodies && frictionCenter == default ? manifold.OffsetB + manifold.Normal * manifold.Gap : frictionCenter);
 
-    void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter, bool wasHeld)
+    void WriteMaterial(in PairMaterialProperties material, in Vector3 frictionCenter, bool wasHeld, float landing)
     {
         // The sign says something else: a game may give a negative zero.
         var coefficient = MathF.Abs(material.FrictionCoefficient);
         Write(ContactPrestepLayout.Friction(contactCount), hasTwoBodies && frictionCenter != default ? -coefficient : coefficient);
         Write(ContactPrestepLayout.Spring(contactCount), material.SpringSettings.AngularFrequency);
         Write(ContactPrestepLayout.Damping(contactCount), material.SpringSettings.AngularFrequency == 0
-            ? ContactMaterialWide.DampingOfRigid(wasHeld) : material.SpringSettings.TwiceDampingRatio);
+            ? ContactMaterialWide.DampingOfRigid(wasHeld, landing) : material.SpringSettings.TwiceDampingRatio);
         Write(ContactPrestepLayout.MaximumRecovery(contactCount), material.MaximumRecoveryVelocity);
     }
 
@@ -238,6 +242,7 @@ unsafe readonly struct ContactConstraint
         result.Count = contactCount;
         result.KnowsB = KnowsB;
         result.WasHeld = WasHeld;
+        result.Landing = Landing;
         result.Features = features;
         for (int i = 0; i < contactCount; ++i)
         {

@@ -13,6 +13,8 @@ struct ContactPatch
     public bool KnowsB;
     /// <summary>Whether the load path held it.</summary>
     public bool WasHeld;
+    /// <summary>Landing.</summary>
+    public float Landing;
     /// <summary>Features of the contacts.</summary>
     public FeatureIds Features;
     /// <summary>Normal impulses, N s.</summary>

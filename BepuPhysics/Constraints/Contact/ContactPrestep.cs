@@ -40,10 +40,64 @@ struct ContactMaterialWide
     internal readonly Vector<int> IsHeld => Vector.LessThan(SpringSettings.AngularFrequency, Vector<float>.Zero);
 
     /// <summary>What the damping ratio of a patch without a frequency of its own says, which has no use for it: whether it was held in the last step.</summary>
-    internal static float DampingOfRigid(bool wasHeld) => wasHeld ? -0f : 0;
+    internal static float DampingOfRigid(bool wasHeld, float landing) => wasHeld ? -landing : landing;
 
     /// <summary>Which of some patches without a frequency of their own were held in the last step.</summary>
     internal static Vector<int> WasHeld(Vector<float> damping) => Vector.LessThan(Vector.AsVectorInt32(damping), Vector<int>.Zero);
+
+    // What the damping ratio of a patch without a frequency of its own says besides, by its amount: that it lands, in the first substep of two or in the second;
+    // that it finds its load in this one; or that it may land in this step. See ConvexContactConstraint.Land.
+    const float LandsFirst = 1, LandsAgain = 2, Settles = 3, LandsLast = 4, SettlesLast = 5, MayLand = 6;
+
+    /// <summary>Whether patches land, or may in this step; nothing for those that have a frequency.</summary>
+    internal readonly Vector<float> Landing
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => Wide.Mask(
+            Vector.LessThanOrEqual(SpringSettings.AngularFrequency, Vector<float>.Zero), Wide.Abs(SpringSettings.TwiceDampingRatio));
+    }
+
+    /// <summary>The patches that land in this substep.</summary>
+    internal readonly Vector<int> Lands => IsRigid & HasLanded(Landing);
+
+    /// <summary>Says which patches may land in this step. Those that do already go on.</summary>
+    internal void WatchLanding(Vector<int> isFast)
+    {
+        var landing = Wide.Abs(SpringSettings.TwiceDampingRatio);
+        var isFree = Vector.Equals(landing, Vector<float>.Zero) | Vector.Equals(landing, new Vector<float>(MayLand));
+        SetLanding(isFree & IsRigid, Wide.Mask(isFast, new Vector<float>(MayLand)));
+    }
+
+    /// <summary>Goes on to the next substep.</summary>
+    /// <returns>Patches whose impulses are those of an impact.</returns>
+    internal Vector<int> AdvanceLanding()
+    {
+        var landing = Landing;
+        var landed = HasLanded(landing);
+        SetLanding(landed, landing + Vector<float>.One);
+        SetLanding(
+            Vector.Equals(landing, new Vector<float>(Settles)) | Vector.Equals(landing, new Vector<float>(SettlesLast)), new Vector<float>(MayLand));
+        return landed;
+    }
+
+    /// <summary>Lets patches land that come fast and may.</summary>
+    /// <param name="isFast">What comes fast.</param>
+    /// <param name="isVeryFast">What comes as fast as no load brings it in a substep, as the next corner of what has landed on one.</param>
+    internal void BeginLanding(Vector<int> isFast, Vector<int> isVeryFast)
+    {
+        var landing = Wide.Mask(IsRigid, Landing);
+        SetLanding(isFast & Vector.Equals(landing, new Vector<float>(MayLand)), new Vector<float>(LandsFirst));
+        SetLanding(isVeryFast & Vector.Equals(landing, new Vector<float>(Settles)), new Vector<float>(LandsLast));
+    }
+
+    static Vector<int> HasLanded(Vector<float> landing) => Vector.Equals(landing, new Vector<float>(LandsLast)) |
+        (Vector.GreaterThan(landing, Vector<float>.Zero) & Vector.LessThanOrEqual(landing, new Vector<float>(LandsAgain)));
+
+    readonly Vector<int> IsRigid => Vector.Equals(SpringSettings.AngularFrequency, Vector<float>.Zero);
+
+    // The sign says whether it was held.
+    void SetLanding(Vector<int> lanes, Vector<float> landing) => SpringSettings.TwiceDampingRatio = Wide.Select(
+        lanes, Wide.CopySign(landing, SpringSettings.TwiceDampingRatio), SpringSettings.TwiceDampingRatio);
 
     /// <summary>
     /// Of two bodies: patches that are a part of one that several bodies bear which nothing moves. Their coefficient is negative; what a game gives is not.

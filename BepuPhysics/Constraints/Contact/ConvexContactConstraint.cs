@@ -41,6 +41,10 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         if (substep.WarmStartScale != 1)
             Scale(ref impulses, new Vector<float>(substep.WarmStartScale));
         ForgetSpinning(bodies, substep, ref impulses);
+        if (substep.Index == 0)
+            WatchLanding(ref bodies, substep, ref prestep);
+        if (prestep.Material.Landing != Vector<float>.Zero)
+            AdvanceLanding(ref prestep, ref impulses);
         var load = impulses.Normals[0];
         var arm = prestep.Contacts[0].OffsetA * load;
         for (int i = 1; i < TContacts.Count; ++i)
@@ -97,6 +101,12 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         Unsafe.SkipInit(out Vector3Wide pressed);
         if (IsFlat && mayCarry)
             TurnSurface(ref bodies, substep, prestep.Normal, out pressed);
+        if (prestep.Material.Landing != Vector<float>.Zero)
+        {
+            var lands = Land(ref bodies, substep, ref prestep, ref impulses);
+            softness.MassScale = Wide.Mask(~lands, softness.MassScale);
+            softness.ImpulseScale = Wide.Mask(~lands, softness.ImpulseScale);
+        }
         var load = Vector<float>.Zero;
         for (int i = 0; i < TContacts.Count; ++i)
         {
