@@ -21,14 +21,19 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>
     const double LeastTurn = 1e-3;
 
     /// <summary>Solves for the impulses, and applies what changes of them.</summary>
-    internal void Solve()
+    /// <param name="mask">The structures in which it does.</param>
+    /// <param name="isFactored">Whether there are factors of the same bodies and rows, but for who is held.</param>
+    internal void Solve(TNumbers mask, bool isFactored = false)
     {
         // Not before all else has been swept over: what is worked out here is still at hand when it is asked for.
-        FactorAll();
-        SolveOnce(TNumbers.All);
+        if (!isFactored)
+            FactorAll();
+        else if (hasBounds)
+            FactorChanged();
+        SolveOnce(mask);
         if (!hasBounds)
             return;
-        var open = TNumbers.All;
+        var open = mask;
         for (int review = 0; review < MostReviews; ++review)
         {
             Review(open, out var whoIsHeld, out var impulses);

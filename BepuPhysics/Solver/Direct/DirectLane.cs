@@ -12,6 +12,20 @@ static class DirectLane
     internal static ref double Of<TNumbers>(ref TNumbers numbers, int lane) where TNumbers : unmanaged, INumbers<TNumbers> =>
         ref Unsafe.Add(ref Unsafe.As<TNumbers, double>(ref numbers), lane);
 
+    /// <summary>A mask of some structures.</summary>
+    /// <param name="lanes">A bit for each.</param>
+    internal static TNumbers MaskOf<TNumbers>(int lanes) where TNumbers : unmanaged, INumbers<TNumbers>
+    {
+        var all = TNumbers.All;
+        TNumbers mask = default;
+        for (int lane = 0; lane < TNumbers.Count; ++lane)
+        {
+            if ((lanes >> lane & 1) != 0)
+                Of(ref mask, lane) = Of(ref all, lane);
+        }
+        return mask;
+    }
+
     /// <summary>Writes a vector of a structure.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static void Write<TVectors, TNumbers>(ref TVectors vectors, int lane, float x, float y, float z)

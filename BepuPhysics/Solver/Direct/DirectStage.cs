@@ -42,6 +42,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         // Lanes without a structure have zeros.
         memory.Clear(0, plan.MemoryCount);
         pool.Take(plan.Bodies.Count, out sweptStiffness);
+        CountJoints();
         mayEase.AsSpan().Fill(true);
         new DirectArrangement(solver, plan, pool).Arrange(ref LeftOut);
         FindLanes();
@@ -143,7 +144,12 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
         ReadInertias(island, equations);
         ReadVelocities(island, equations);
-        new DirectEquations<TVectors, TNumbers>(plan, island, equations).WarmStart(substep.WarmStartScale);
+        var system = new DirectEquations<TVectors, TNumbers>(plan, island, equations, KeepsFactors);
+        system.WarmStart(substep.WarmStartScale);
+        if (substep.Index == 0)
+            FindTouched(island);
+        if (touched[IndexOf(island)] is var lanes and not 0)
+            system.Solve(DirectLane.MaskOf<TNumbers>(lanes));
         var sound = SoundLanes(island, equations);
         WriteVelocities(island, equations, sound);
         for (int lane = 0; lane < island.MemberCount; ++lane)
@@ -161,7 +167,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
     {
         var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
         ReadVelocities(island, equations);
-        new DirectEquations<TVectors, TNumbers>(plan, island, equations, KeepsFactors).Solve();
+        new DirectEquations<TVectors, TNumbers>(plan, island, equations, KeepsFactors).Solve(TNumbers.All, isFactored: touched[IndexOf(island)] != 0);
         var sound = SoundLanes(island, equations);
         WriteVelocities(island, equations, sound);
         WriteImpulses(island, equations, sound);
@@ -302,6 +308,8 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         pool.Return(ref memory);
         pool.Return(ref memberOfLane);
         pool.Return(ref sweptStiffness);
+        pool.Return(ref jointCounts);
+        pool.Return(ref touched);
     }
 
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
@@ -311,5 +319,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         memory = default;
         memberOfLane = default;
         sweptStiffness = default;
+        jointCounts = default;
+        touched = default;
     }
 }
