@@ -124,6 +124,7 @@ unsafe readonly struct ContactConstraint
     /// <summary>Whether the load path held the patch in the last step.</summary>
     internal bool WasHeld => float.IsNegative(prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count]);
 
+    // How far the patch is in landing; see ContactMaterialWide.Landing.
     float Landing => prestep[ContactPrestepLayout.Spring(contactCount) * Vector<float>.Count] == 0
         ? MathF.Abs(prestep[ContactPrestepLayout.Damping(contactCount) * Vector<float>.Count]) : 0;
 

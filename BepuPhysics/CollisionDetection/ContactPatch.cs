@@ -13,7 +13,7 @@ struct ContactPatch
     public bool KnowsB;
     /// <summary>Whether the load path held it.</summary>
     public bool WasHeld;
-    /// <summary>Landing.</summary>
+    /// <summary>How far it is in landing; see <see cref="ContactMaterialWide.Landing"/>.</summary>
     public float Landing;
     /// <summary>Features of the contacts.</summary>
     public FeatureIds Features;

@@ -159,7 +159,8 @@ public class BesideEdgeTests(ITestOutputHelper output)
             hulls = Math.Max(hulls, DeepestPenetration(true, aside, speed, i / 16f));
         }
         output.WriteLine($"{aside} m aside at {speed} m/s: boxes {boxes:f4} m, hulls {hulls:f4} m");
-        // What is met edge on edge may be passed on either side in the step after, and then finds contacts that bear already: these give way by three tenths.
+        // What is met edge on edge may be passed on either side in the step after, and then finds contacts that bear already: these give
+        // way by three tenths.
         Assert.InRange(boxes, 0, Math.Max(hulls + .002, .3 * speed * TestWorld.Dt / 4));
     }
 

@@ -51,7 +51,10 @@ public class LandingTests
         }
     }
 
-    /// <summary>What falls flat lies there, wherever in a step it meets the floor: it leaves with no speed, does not turn, and sinks in no deeper than it rests.</summary>
+    /// <summary>
+    /// What falls flat lies there, wherever in a step it meets the floor: it leaves with no speed, does not turn, and sinks in no deeper
+    /// than it rests.
+    /// </summary>
     [Theory, MemberData(nameof(Falls))]
     public void What_falls_flat_stays_where_it_falls(Faller faller, float speed, float size, int substeps)
     {
@@ -61,7 +64,8 @@ public class LandingTests
             using var world = new TestWorld(new AccuracySettings { SubstepCount = substeps });
             world.AddStatic(new Box(100 * size, size, 100 * size), new RigidPose(new Vector3(0, -.5f * size, 0)));
             var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitY, 6 * random.NextSingle());
-            var pose = new RigidPose(new Vector3(0, speed * Dt * (1 + random.NextSingle()), 0), faller == Faller.Capsule ? Quaternion.Identity : turn);
+            var place = new Vector3(0, speed * Dt * (1 + random.NextSingle()), 0);
+            var pose = new RigidPose(place, faller == Faller.Capsule ? Quaternion.Identity : turn);
             var (half, handle) = Add(world, faller, size, pose, new BodyVelocity(new Vector3(0, -speed, 0)));
             var body = world.Bodies[handle];
             var (up, spin, least) = (0f, 0f, float.MaxValue);
@@ -105,8 +109,8 @@ public class LandingTests
         }
     }
 
-    // A rod that falls level and comes on a post by one end. Its end stops there: J = m v / (1 + x^2 / k^2), so it turns by v x / (x^2 + k^2), and its centre
-    // goes on with v x^2 / (x^2 + k^2).
+    // A rod that falls level and comes on a post by one end. Its end stops there: J = m v / (1 + x^2 / k^2), so it turns by v x / (x^2 +
+    // k^2), and its centre goes on with v x^2 / (x^2 + k^2).
     [Theory, InlineData(2), InlineData(8)]
     public void A_rod_that_falls_on_its_end_turns_about_it(float speed)
     {
@@ -116,8 +120,9 @@ public class LandingTests
         {
             using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
             world.AddStatic(new Box(1, 1, 1), new RigidPose(new Vector3(length / 2 + .5f - overlap, -.5f - thickness / 2, 0)));
+            var start = new RigidPose(new Vector3(0, speed * Dt * (1 + i / 8f), 0));
             var rod = world.Bodies[world.AddDynamic(
-                new Box(length, thickness, width), 1, new RigidPose(new Vector3(0, speed * Dt * (1 + i / 8f), 0)), new BodyVelocity(new Vector3(0, -speed, 0)))];
+                new Box(length, thickness, width), 1, start, new BodyVelocity(new Vector3(0, -speed, 0)))];
             // Nothing turns it when it has left the post.
             world.Step(5);
             var turned = MathF.Abs(rod.Velocity.Angular.Z);
@@ -128,7 +133,8 @@ public class LandingTests
         }
     }
 
-    // A ball that comes down on a floor aside is slowed by friction by mu v as long as it slides, by two sevenths if that is less, and then rolls.
+    // A ball that comes down on a floor aside is slowed by friction by mu v as long as it slides, by two sevenths if that is less, and
+    // then rolls.
     [Theory, InlineData(.1f), InlineData(.3f), InlineData(.9f)]
     public void Friction_of_an_impact_is_that_of_its_impulse(float friction)
     {
@@ -138,8 +144,8 @@ public class LandingTests
         {
             using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = friction });
             world.AddStatic(new Box(100, 1, 100), new RigidPose(new Vector3(0, -.5f, 0)));
-            var ball = world.Bodies[world.AddDynamic(
-                new Sphere(radius), 1, new RigidPose(new Vector3(0, radius + down * Dt * (1 + i / 8f), 0)), new BodyVelocity(new Vector3(aside, -down, 0)))];
+            var start = new RigidPose(new Vector3(0, radius + down * Dt * (1 + i / 8f), 0));
+            var ball = world.Bodies[world.AddDynamic(new Sphere(radius), 1, start, new BodyVelocity(new Vector3(aside, -down, 0)))];
             world.Step(6);
             Assert.InRange(ball.Velocity.Linear.X, aside - slowed - .01f * aside, aside - slowed + .01f * aside);
             Assert.InRange(ball.Velocity.Angular.Z, -2.5f * slowed / radius - .1f, -2.5f * slowed / radius + .1f);

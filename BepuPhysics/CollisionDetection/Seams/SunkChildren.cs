@@ -10,30 +10,33 @@ namespace BepuPhysics.CollisionDetection;
 /// <summary>Keeps what was pressed through a triangle in front of it.</summary>
 /// <remarks>
 /// <para>
-/// A triangle has a front and no depth: what has its middle behind it, or comes out at its back sooner than at its front, is let through. Contacts give way by
-/// some millimetres when they are hit, and so half of a thin slab may be behind what it has just hit. So a triangle that is not touched, and lies across
-/// what the pair was held by in the last step, holds the other shape along its own normal, if that is about as deep in it as half of its thickness, and no
-/// deeper than the contacts of the last step and the way since then can have made it.
+/// A triangle has a front and no depth: what has its middle behind it, or comes out at its back sooner than at its front, is let through.
+/// Contacts give way by some millimetres when they are hit, and so half of a thin slab may be behind what it has just hit. So a triangle
+/// that is not touched, and lies across what the pair was held by in the last step, holds the other shape along its own normal, if that
+/// is about as deep in it as half of its thickness, and no deeper than the contacts of the last step and the way since then can have made
+/// it.
 /// </para>
 /// <para>
-/// Two triangles, which both have no depth, do not cross any more as soon as one has sunk into the other as a whole. So that is asked for wherever two lie
-/// across what held them: as long as they are no deeper than that was, and their way since then.
+/// Two triangles, which both have no depth, do not cross any more as soon as one has sunk into the other as a whole. So that is asked for
+/// wherever two lie across what held them: as long as they are no deeper than that was, and their way since then.
 /// </para>
 /// <para>
-/// A triangle that is touched beyond one of its edges, and so left to its neighbour, is in front of what touches it: beside a step that is as high as half of
-/// a box, the top of the step is not below the box.
+/// A triangle that is touched beyond one of its edges, and so left to its neighbour, is in front of what touches it: beside a step that
+/// is as high as half of a box, the top of the step is not below the box.
 /// </para>
 /// <para>What has come from behind was not held, and is deeper than what holds it. So is what a game has put there.</para>
 /// </remarks>
 static class SunkChildren
 {
-    // Cosine of the greatest angle between the normal of a triangle and that of the contacts that held in the last step: 45 degrees. What is thin turns fast.
+    // Cosine of the greatest angle between the normal of a triangle and that of the contacts that held in the last step: 45 degrees. What
+    // is thin turns fast.
     const float LeastCosine = 0.7f;
 
     // Part of the inner radius from which on a shape may be taken to be at the back of what it touches.
     const float Deep = 0.75f;
 
-    // Part of the inner radius by which it has to have come, or been pressed, in the last step: what lies beside a step half as high did neither.
+    // Part of the inner radius by which it has to have come, or been pressed, in the last step: what lies beside a step half as high did
+    // neither.
     const float LeastWay = 1 / 16f;
 
     // By how much it may be deeper than it may have become, as a part of that: the way of a contact is taken to be straight.
@@ -89,7 +92,8 @@ static class SunkChildren
 
     static bool IsOneSided(int type, in ShapeCopy shape) => type != Triangle.Id || !shape.Read<Triangle>().TwoSided;
 
-    // Along the front of the triangle that lies across what held the pair; of two, which both have to, along that of the one that is nearer to it.
+    // Along the front of the triangle that lies across what held the pair; of two, which both have to, along that of the one that is
+    // nearer to it.
     static bool TryFindNormal(in PlacedChildren placed, in KnownPatches known, out Vector3 normal)
     {
         var isA = placed.TypeA == Triangle.Id;

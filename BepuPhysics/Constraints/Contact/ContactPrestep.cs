@@ -45,8 +45,8 @@ struct ContactMaterialWide
     /// <summary>Which of some patches without a frequency of their own were held in the last step.</summary>
     internal static Vector<int> WasHeld(Vector<float> damping) => Vector.LessThan(Vector.AsVectorInt32(damping), Vector<int>.Zero);
 
-    // What the damping ratio of a patch without a frequency of its own says besides, by its amount: that it lands, in the first substep of two or in the second;
-    // that it finds its load in this one; or that it may land in this step. See ConvexContactConstraint.Land.
+    // What the damping ratio of a patch without a frequency of its own says besides, by its amount: that it lands, in one of two substeps; that it
+    // finds its load in this one, unless it lands once more, and then in the next; or that it may land in this step. See ConvexContactConstraint.Land.
     const float LandsFirst = 1, LandsAgain = 2, Settles = 3, LandsLast = 4, SettlesLast = 5, MayLand = 6;
 
     /// <summary>Whether patches land, or may in this step; nothing for those that have a frequency.</summary>

@@ -6,27 +6,30 @@ namespace BepuPhysics.Constraints.Contact;
 
 // What comes down fast on a rigid surface is stopped there, at once and by all contacts of the patch together.
 //
-// A contact that bears a load is a soft spring, which forgets a part of its impulse in each substep. An impact takes no time, and its impulse is no load: soft
-// rows take 70 % of the approach in the substep in which surfaces meet, sink in for the rest of it, and give back 7 to 16 % of it as velocity on their way
-// out; and rows that are swept in turn give the first corner of a face more than its share, so that what came face-on leaves with a spin. So a patch that
-// lands is solved without softness, from equal shares of its contacts, which are right for what meets face-on, and for as long as a sweep has something to do;
-// and its impulses are forgotten by the next substep, as nothing comes in again. That is so for two substeps: in the first, surfaces still have a gap to
-// close, in the second they meet. Then a load is found as by any new contact.
+// A contact that bears a load is a soft spring, which forgets a part of its impulse in each substep. An impact takes no time, and its
+// impulse is no load: soft rows take 70 % of the approach in the substep in which surfaces meet, sink in for the rest of it, and give
+// back 7 to 16 % of it as velocity on their way out; and rows that are swept in turn give the first corner of a face more than its share,
+// so that what came face-on leaves with a spin. So a patch that lands is solved without softness, from equal shares of its contacts,
+// which are right for what meets face-on; and its impulses are forgotten by the next substep, as nothing comes in again. That is so for
+// two substeps: in the first surfaces still have a gap to close, in the second they meet. Then a load is found as by any new contact,
+// unless the next corner comes down in that very substep.
 readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 {
-    // Way of an approach in a substep, over the distance of the surface from the nearer centre, from which on it is an impact. A cube of 1 m at 240 substeps a
-    // second comes at .4 m/s, and falls by 2e-4 of this distance in the substep in which it is let go.
+    // Way of an approach in a substep, over the distance of the surface from the nearer centre, from which on it is an impact. A cube of
+    // 1 m at 240 substeps a second comes at .4 m/s then, and falls by 2e-4 of this distance in the substep in which it is let go.
     const float LeastApproach = 2e-3f;
 
+    // So many times as fast as that nothing comes by its load, but what is a few centimetres long and has one substep a step.
     const float VeryFast = 8;
 
-    // Depth, over the same distance, to which surfaces may come: those that do not touch at all have no certain normal. It is about as deep as what rests.
+    // Depth, over the same distance, to which surfaces may come: those that do not touch at all have no certain normal. What rests is
+    // about as deep.
     const float LandingDepth = 5e-5f;
 
     // Depth, over the same distance, from which on it has to come out again, for which contacts are soft.
     const float DeepestLanding = 1e-3f;
 
-    // Contacts of one face answer each other: from equal shares, so many sweeps leave hundredths of what one would.
+    // Contacts of one face answer each other, and friction: from equal shares, so many sweeps leave hundredths of what one would.
     const int LandingSweeps = 8;
 
     // What a normal row needs to know of its bodies.
@@ -75,10 +78,11 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             Forget(landed, ref impulses);
     }
 
-    // Stops what lands. Returns the patches that do, whose contacts are solved then. 
+    // Stops what lands. Returns the patches that do, whose contacts are solved then.
     [MethodImpl(MethodImplOptions.NoInlining)]
     static Vector<int> Land(
-        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, ref ConvexContactImpulsesWide<TNormals> impulses)
+        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep,
+        ref ConvexContactImpulsesWide<TNormals> impulses)
     {
         Unsafe.SkipInit(out LandingRows rows);
         PrepareLanding(ref bodies, substep, ref prestep, impulses, ref rows, out var isFast, out var isVeryFast);
@@ -129,8 +133,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 
     // The rows of a patch, and where a contact that bears nothing comes fast enough to be stopped within the substep.
     static void PrepareLanding(
-        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep, in ConvexContactImpulsesWide<TNormals> impulses,
-        ref LandingRows rows, out Vector<int> isFast, out Vector<int> isVeryFast)
+        ref TBodies bodies, in Substep substep, ref ConvexContactPrestepWide<TContacts> prestep,
+        in ConvexContactImpulsesWide<TNormals> impulses, ref LandingRows rows, out Vector<int> isFast, out Vector<int> isVeryFast)
     {
         ref var a = ref BodySlots.At(ref bodies, 0);
         var n = prestep.Normal;
@@ -161,8 +165,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             row.Target = Wide.Min((depth - distance * new Vector<float>(LandingDepth)) * inverseDt, Vector<float>.Zero);
             // What a sweep would touch lands, so that none does.
             var velocity = VelocityAlong(bodies, n, row);
-            var comes = Vector.LessThan(velocity, Wide.Min(depth * inverseDt, -least)) & Vector.LessThan(depth, distance * new Vector<float>(DeepestLanding)) &
-                Vector.Equals(before.Normals[i], Vector<float>.Zero);
+            var comes = Vector.LessThan(velocity, Wide.Min(depth * inverseDt, -least)) &
+                Vector.LessThan(depth, distance * new Vector<float>(DeepestLanding)) & Vector.Equals(before.Normals[i], Vector<float>.Zero);
             isFast |= comes;
             isVeryFast |= comes & Vector.LessThan(velocity, least * new Vector<float>(-VeryFast));
         }

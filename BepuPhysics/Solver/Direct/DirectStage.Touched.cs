@@ -2,10 +2,11 @@ using BepuUtilities.Memory;
 
 namespace BepuPhysics.Constraints;
 
-// Contacts push and never pull. What they see of a structure is its velocities by the impulses of the substep before; where these are not what joints need
-// now, as after a blow, light links seem to fly apart. Contacts stop those that fly into something and let the others go, and when the joints have taken it
-// back what the contacts have pushed stays: chains of light links with heavy ends that came to lie on a floor were thrown about, some of them without end. So
-// in structures of which anything touches something joints are met before the sweeps, too, and contacts see bodies that move as they can.
+// Contacts push and never pull. What they see of a structure is its velocities by the impulses of the substep before; where these are not
+// what joints need now, as after a blow, light links seem to fly apart. Contacts stop those that fly into something and let the others
+// go, and when the joints have taken it back what the contacts have pushed stays: chains of light links with heavy ends that came to lie
+// on a floor were thrown about, some of them without end. So in structures of which anything touches something joints are met before the
+// sweeps, too, and contacts see bodies that move as they can.
 sealed unsafe partial class DirectStage
 {
     // Number of joints of each body of each island that are solved at once.

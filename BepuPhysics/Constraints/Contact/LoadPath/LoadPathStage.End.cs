@@ -16,8 +16,8 @@ sealed unsafe partial class LoadPathStage
     /// <summary>Forgets all memory, which the pool has given back to the system.</summary>
     internal void Abandon() => (graph, jointSets) = (default, default);
 
-    // Gives back what the step took: the graph is kept where there is one, and what joints connect where floors move. Contacts are let go of here only if an
-    // exception has broken the step off.
+    // Gives back what the step took: the graph is kept where there is one, and what joints connect where floors move. Contacts are let go
+    // of here only if an exception has broken the step off.
     void ISolverStage.EndStep()
     {
         if (!hasBegun)
@@ -42,7 +42,8 @@ sealed unsafe partial class LoadPathStage
         pool.ReturnIfTaken(ref before);
     }
 
-    // The sign of the zero tells the next step that they were held. Where floors have moved for some time, what is held alone on them has turned along.
+    // The sign of the zero tells the next step that they were held. Where floors have moved for some time, what is held alone on them has
+    // turned along.
     void LetGo(int block, float dt)
     {
         if (!mayHold[block])

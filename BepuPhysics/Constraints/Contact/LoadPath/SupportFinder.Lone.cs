@@ -5,14 +5,16 @@ namespace BepuPhysics.Constraints.Contact;
 
 // What rests alone on a static or a kinematic body.
 //
-// A body whose only constraint is a patch on what nothing pushes has nobody on it. If what its contacts bore in the last substep bears it now, there is nothing
-// to hand down either: its contacts are held here, by bundles, and the graph need not know of it. What has just been put down, or is about to slip, goes the
-// usual way, as friction knows its limit only once the load is there.
+// A body whose only constraint is a patch on what nothing pushes has nobody on it. If what its contacts bore in the last substep bears it
+// now, there is nothing to hand down either: its contacts are held here, by bundles, and the graph need not know of it. What has just
+// been put down, or is about to slip, goes the usual way, as friction knows its limit only once the load is there.
 //
-// So it is on a floor: all is as on the ground, seen from it. Where a game changes its velocities, what rests on it is pushed along as the graph's bodies are.
+// So it is on a floor: all is as on the ground, seen from it. Where a game changes its velocities, what rests on it is pushed along as
+// the graph's bodies are.
 readonly unsafe partial struct SupportFinder
 {
-    // Part of the greatest pull inwards, and change of velocity, for which a body is known to follow: arms that are kept are not quite where contacts are.
+    // Part of the greatest pull inwards, and change of velocity, for which a body is known to follow: arms that are kept are not quite
+    // where contacts are.
     const float SureShare = 0.9f;
 
     /// <summary>Which of some bodies are kinematic.</summary>
@@ -22,8 +24,9 @@ readonly unsafe partial struct SupportFinder
     static Vector<int> Turns(in Vector3Wide angular) => Vector.GreaterThan(
         Wide.Max(Wide.Abs(angular.X), Wide.Max(Wide.Abs(angular.Y), Wide.Abs(angular.Z))), Vector<float>.Zero);
 
-    // Whether A rests on a floor that takes it round slowly and changes its velocities by no more than A follows: all that the graph asks of what rests on a
-    // floor. What falls onto it goes the usual way, and so does what is pressed on by a floor that starts upwards at once.
+    // Whether A rests on a floor that takes it round slowly and changes its velocities by no more than A follows: all that the graph asks
+    // of what rests on a floor. What falls onto it goes the usual way, and so does what is pressed on by a floor that starts upwards at
+    // once.
     Vector<int> RestsOnFloor(
         in Vector3Wide velocity, in Vector3Wide gain, in Vector3Wide change, in Vector3Wide turnChange, in Vector3Wide turn, in Vector3Wide toB)
     {
@@ -50,8 +53,8 @@ readonly unsafe partial struct SupportFinder
         return Vector.GreaterThan(depth, new Vector<float>(count * LoadPathStage.LeastOverlap) * band);
     }
 
-    // Whether the warm start alone brings A to rest on what nothing pushes, as that takes it along in the middle of the substep, once it was pushed along for
-    // what the floor has changed. That A turns otherwise would be seen in the next step.
+    // Whether the warm start alone brings A to rest on what nothing pushes, as that takes it along in the middle of the substep, once it
+    // was pushed along for what the floor has changed. That A turns otherwise would be seen in the next step.
     Vector<int> IsBorne(
         int count, in SolverBodyWide body, in SolverBodyWide floor, in Vector3Wide toFloor, in Vector3Wide change, in Vector3Wide turnChange,
         in Vector3Wide normal, Vector<float>* impulses, Vector<float> gain, Vector<float> radius)
