@@ -104,6 +104,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         if (prestep.Material.Landing != Vector<float>.Zero)
         {
             var lands = Land(ref bodies, substep, ref prestep, ref impulses);
+            // Nothing is recovered either: a limit of that would divide by the scale of the mass.
+            softness.ErrorToVelocity = Wide.Mask(~lands, softness.ErrorToVelocity);
             softness.MassScale = Wide.Mask(~lands, softness.MassScale);
             softness.ImpulseScale = Wide.Mask(~lands, softness.ImpulseScale);
         }
