@@ -1,4 +1,5 @@
 using System.Numerics;
+using BepuPhysics.Constraints.Contact;
 using BepuUtilities;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -65,9 +66,17 @@ struct LoadHandover(BufferPool pool)
     /// <returns>Its number.</returns>
     public int AddSource(in ContactPatch patch, BufferPool pool)
     {
+        // The impulses of an impact are no load, and who takes over from what lands does not know of it.
+        var hasLanded = ContactMaterialWide.HasLanded(patch.Landing);
         for (int i = 0; i < patch.Count; ++i)
-            oldPoints.Add(new() { Arm = patch.Arms[i], Impulse = patch.Normals[i], Feature = patch.Features[i], Owner = sources.Count }, pool);
+            oldPoints.Add(new() { Arm = patch.Arms[i], Impulse = hasLanded ? 0 : patch.Normals[i], Feature = patch.Features[i], Owner = sources.Count }, pool);
         sources.Add(new() { Patch = patch, Heir = Nobody }, pool);
+        if (hasLanded)
+        {
+            ref var landed = ref sources[sources.Count - 1].Patch;
+            landed.Friction = default;
+            landed.Twist = 0;
+        }
         return sources.Count - 1;
     }
 
@@ -210,6 +219,7 @@ struct LoadHandover(BufferPool pool)
         if (target.Source >= 0)
         {
             load.WasHeld = sources[target.Source].Patch.WasHeld;
+            load.Landing = sources[target.Source].Patch.Landing;
             load.Normal = sources[target.Source].Patch.Normal;
             load.OffsetB = sources[target.Source].Patch.OffsetB;
             load.KnowsB = sources[target.Source].Patch.KnowsB;

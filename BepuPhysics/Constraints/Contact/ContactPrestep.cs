@@ -93,6 +93,9 @@ struct ContactMaterialWide
     static Vector<int> HasLanded(Vector<float> landing) => Vector.Equals(landing, new Vector<float>(LandsLast)) |
         (Vector.GreaterThan(landing, Vector<float>.Zero) & Vector.LessThanOrEqual(landing, new Vector<float>(LandsAgain)));
 
+    /// <summary>Whether the impulses of a patch are those of an impact.</summary>
+    internal static bool HasLanded(float landing) => landing is > 0 and <= LandsAgain or LandsLast;
+
     readonly Vector<int> IsRigid => Vector.Equals(SpringSettings.AngularFrequency, Vector<float>.Zero);
 
     // The sign says whether it was held.
