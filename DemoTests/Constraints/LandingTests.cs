@@ -151,4 +151,53 @@ public class LandingTests
             Assert.InRange(ball.Velocity.Angular.Z, -2.5f * slowed / radius - .1f, -2.5f * slowed / radius + .1f);
         }
     }
+
+    /// <summary>A limit of recovery, of nothing too, is none of what stops: what lands needs no recovery.</summary>
+    [Theory, InlineData(0), InlineData(1e-3f), InlineData(float.MaxValue)]
+    public void What_recovers_slowly_lands_all_the_same(float recovery)
+    {
+        const float speed = 10;
+        for (int i = 0; i < 8; ++i)
+        {
+            using var world = new TestWorld(new AccuracySettings { MaximumRecoveryVelocity = recovery });
+            world.AddStatic(new Box(100, 1, 100), new RigidPose(new Vector3(0, -.5f, 0)));
+            var tilt = Quaternion.CreateFromAxisAngle(Vector3.UnitX, .003f * (i - 4));
+            var pose = new RigidPose(new Vector3(0, .5f + speed * Dt * (1 + i / 8f), 0), tilt);
+            var cube = world.Bodies[world.AddDynamic(new Box(1, 1, 1), 1, pose, new BodyVelocity(new Vector3(0, -speed, 0)))];
+            for (int j = 0; j < 30; ++j)
+            {
+                world.Step();
+                Assert.InRange(cube.Pose.Position.Y, .5f - 3e-3f, float.MaxValue);
+            }
+        }
+    }
+
+    /// <summary>What falls on tiles and slides over them hands on no impulse of its impact: those that come into the patch would give it once more.</summary>
+    [Fact]
+    public void Nothing_is_thrown_up_by_the_next_tile()
+    {
+        const float tile = .3f, speed = 10;
+        const int count = 12;
+        var sum = 0f;
+        for (int i = 0; i < 16; ++i)
+        {
+            using var world = new TestWorld(new AccuracySettings { Friction = .3f });
+            for (int x = -count; x < count; ++x)
+            {
+                for (int z = -count; z < count; ++z)
+                    world.AddStatic(new Box(tile, 1, tile), new RigidPose(new Vector3(x * tile, -.5f, z * tile)));
+            }
+            var pose = new RigidPose(
+                new Vector3(i / 50f, .5f + speed * Dt * (1 + i / 16f), i / 90f), Quaternion.CreateFromAxisAngle(Vector3.UnitY, i));
+            var cube = world.Bodies[world.AddDynamic(new Box(1, 1, 1), 1, pose, new BodyVelocity(new Vector3(5, -speed, 1.5f)))];
+            var up = 0f;
+            for (int j = 0; j < 12; ++j)
+            {
+                world.Step();
+                up = j > 1 ? MathF.Max(up, cube.Velocity.Linear.Y) : 0;
+            }
+            sum += up / speed;
+        }
+        Assert.InRange(sum / 16, 0, .025f);
+    }
 }
