@@ -238,11 +238,18 @@ public sealed unsafe partial class Solver
         work.Substep = AddSubstep(ref work, substep, isRelaxation: false);
     }
 
+    // With one or two, what is a few centimetres long falls by so much in a substep that all of it would be an impact, and no load ever be found: heaps of
+    // 2 cm cubes sank in by three times as much.
+    const int LeastSubstepsForLanding = 4;
+
     int AddSubstep(ref SolveWork work, int substep, bool isRelaxation)
     {
         var scale = substep == 0 ? work.FirstWarmStartScale : 1;
         work.Substeps.Add(
-            new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt), pool);
+            new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt)
+            {
+                Lands = LastSubstepCount >= LeastSubstepsForLanding,
+            }, pool);
         return work.Substeps.Count - 1;
     }
 

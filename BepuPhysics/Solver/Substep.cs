@@ -25,6 +25,12 @@ public readonly struct Substep
     /// <summary>Whether the sweep comes after the bodies have moved, and brings rigid constraints to rest without correcting positions.</summary>
     public readonly bool IsRelaxation;
 
+    /// <summary>
+    /// Whether contacts may land, that is stop what comes fast at once: where there are so many substeps in a step that what gravity gives in one is
+    /// little beside what falls.
+    /// </summary>
+    internal bool Lands { get; init; }
+
     /// <summary>How stiff joints may be that are no servos.</summary>
     public readonly SubstepStiffness Joints;
     /// <summary>How stiff servos may be.</summary>

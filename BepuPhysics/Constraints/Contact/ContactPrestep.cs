@@ -65,7 +65,7 @@ struct ContactMaterialWide
     {
         var landing = Wide.Abs(SpringSettings.TwiceDampingRatio);
         var isFree = Vector.Equals(landing, Vector<float>.Zero) | Vector.Equals(landing, new Vector<float>(MayLand));
-        SetLanding(isFree & IsRigid, Wide.Mask(isFast, new Vector<float>(MayLand)));
+        SetLanding(isFree & (IsRigid | IsHeld), Wide.Mask(isFast & IsRigid, new Vector<float>(MayLand)));
     }
 
     /// <summary>Goes on to the next substep.</summary>

@@ -163,6 +163,8 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
             }
             var inverseDt = new Vector<float>(substep.InverseDt);
             row.Target = Wide.Min((depth - distance * new Vector<float>(LandingDepth)) * inverseDt, Vector<float>.Zero);
+            if (substep.IsRelaxation)
+                row.Target = Wide.Select(Vector.Equals(before.Normals[i], Vector<float>.Zero), new Vector<float>(float.MinValue), row.Target);
             // What a sweep would touch lands, so that none does.
             var velocity = VelocityAlong(bodies, n, row);
             var comes = Vector.LessThan(velocity, Wide.Min(depth * inverseDt, -least)) &

@@ -41,7 +41,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         if (substep.WarmStartScale != 1)
             Scale(ref impulses, new Vector<float>(substep.WarmStartScale));
         ForgetSpinning(bodies, substep, ref impulses);
-        if (substep.Index == 0)
+        if (substep.Index == 0 && substep.Lands)
             WatchLanding(ref bodies, substep, ref prestep);
         if (prestep.Material.Landing != Vector<float>.Zero)
             AdvanceLanding(ref prestep, ref impulses);
@@ -101,7 +101,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
         Unsafe.SkipInit(out Vector3Wide pressed);
         if (IsFlat && mayCarry)
             TurnSurface(ref bodies, substep, prestep.Normal, out pressed);
-        if (prestep.Material.Landing != Vector<float>.Zero)
+        if (substep.Lands && prestep.Material.Landing != Vector<float>.Zero)
         {
             var lands = Land(ref bodies, substep, ref prestep, ref impulses);
             // Nothing is recovered either: a limit of that would divide by the scale of the mass.
