@@ -30,6 +30,12 @@ public struct SolveDescription
     /// </remarks>
     public int RelaxationIterationCount;
     /// <summary>
+    /// Whether rigid contacts stop what comes fast at once, in steps of four substeps and more; not unless said otherwise. What falls flat at 10 m/s leaves
+    /// with a tenth of that and a spin without, and lies still with it. It is new: what is crushed, under great gravity or by a thousand times its mass, is
+    /// thrown farther by it.
+    /// </summary>
+    public bool StopsImpacts;
+    /// <summary>
     /// Whether loads of what rests on others are handed down to the ground in one go; <see cref="LoadPathMode.WhereNeeded"/> unless said otherwise.
     /// </summary>
     public LoadPathMode LoadPath;

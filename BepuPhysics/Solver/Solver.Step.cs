@@ -248,7 +248,7 @@ public sealed unsafe partial class Solver
         work.Substeps.Add(
             new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt)
             {
-                Lands = LastSubstepCount >= LeastSubstepsForLanding,
+                Lands = stopsImpacts && LastSubstepCount >= LeastSubstepsForLanding,
             }, pool);
         return work.Substeps.Count - 1;
     }

@@ -39,6 +39,7 @@ public sealed unsafe partial class Solver
     int substepCount;
     int relaxationIterationCount;
     LoadPathMode loadPath;
+    bool stopsImpacts;
 
     /// <summary>Sets of constraints: 0 is the active one, 1 has all that sleep.</summary>
     public Buffer<ConstraintSet> Sets;
@@ -112,6 +113,17 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>Whether rigid contacts stop what comes fast at once; see <see cref="SolveDescription.StopsImpacts"/>.</summary>
+    public bool StopsImpacts
+    {
+        get => stopsImpacts;
+        set
+        {
+            world.CheckChangeable("Solver.StopsImpacts");
+            stopsImpacts = value;
+        }
+    }
+
     /// <summary>Whether loads of what rests on others are handed down to the ground in one go.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
     public LoadPathMode LoadPath
@@ -156,6 +168,7 @@ public sealed unsafe partial class Solver
         substepCount = description.SubstepCount;
         relaxationIterationCount = description.RelaxationIterationCount;
         loadPath = description.LoadPath;
+        stopsImpacts = description.StopsImpacts;
         directJoints = description.DirectJoints;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
         governor = description.Governor;

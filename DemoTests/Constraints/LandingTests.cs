@@ -13,6 +13,13 @@ public class LandingTests
 {
     const float Dt = TestWorld.Dt;
 
+    static TestWorld Create(AccuracySettings settings)
+    {
+        var world = new TestWorld(settings);
+        world.Solver.StopsImpacts = true;
+        return world;
+    }
+
     public enum Faller { Cube, Board, Plate, Cylinder, Sphere, Capsule }
 
     // Half of its height, and the body; all are 1 m long or so at a size of 1.
@@ -42,7 +49,6 @@ public class LandingTests
             {
                 foreach (var speed in new[] { 1f, 3, 10, 30 })
                     data.Add(faller, speed, 1, 4);
-                data.Add(faller, 10, 1, 1);
                 data.Add(faller, 10, 1, 16);
                 data.Add(faller, 1, .01f, 4);
                 data.Add(faller, 100, 100, 4);
@@ -61,7 +67,7 @@ public class LandingTests
         var random = new Random(7);
         for (int i = 0; i < 8; ++i)
         {
-            using var world = new TestWorld(new AccuracySettings { SubstepCount = substeps });
+            using var world = Create(new AccuracySettings { SubstepCount = substeps });
             world.AddStatic(new Box(100 * size, size, 100 * size), new RigidPose(new Vector3(0, -.5f * size, 0)));
             var turn = Quaternion.CreateFromAxisAngle(Vector3.UnitY, 6 * random.NextSingle());
             var place = new Vector3(0, speed * Dt * (1 + random.NextSingle()), 0);
@@ -94,7 +100,7 @@ public class LandingTests
         {
             foreach (var byKinematic in new[] { false, true })
             {
-                using var world = new TestWorld(new AccuracySettings { Gravity = default });
+                using var world = Create(new AccuracySettings { Gravity = default });
                 var cube = new Box(1, 1, 1);
                 var hit = world.Bodies[world.AddDynamic(cube, 1, new RigidPose(default(Vector3)))];
                 var start = new RigidPose(new Vector3(-1 - speed * Dt * (1 + i / 8f), 0, 0));
@@ -118,7 +124,7 @@ public class LandingTests
         const float overlap = .1f;
         for (int i = 0; i < 8; ++i)
         {
-            using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = 0 });
+            using var world = Create(new AccuracySettings { Gravity = default, Friction = 0 });
             world.AddStatic(new Box(1, 1, 1), new RigidPose(new Vector3(length / 2 + .5f - overlap, -.5f - thickness / 2, 0)));
             var start = new RigidPose(new Vector3(0, speed * Dt * (1 + i / 8f), 0));
             var rod = world.Bodies[world.AddDynamic(
@@ -142,7 +148,7 @@ public class LandingTests
         var slowed = MathF.Min(friction * down, aside * 2 / 7);
         for (int i = 0; i < 8; ++i)
         {
-            using var world = new TestWorld(new AccuracySettings { Gravity = default, Friction = friction });
+            using var world = Create(new AccuracySettings { Gravity = default, Friction = friction });
             world.AddStatic(new Box(100, 1, 100), new RigidPose(new Vector3(0, -.5f, 0)));
             var start = new RigidPose(new Vector3(0, radius + down * Dt * (1 + i / 8f), 0));
             var ball = world.Bodies[world.AddDynamic(new Sphere(radius), 1, start, new BodyVelocity(new Vector3(aside, -down, 0)))];
@@ -159,7 +165,7 @@ public class LandingTests
         const float speed = 10;
         for (int i = 0; i < 8; ++i)
         {
-            using var world = new TestWorld(new AccuracySettings { MaximumRecoveryVelocity = recovery });
+            using var world = Create(new AccuracySettings { MaximumRecoveryVelocity = recovery });
             world.AddStatic(new Box(100, 1, 100), new RigidPose(new Vector3(0, -.5f, 0)));
             var tilt = Quaternion.CreateFromAxisAngle(Vector3.UnitX, .003f * (i - 4));
             var pose = new RigidPose(new Vector3(0, .5f + speed * Dt * (1 + i / 8f), 0), tilt);
@@ -181,7 +187,7 @@ public class LandingTests
         var sum = 0f;
         for (int i = 0; i < 16; ++i)
         {
-            using var world = new TestWorld(new AccuracySettings { Friction = .3f });
+            using var world = Create(new AccuracySettings { Friction = .3f });
             for (int x = -count; x < count; ++x)
             {
                 for (int z = -count; z < count; ++z)

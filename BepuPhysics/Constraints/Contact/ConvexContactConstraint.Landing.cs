@@ -16,8 +16,8 @@ namespace BepuPhysics.Constraints.Contact;
 readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals>
 {
     // Way of an approach in a substep, over the distance of the surface from the nearer centre, from which on it is an impact. A cube of
-    // 1 m at 240 substeps a second comes at .4 m/s then, and falls by 2e-4 of this distance in the substep in which it is let go.
-    const float LeastApproach = 2e-3f;
+    // 1 m at 240 substeps a second comes at .6 m/s then, and falls by 2e-4 of this distance in the substep in which it is let go.
+    const float LeastApproach = 3e-3f;
 
     // So many times as fast as that nothing comes by its load, but what is a few centimetres long and has one substep a step.
     const float VeryFast = 8;

