@@ -26,8 +26,8 @@ public readonly struct Substep
     public readonly bool IsRelaxation;
 
     /// <summary>
-    /// Whether contacts may land, that is stop what comes fast at once: where a game asks for it, and there are so many substeps in a step that what gravity gives in one is
-    /// little beside what falls.
+    /// Whether contacts may land, that is stop what comes fast at once: where a game asks for it, and there are so many substeps in a step that
+    /// what gravity gives in one is little beside what falls.
     /// </summary>
     internal bool Lands { get; init; }
 
