@@ -199,6 +199,22 @@ public struct BodySet
         column.Clear(0, WholeBundles(Count));
     }
 
+    /// <summary>Moves a body within a step, beside its velocity.</summary>
+    // Until the step ends the position is that of its beginning and what was travelled since.
+    internal void Move(int index, Vector3 way)
+    {
+        ref var origin = ref Origins[index].Position;
+        origin += way;
+        MotionStates[index].Pose.Position = origin + Displacements[index].Linear;
+    }
+
+    /// <summary>Turns a body within a step, beside its velocity; by so little that the sine is the angle.</summary>
+    internal void Turn(int index, Vector3 way)
+    {
+        ref var orientation = ref MotionStates[index].Pose.Orientation;
+        orientation = Exact.Normalize(Exact.Concatenate(orientation, new(way.X * 0.5f, way.Y * 0.5f, way.Z * 0.5f, 1)));
+    }
+
     /// <summary>Makes what the integrator keeps of a body agree with a pose that was written in the middle of a step.</summary>
     internal void Forget(int index)
     {

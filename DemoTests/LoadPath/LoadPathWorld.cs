@@ -20,12 +20,13 @@ sealed class LoadPathWorld : IDisposable
     readonly List<(BodyHandle Body, Vector3 Start)> boxes = [];
 
     public LoadPathWorld(LoadPathMode mode, Vector3? gravity = null, int substeps = 4, int relaxations = 0, int threads = 1, float frequency = 0,
-        float friction = Friction)
+        float friction = Friction, float maximumRecoveryVelocity = 2)
     {
         dispatcher = threads > 1 ? new ThreadDispatcher(threads) : null;
         Gravity = gravity ?? new Vector3(0, -9.81f, 0);
         var material = new DefaultNarrowPhaseCallbacks().Material;
         material.FrictionCoefficient = friction;
+        material.MaximumRecoveryVelocity = maximumRecoveryVelocity;
         if (frequency > 0)
             material.SpringSettings = new(frequency, 1);
         Simulation = Simulation.Create(pool, new DefaultNarrowPhaseCallbacks(material), new DefaultPoseIntegratorCallbacks(Gravity),

@@ -32,6 +32,7 @@ struct ContactMaterialWide
     const float LeastBand = 1e-30f;
     const int LoneBit = 1;
     const int RestBit = 2;
+    const int LiftBit = 4;
 
     /// <summary>
     /// Patches that are held for the step, by the load path: their frequency is negative, less half the width of the band, m, in which they know no
@@ -117,6 +118,9 @@ struct ContactMaterialWide
     /// <inheritdoc cref="TurnsAlong"/>
     internal static Vector<int> TurnsAlongOf(Vector<float> frequency) => HeldWith(frequency, LoneBit);
 
+    /// <summary>Held patches whose overlap is taken out of the poses, and not by a velocity: the last bit but two of some frequencies says so.</summary>
+    internal static Vector<int> IsLifted(Vector<float> frequency) => HeldWith(frequency, LiftBit);
+
     /// <summary>Of those that are held alone, patches whose body the warm start of this substep has brought to rest: the last bit but one.</summary>
     internal readonly Vector<int> IsAtRest => HeldWith(SpringSettings.AngularFrequency, RestBit);
 
@@ -135,14 +139,16 @@ struct ContactMaterialWide
     internal static Vector<float> HeldSpring(Vector<float> band, Vector<int> bit)
     {
         var bits = Vector.AsVectorInt32(-Wide.Max(band, new(LeastBand)));
-        return Vector.AsVectorSingle((bits & new Vector<int>(~(LoneBit | RestBit))) | (bit & new Vector<int>(LoneBit)));
+        return Vector.AsVectorSingle((bits & new Vector<int>(~(LoneBit | RestBit | LiftBit))) | (bit & new Vector<int>(LoneBit)));
     }
 
     /// <summary>The frequency of a held patch of a body that has other constraints too.</summary>
     /// <param name="band">Half the width of the band in which it knows no overlap, m.</param>
     /// <param name="turnsAlong">Whether it <see cref="TurnsAlong"/>; of two bodies.</param>
-    internal static float HeldSpring(float band, bool turnsAlong) => BitConverter.Int32BitsToSingle(
-        (BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit)) | (turnsAlong ? LoneBit : 0));
+    /// <param name="isLifted">Whether it <see cref="IsLifted"/>.</param>
+    internal static float HeldSpring(float band, bool turnsAlong, bool isLifted) => BitConverter.Int32BitsToSingle(
+        (BitConverter.SingleToInt32Bits(-MathHelper.Max(band, LeastBand)) & ~(LoneBit | RestBit | LiftBit)) |
+        (turnsAlong ? LoneBit : 0) | (isLifted ? LiftBit : 0));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static Vector<int> HeldWith(Vector<float> frequency, int bit)

@@ -108,21 +108,10 @@ readonly unsafe ref struct ContactRows
     }
 
     /// <summary>Moves a body.</summary>
-    // Within a step the position is that of its beginning and what was travelled since.
-    internal void Move(int body, Vector3 way)
-    {
-        ref var origin = ref set.Origins[body].Position;
-        origin += way;
-        set.MotionStates[body].Pose.Position = origin + set.Displacements[body].Linear;
-    }
+    internal void Move(int body, Vector3 way) => set.Move(body, way);
 
     /// <summary>Turns a body.</summary>
-    // By so little that the sine is the angle.
-    internal void Turn(int body, Vector3 way)
-    {
-        ref var orientation = ref set.MotionStates[body].Pose.Orientation;
-        orientation = Exact.Normalize(Exact.Concatenate(orientation, new(way.X * 0.5f, way.Y * 0.5f, way.Z * 0.5f, 1)));
-    }
+    internal void Turn(int body, Vector3 way) => set.Turn(body, way);
 
     /// <summary>Takes note of how a body was moved and turned.</summary>
     internal void NoteMove(int contact, float apart) => Depth(contact) -= apart;

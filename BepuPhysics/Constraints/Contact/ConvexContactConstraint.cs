@@ -264,8 +264,9 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     {
         softness.MassScale = Wide.Select(isHeld, Vector<float>.One, softness.MassScale);
         softness.ImpulseScale = Vector.AndNot(softness.ImpulseScale, Vector.AsVectorSingle(isHeld));
+        var recovery = new Vector<float>(substep.IsRelaxation ? 0 : HeldRecovery * substep.InverseDt);
         softness.ErrorToVelocity = Wide.Select(
-            isHeld, new Vector<float>(substep.IsRelaxation ? 0 : HeldRecovery * substep.InverseDt), softness.ErrorToVelocity);
+            isHeld, Wide.Mask(~ContactMaterialWide.IsLifted(angularFrequency), recovery), softness.ErrorToVelocity);
         return Wide.Mask(isHeld, -angularFrequency);
     }
 

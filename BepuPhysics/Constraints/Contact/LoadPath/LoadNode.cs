@@ -31,7 +31,13 @@ struct LoadNode
     public bool NeedsWork;
     /// <summary>Whether it overlaps what carries it, so far that it is worth waiting until it has been pushed out.</summary>
     public bool IsSunken;
+    /// <summary>Whether it overlaps what carries it by more than the band.</summary>
+    public bool Overlaps;
     /// <summary>Of the first body of an island: whether any of the island does.</summary>
+    public bool HasOverlaps;
+    /// <summary>How it is moved and turned out of what carries it in this step, m and rad.</summary>
+    public Vector3 Way, Turn;
+    /// <summary>Of the first body of an island: whether any of the island is sunken.</summary>
     public bool HasSunken;
     /// <summary>Whether it leans on others: its load goes down by no order.</summary>
     public bool Leans;
@@ -54,8 +60,8 @@ struct LoadNode
     // One by one: others may read meanwhile which body it is and where its supports are, which a new node would have for a moment as zero.
     internal void Begin()
     {
-        FloorChange = Lag = FloorTurnChange = Linear = Angular = default;
+        FloorChange = Lag = FloorTurnChange = Linear = Angular = Way = Turn = default;
         Radius = Gain = Tolerance = 0;
-        HasLoad = IsActive = NeedsWork = IsSunken = HasSunken = Tips = false;
+        HasLoad = IsActive = NeedsWork = IsSunken = HasSunken = Overlaps = HasOverlaps = Tips = false;
     }
 }

@@ -49,14 +49,15 @@ sealed unsafe partial class LoadPathStage
             bodies.Awake.Activity[graph.Nodes[graph.Islands[island]].Body].TimestepsUnderThresholdCount = 0;
     }
 
-    bool AnyIsSunken(int start, int end)
+    void FindOverlaps(int start, int end, ref LoadNode first)
     {
         for (int node = start; node < end; ++node)
         {
             if (graph.Nodes[node].IsSunken)
-                return true;
+                first.HasSunken = true;
+            if (graph.Nodes[node].Overlaps)
+                first.HasOverlaps = true;
         }
-        return false;
     }
 
     // On a body in the mean of its contacts, as what lands askew has most of it on one side. On the ground with all of them: a box on the uneven ground of a

@@ -13,6 +13,8 @@ sealed unsafe partial class LoadPathStage
         ref var first = ref graph.Nodes[start];
         if (substep.Index == 0 && first.HasSunken)
             KeepAwake(island);
+        if (substep.Index == 0 && first.HasOverlaps)
+            Lift(island, block, substep);
         first.IsActive = first.NeedsWork;
         first.NeedsWork = false;
         if (!first.IsActive)

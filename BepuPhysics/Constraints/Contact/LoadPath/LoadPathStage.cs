@@ -305,7 +305,9 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
                 ref var link = ref graph.Links[j];
                 var depth = GreatestDepth(link);
                 var band = BandOf(link, i, depth);
-                link.Spring = ContactMaterialWide.HeldSpring(band, turns);
+                var isLifted = depth > band && MayLift(node);
+                link.Spring = ContactMaterialWide.HeldSpring(band, turns, isLifted);
+                node.Overlaps |= isLifted;
                 node.IsSunken |= depth > LeastOverlap * band && IsSunken(link, band);
             }
         }
@@ -342,8 +344,8 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
         {
             ref var first = ref graph.Nodes[graph.Islands[island]];
             var endOfIsland = Math.Min(end, graph.Islands[island + 1]);
-            if (substep.Index == 0 && AnyIsSunken(start, endOfIsland))
-                first.HasSunken = true;
+            if (substep.Index == 0)
+                FindOverlaps(start, endOfIsland, ref first);
             // Who has the others of the island can but say the same.
             if (HasLoads(start, endOfIsland, first.IsActive, MotionOf(first, substep.Dt)))
                 first.NeedsWork = true;

@@ -38,7 +38,7 @@ static class LoadTransfer
         Clamp(supports);
     }
 
-    static Vector3 MeanNormal(Span<LoadSupport> supports, out float load)
+    internal static Vector3 MeanNormal(Span<LoadSupport> supports, out float load)
     {
         load = 0;
         Vector3 weighted = default, plain = default;
@@ -88,21 +88,11 @@ static class LoadTransfer
                         left += row * support.Before[i];
                         continue;
                     }
-                    system.XX += row.X * row.X;
-                    system.YX += row.Y * row.X;
-                    system.YY += row.Y * row.Y;
-                    system.ZX += row.Z * row.X;
-                    system.ZY += row.Z * row.Y;
-                    system.ZZ += row.Z * row.Z;
+                    AddSquare(ref system, row);
                 }
             }
-            var trace = system.XX + system.YY + system.ZZ;
-            if (!(trace > 0))
+            if (!TrySolve(system, left, out var multipliers))
                 break;
-            system.XX += trace * Regularization;
-            system.YY += trace * Regularization;
-            system.ZZ += trace * Regularization;
-            var multipliers = Symmetric3x3.Invert(system) * left;
             var changed = false;
             foreach (ref var support in supports)
             {
@@ -126,13 +116,36 @@ static class LoadTransfer
         }
     }
 
-    static Vector3 Row(in LoadSupport support, int contact, Vector3 normal, Vector3 x, Vector3 y, float inverseRadius)
+    internal static void AddSquare(ref Symmetric3x3 system, Vector3 row)
+    {
+        system.XX += row.X * row.X;
+        system.YX += row.Y * row.X;
+        system.YY += row.Y * row.Y;
+        system.ZX += row.Z * row.X;
+        system.ZY += row.Z * row.Y;
+        system.ZZ += row.Z * row.Z;
+    }
+
+    internal static bool TrySolve(Symmetric3x3 system, Vector3 goal, out Vector3 solution)
+    {
+        solution = default;
+        var trace = system.XX + system.YY + system.ZZ;
+        if (!(trace > 0))
+            return false;
+        system.XX += trace * Regularization;
+        system.YY += trace * Regularization;
+        system.ZZ += trace * Regularization;
+        solution = Symmetric3x3.Invert(system) * goal;
+        return true;
+    }
+
+    internal static Vector3 Row(in LoadSupport support, int contact, Vector3 normal, Vector3 x, Vector3 y, float inverseRadius)
     {
         var torque = Exact.Cross(support.Arms[contact], support.Normal) * inverseRadius;
         return new(Exact.Dot(support.Normal, normal), Exact.Dot(torque, x), Exact.Dot(torque, y));
     }
 
-    static void Axes(Vector3 normal, out Vector3 x, out Vector3 y)
+    internal static void Axes(Vector3 normal, out Vector3 x, out Vector3 y)
     {
         x = MathF.Abs(normal.X) < 0.7f ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
         x = Exact.Normalize(x - normal * Exact.Dot(x, normal));

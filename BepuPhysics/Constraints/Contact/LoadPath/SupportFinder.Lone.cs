@@ -16,6 +16,8 @@ readonly unsafe partial struct SupportFinder
     // Part of the greatest pull inwards, and change of velocity, for which a body is known to follow: arms that are kept are not quite
     // where contacts are.
     const float SureShare = 0.9f;
+    // Overlap of what rests alone, in half widths of the band in which held contacts know none.
+    const float GreatestLoneOverlap = 2;
 
     /// <summary>Which of some bodies are kinematic.</summary>
     internal static Vector<int> AreFixed(Vector<int> references) =>
@@ -44,13 +46,13 @@ readonly unsafe partial struct SupportFinder
     // What a floor has changed of the velocity of what moves along with it, at A.
     static Vector3Wide ChangeAt(in Vector3Wide change, in Vector3Wide turnChange, in Vector3Wide toB) => change + Vector3Wide.Cross(toB, turnChange);
 
-    // Whether A overlaps its floor by so much that it does not sleep until it is out, which the graph sees to.
-    static Vector<int> IsSunken(int count, Vector<float>* prestep, Vector<float> band)
+    // Whether A overlaps what it rests on by so much that it is moved out by the graph. What is less is taken out by a velocity: it does not matter.
+    static Vector<int> Overlaps(int count, Vector<float>* prestep, Vector<float> band)
     {
         var depth = ((ContactPrestepWide*)prestep)->Depth;
         for (int i = 1; i < count; ++i)
-            depth += ((ContactPrestepWide*)prestep)[i].Depth;
-        return Vector.GreaterThan(depth, new Vector<float>(count * LoadPathStage.LeastOverlap) * band);
+            depth = Wide.Max(depth, ((ContactPrestepWide*)prestep)[i].Depth);
+        return Vector.GreaterThan(depth, new Vector<float>(GreatestLoneOverlap) * band);
     }
 
     // Whether the warm start alone brings A to rest on what nothing pushes, as that takes it along in the middle of the substep, once it

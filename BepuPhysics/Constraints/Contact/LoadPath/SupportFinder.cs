@@ -209,9 +209,10 @@ readonly unsafe partial struct SupportFinder(
             // What callbacks give a floor in each substep is no change of the game's.
             var given = givenB.LengthSquared() + (bodyB.Angular - turnGivenB).LengthSquared();
             alone &= Vector.Equals(given, Vector<float>.Zero) | ~isFloor;
-            alone = Vector.AndNot(alone, IsSunken(count, prestep, band));
             turns = Turns(bodyB.Angular);
         }
+        if (alone != Vector<int>.Zero)
+            alone = Vector.AndNot(alone, Overlaps(count, prestep, band));
         if (alone != Vector<int>.Zero)
             alone &= IsBorne(count, bodyA, bodyB, offsetB, Vector3Wide.Mask(isFloor, gainB), turnGainB, normal, impulses, fastest, radius);
         if (alone != Vector<int>.Zero)

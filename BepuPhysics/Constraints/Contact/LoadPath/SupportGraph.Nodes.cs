@@ -119,6 +119,15 @@ unsafe partial struct SupportGraph
         return count;
     }
 
+    /// <summary>How many of the links that carry anything rest on a body.</summary>
+    internal readonly int CountAbove(int body)
+    {
+        int count = 0;
+        for (int i = above[body]; i >= 0; i = nextAbove[i])
+            count += byUpper[i].Carries ? 1 : 0;
+        return count;
+    }
+
     /// <summary>Island of a node.</summary>
     internal readonly int IslandOf(int node)
     {

@@ -101,4 +101,7 @@ unsafe struct SupportLink
 
     /// <summary>Angular frequency of the constraint's spring, which says how far it is held: see <see cref="ContactMaterialWide.IsHeld"/>.</summary>
     internal readonly ref float Spring => ref Prestep[ContactPrestepLayout.Spring(Count) * Vector<float>.Count];
+
+    /// <summary>Greatest speed at which penetration is corrected, m/s.</summary>
+    internal readonly float MaximumRecoveryVelocity => Prestep[ContactPrestepLayout.MaximumRecovery(Count) * Vector<float>.Count];
 }
