@@ -21,6 +21,12 @@ static class Invariant
             throw new PhysicsInvariantException($"Wrong {what} ({where}, {part}).");
     }
 
+    static void RequireId([DoesNotReturnIf(false)] bool condition, string fault, string what, int id)
+    {
+        if (!condition)
+            throw new PhysicsInvariantException($"Wrong {fault} of {what} ({id}).");
+    }
+
     internal static void Finite(Vector3 value, string what, int where)
     {
         if (!float.IsFinite(value.X) || !float.IsFinite(value.Y) || !float.IsFinite(value.Z))
@@ -42,13 +48,13 @@ static class Invariant
         for (int i = 0; i < ids.AvailableIdCount; ++i)
         {
             var id = ids.AvailableIds[i];
-            Require((uint)id < (uint)issued, $"free id of {what}", id);
-            Require(!free[id], $"twice free id of {what}", id);
+            RequireId((uint)id < (uint)issued, "free id", what, id);
+            RequireId(!free[id], "twice free id", what, id);
             free[id] = true;
         }
         for (int id = 0; id < issued; ++id)
-            Require(isInUse(id) != free[id], $"state of the id of {what}", id);
+            RequireId(isInUse(id) != free[id], "state of the id", what, id);
         for (int id = issued; id < idSpan; ++id)
-            Require(!isInUse(id), $"{what} beyond the ids that were given out", id);
+            RequireId(!isInUse(id), "use of an id that was not given out", what, id);
     }
 }
