@@ -50,18 +50,22 @@ sealed unsafe partial class ImpactStructures
     {
         if (island < 0 || isEntered[island])
             return;
+        var equations = Read(island, substep);
+        if (!TakeLost(island, equations))
+            return;
+        isEntered[island] = true;
+        ReadGains(island, pairs, groups);
+        FindGains(island, equations);
+    }
+
+    // The equations where the bodies are now; they are after velocities as the joints let them, with those that bodies have.
+    DirectEquations<OneVector, OneNumber> Read(int island, in Substep substep)
+    {
         ReadBodies(island);
         ReadJoints(island, substep);
         var equations = Equations(island);
         equations.Factor();
-        var memory = Memory(island);
-        if (!TakeLost(island, equations))
-            return;
-        isEntered[island] = true;
-        // From here on only changes are asked about, of which servos and motors leave nothing.
-        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
-            memory.Rows[i].Target = default;
-        FindGains(island, equations, pairs, groups);
+        return equations;
     }
 
     /// <summary>Puts back what the joints have yet to take; nothing where there is no structure, -1.</summary>
@@ -167,18 +171,43 @@ sealed unsafe partial class ImpactStructures
             for (int row = 0; row < node.RowCount; ++row)
             {
                 var jacobians = memory.Jacobians + node.Jacobian + row * node.BodyCount;
-                double along = 0;
                 for (int slot = 0; slot < node.BodyCount; ++slot)
                 {
                     ref var j = ref Unsafe.Add(ref rows[row].A, slot);
                     Write(ref jacobians[slot], new(j.Linear, j.Angular));
-                    var product = DirectPair<OneVector, OneNumber>.Multiply(jacobians[slot], memory.Bodies[node.Bodies[slot]].Velocity);
-                    var sum = OneVector.Sum(product);
-                    along += DirectLane.Of(ref sum, 0);
                 }
-                // What drives keeps the speed that it has.
-                memory.Rows[node.FirstRow + row] = new() { Softness = softness, Target = OneNumber.Of(hasBounds ? along : 0) };
+                memory.Rows[node.FirstRow + row] = new() { Softness = softness };
+                if (hasBounds)
+                    AimDriven(memory, node, row);
             }
+        }
+    }
+
+    // What drives keeps the speed that it has.
+    static void AimDriven(in DirectMemory<OneVector, OneNumber> memory, in DirectNode node, int row)
+    {
+        var jacobians = memory.Jacobians + node.Jacobian + row * node.BodyCount;
+        double along = 0;
+        for (int slot = 0; slot < node.BodyCount; ++slot)
+        {
+            var product = DirectPair<OneVector, OneNumber>.Multiply(jacobians[slot], memory.Bodies[node.Bodies[slot]].Velocity);
+            var sum = OneVector.Sum(product);
+            along += DirectLane.Of(ref sum, 0);
+        }
+        memory.Rows[node.FirstRow + row].Target = OneNumber.Of(along);
+    }
+
+    // Of bodies as they are, for equations that are there.
+    void ReadVelocities(int island)
+    {
+        var memory = Memory(island);
+        for (int i = plan.Islands[island].FirstBody; i < plan.Islands[island].EndBody; ++i)
+            Write(ref memory.Bodies[i].Velocity, bodies.Awake.MotionStates[parts[i].Reference & EncodedBody.IndexMask].Velocity);
+        for (int i = plan.Islands[island].FirstNode; i < plan.Islands[island].EndNode; ++i)
+        {
+            ref var node = ref plan.Nodes[i];
+            for (int row = 0; row < node.RowCount && solver.Processor(node.TypeId).LimitOf(0) != RowLimit.None; ++row)
+                AimDriven(memory, node, row);
         }
     }
 
@@ -210,9 +239,8 @@ sealed unsafe partial class ImpactStructures
     }
 
     // Of bodies that have no pair nobody knows it; as a rule all are in one field of gravity.
-    void FindGains(int island, in DirectEquations<OneVector, OneNumber> equations, ReadOnlySpan<BouncingPair> pairs, in ImpactGroups groups)
+    void ReadGains(int island, ReadOnlySpan<BouncingPair> pairs, in ImpactGroups groups)
     {
-        var memory = Memory(island);
         var (first, end) = PartsOf(island);
         Vector3 common = default;
         for (int i = end - 1; i >= first; --i)
@@ -221,16 +249,32 @@ sealed unsafe partial class ImpactStructures
             if (pair >= 0)
                 common = (pairs[pair].A == parts[i].Reference ? pairs[pair].GainA : pairs[pair].GainB).Linear;
         }
-        BeginBlow(island);
         for (int i = first; i < end; ++i)
         {
             var pair = groups.FirstOf(parts[i].Reference);
-            var gain = pair < 0 ? new(common, default) : pairs[pair].A == parts[i].Reference ? pairs[pair].GainA : pairs[pair].GainB;
-            Write(ref memory.Bodies[i].Velocity, gain);
+            parts[i].FreeGain = pair < 0 ? new(common, default) : pairs[pair].A == parts[i].Reference ? pairs[pair].GainA : pairs[pair].GainB;
         }
+    }
+
+    void FindGains(int island, in DirectEquations<OneVector, OneNumber> equations)
+    {
+        BeginChanges(island);
+        var memory = Memory(island);
+        var (first, end) = PartsOf(island);
+        for (int i = first; i < end; ++i)
+            Write(ref memory.Bodies[i].Velocity, parts[i].FreeGain);
         equations.Project();
         for (int i = first; i < end; ++i)
             parts[i].Gain = Read(memory.Bodies[i].Velocity);
+    }
+
+    // From here on only changes are asked about, of which servos and motors leave nothing.
+    void BeginChanges(int island)
+    {
+        var memory = Memory(island);
+        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
+            memory.Rows[i].Target = default;
+        BeginBlow(island);
     }
 
     static BodyVelocity Read(DirectPair<OneVector, OneNumber> velocity) => new(

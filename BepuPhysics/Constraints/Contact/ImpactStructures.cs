@@ -34,8 +34,12 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         public BodyInertia Inertia;
         // What is missing to the velocity that it had before its joints took their part.
         public BodyVelocity Lost;
-        // What the acceleration of a substep gives it in its joints.
+        // What the acceleration of a substep gives it, and in its joints.
+        public BodyVelocity FreeGain;
         public BodyVelocity Gain;
+        // What the impact that is being made adds to its velocity, and that as the joints let it halfway (ImpactStructures.Ways.cs).
+        public BodyVelocity Change;
+        public BodyVelocity Path;
     }
 
     DirectPlan plan;

@@ -48,10 +48,10 @@ sealed unsafe partial class Restitution
                 return;
             if (!owner.structures.IsEmpty)
                 EnterStructures(group, substep);
-            MakeImpacts(substep.Dt);
+            MakeImpacts(substep);
             Separate(group, substep.Dt);
             // Who was in the way.
-            MakeImpacts(substep.Dt);
+            MakeImpacts(substep);
             LeaveSupports();
             if (!owner.structures.IsEmpty)
                 LeaveStructures(group);
@@ -68,8 +68,9 @@ sealed unsafe partial class Restitution
             }
         }
 
-        void MakeImpacts(float dt)
+        void MakeImpacts(in Substep substep)
         {
+            var dt = substep.Dt;
             while (!queue.IsEmpty)
             {
                 var first = queue.First;
@@ -87,6 +88,9 @@ sealed unsafe partial class Restitution
                 for (int i = 0; i < impact.PairCount && Pairs[first].Coefficient > 0; ++i)
                     JoinNeighbours(impact.Pair(i), time, dt);
                 impact.Solve();
+                var contacts = owner.Contacts(Pairs[first]);
+                if (impact.HasStructures)
+                    FindPaths(contacts, time, substep);
                 for (int i = 0; i < impact.PairCount; ++i)
                 {
                     ref var pair = ref Pairs[impact.Pair(i)];
@@ -97,7 +101,6 @@ sealed unsafe partial class Restitution
                     if (impact.HasStructures && impact.IsHeld(i))
                         pair.ImpactCount = MaximumImpacts;
                 }
-                var contacts = owner.Contacts(Pairs[first]);
                 for (int i = 0; i < impact.BodyCount; ++i)
                 {
                     if (!impact.TryGetChange(i, out var body, out var change))
@@ -106,7 +109,7 @@ sealed unsafe partial class Restitution
                 }
                 if (impact.HasStructures)
                 {
-                    PushStructures(contacts, time);
+                    PushStructures(contacts, time, substep);
                     LookAtPairsOfAll(dt);
                     continue;
                 }

@@ -38,24 +38,48 @@ sealed unsafe partial class Restitution
             }
         }
 
-        // What the impact has made of all bodies of the structures that take part.
-        readonly void PushStructures(in ContactRows contacts, float time)
+        // Half of their way, for what joints let them do there; then what the impact owes for the whole of it (ImpactStructures.Ways.cs).
+        readonly void FindPaths(in ContactRows contacts, float time, in Substep substep)
         {
+            float owed = 0;
             for (int i = 0; i < impact.BodyCount; ++i)
             {
                 if (!impact.TryGetStructure(i, out var island))
                     continue;
                 owner.structures.NoteBlow(island);
+                owner.structures.KeepBlow(island);
+                var (first, end) = owner.structures.PartsOf(island);
+                for (int part = first; part < end; ++part)
+                    ShiftPart(contacts, owner.structures.BodyOf(part), Times(owner.structures.KeptChangeOf(part), time * -0.5f));
+                owed += owner.structures.FindPaths(island, substep) * time;
+            }
+            var scale = impact.Pay(owed);
+            for (int i = 0; i < impact.BodyCount; ++i)
+            {
+                if (scale != 1 && impact.TryGetStructure(i, out var island))
+                    owner.structures.ScaleBlow(island, scale);
+            }
+        }
+
+        // What the impact has made of all bodies of the structures that take part.
+        readonly void PushStructures(in ContactRows contacts, float time, in Substep substep)
+        {
+            for (int i = 0; i < impact.BodyCount; ++i)
+            {
+                if (!impact.TryGetStructure(i, out var island))
+                    continue;
+                owner.structures.Turn(island);
                 var (first, end) = owner.structures.PartsOf(island);
                 for (int part = first; part < end; ++part)
                 {
-                    var change = owner.structures.ChangeOf(part);
-                    var body = owner.structures.BodyOf(part);
-                    contacts.Push(body, change);
-                    ShiftPart(contacts, body, new(change.Linear * -time, change.Angular * -time));
+                    var half = Times(owner.structures.KeptChangeOf(part), 0.5f);
+                    ShiftPart(contacts, owner.structures.BodyOf(part), Times(Difference(owner.structures.PathOf(part), half), -time));
                 }
+                owner.structures.Reenter(island, substep);
             }
         }
+
+        static BodyVelocity Times(in BodyVelocity velocity, float factor) => new(velocity.Linear * factor, velocity.Angular * factor);
 
         // A body in joints has to be turned with its structure: moved alone it would leave them.
         readonly void ShiftPart(in ContactRows contacts, int body, in BodyVelocity way)

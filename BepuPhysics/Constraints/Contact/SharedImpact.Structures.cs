@@ -1,3 +1,5 @@
+using BepuUtilities;
+
 namespace BepuPhysics.Constraints.Contact;
 
 // Impacts of bodies that take structures of joints along. What an impulse of one row adds to the velocities of all is worked out once for each row, by a solve
@@ -128,6 +130,32 @@ unsafe partial struct SharedImpact
                     bodies[j].Change = structures.ChangeOf(bodies[j].Part);
             }
         }
+    }
+
+    /// <summary>Bounces by so much less that an energy is paid; what does not bounce pays nothing.</summary>
+    /// <param name="owed">The energy, J; nothing is given back where it is negative.</param>
+    /// <returns>The scale of the blow.</returns>
+    // With impulses x and relative velocities u before and u' after, x as much more adds the energy x u'.
+    internal readonly float Pay(float owed)
+    {
+        if (!(owed > 0))
+            return 1;
+        var coefficient = 1f;
+        for (int i = 0; i < patches.Count; ++i)
+            coefficient = MathHelper.Min(coefficient, patches[i].Coefficient);
+        float returned = 0;
+        for (int i = 0; i < rows.Count; ++i)
+        {
+            ref var row = ref rows[i];
+            returned += row.Impulse * (row.Before + row.Along.Along(bodies[row.A].Change, bodies[row.B].Change));
+        }
+        var most = coefficient / (1 + coefficient);
+        var scale = 1 - (owed < most * returned ? owed / returned : most);
+        for (int i = 0; i < rows.Count; ++i)
+            rows[i].Impulse *= scale;
+        for (int i = 0; i < bodies.Count; ++i)
+            bodies[i].Change = new(bodies[i].Change.Linear * scale, bodies[i].Change.Angular * scale);
+        return scale;
     }
 
     /// <summary>Whether joints leave a pair that takes part nothing to stop.</summary>
