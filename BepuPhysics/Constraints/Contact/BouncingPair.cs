@@ -1,4 +1,5 @@
 using System.Numerics;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
 
@@ -38,6 +39,8 @@ struct BouncingPair
     public bool IsLoaded;
     /// <summary>Whether the surfaces overlap, and carry no load.</summary>
     public bool Overlaps;
+    /// <summary>Whether they overlap, do not part by themselves, and are in joints.</summary>
+    public bool Stays;
     /// <summary>Whether one of the bodies is in a structure of joints; known from the first impact of a step on.</summary>
     public bool IsInStructure;
     /// <summary>Whether it takes part in the impact that is being made.</summary>
@@ -62,6 +65,9 @@ struct BouncingPair
     public BodyVelocity GainA;
     /// <summary>As <see cref="GainA"/>, of B.</summary>
     public BodyVelocity GainB;
+
+    /// <summary>Square of the greater one of what gravity adds to the speeds of the two in a substep, (m/s)^2.</summary>
+    public readonly float GainSquared => MathHelper.Max(Exact.LengthSquared(GainA.Linear), Exact.LengthSquared(GainB.Linear));
 
     /// <summary>What is in the velocity of A, while impacts are made, of what the substep has added to it.</summary>
     public readonly BodyVelocity GainInA => RestsA ? default : GainA;

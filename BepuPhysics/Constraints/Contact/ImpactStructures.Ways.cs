@@ -104,6 +104,7 @@ sealed unsafe partial class ImpactStructures
         }
         ReadVelocities(island);
         isEntered[island] = TakeLost(island, equations);
+        BeginChanges(island);
     }
 
     // What joints take of the gain.

@@ -49,6 +49,8 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
     QuickList<Part> parts;
     // Of each island, whether its equations are those of the present substep.
     QuickList<bool> isEntered;
+    // Of each island, whether it rests on something, while that is asked.
+    QuickList<bool> isBorne;
     // The structure that is being looked for.
     QuickList<int> found;
     QuickList<DirectNode> joints;
@@ -66,10 +68,21 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
     /// <summary>Those of the bodies of a pair, or -1.</summary>
     internal (int A, int B) IslandsOf(in BouncingPair pair) => (IslandOf(pair.A), pair.B >= 0 ? IslandOf(pair.B) : Alone);
 
+    /// <summary>Whether a structure has been noted to rest on something; not where there is none, -1.</summary>
+    internal bool IsBorne(int island) => island >= 0 && isBorne[island];
+
+    /// <summary>Notes whether a structure rests on something.</summary>
+    internal void NoteBorne(int island, bool value)
+    {
+        if (island >= 0)
+            isBorne[island] = value;
+    }
+
     /// <summary>Finds those of the bodies of some pairs.</summary>
     internal void Find(ref QuickList<BouncingPair> pairs)
     {
         isEntered.Count = 0;
+        isBorne.Count = 0;
         if (!AnyJoints())
             return;
         MakeLists();
@@ -101,6 +114,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         places = new(16, pool);
         parts = new(16, pool);
         isEntered = new(4, pool);
+        isBorne = new(4, pool);
         found = new(16, pool);
         joints = new(16, pool);
         handles = new(16, pool);
@@ -212,6 +226,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
                 places[found[i]] = first + i;
         }
         isEntered.Add(false, pool);
+        isBorne.Add(false, pool);
         return true;
     }
 
@@ -224,6 +239,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         places.Dispose(pool);
         parts.Dispose(pool);
         isEntered.Dispose(pool);
+        isBorne.Dispose(pool);
         found.Dispose(pool);
         joints.Dispose(pool);
         handles.Dispose(pool);
@@ -236,6 +252,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         places = default;
         parts = default;
         isEntered = default;
+        isBorne = default;
         found = default;
         joints = default;
         handles = default;

@@ -60,6 +60,8 @@ sealed unsafe partial class Restitution
 
         readonly void HideOverlaps(int group)
         {
+            if (!owner.structures.IsEmpty)
+                ShowStructures(group);
             for (int i = 0; i < owner.groups.CountOf(group); ++i)
             {
                 ref var pair = ref Pairs[owner.groups.Pair(group, i)];

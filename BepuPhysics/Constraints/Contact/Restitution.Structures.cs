@@ -25,6 +25,39 @@ sealed unsafe partial class Restitution
             }
         }
 
+        // The solver is told of the overlaps of structures that lie on something, and of those without weight, which nothing else would bring apart: what swings
+        // or falls would be pushed apart with a speed that its bounces keep.
+        readonly void ShowStructures(int group)
+        {
+            var any = false;
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+                any |= Pairs[owner.groups.Pair(group, i)].Stays;
+            if (!any)
+                return;
+            NoteBorne(group, true);
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                var (a, b) = pair.Stays ? owner.structures.IslandsOf(pair) : default;
+                if (pair.Stays && (!(pair.GainSquared > 0) || owner.structures.IsBorne(a) || owner.structures.IsBorne(b)))
+                    pair.Overlaps = false;
+            }
+            NoteBorne(group, false);
+        }
+
+        readonly void NoteBorne(int group, bool isBorne)
+        {
+            for (int i = 0; i < owner.groups.CountOf(group); ++i)
+            {
+                ref var pair = ref Pairs[owner.groups.Pair(group, i)];
+                if (!pair.IsLoaded || !pair.IsInStructure)
+                    continue;
+                var (a, b) = owner.structures.IslandsOf(pair);
+                owner.structures.NoteBorne(a, isBorne);
+                owner.structures.NoteBorne(b, isBorne);
+            }
+        }
+
         readonly void LeaveStructures(int group)
         {
             for (int i = 0; i < owner.groups.CountOf(group); ++i)

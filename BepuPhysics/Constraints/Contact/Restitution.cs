@@ -223,8 +223,10 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pair.Speed = 0;
         pair.Overlap = 0;
         pair.Overlaps = false;
+        pair.Stays = false;
         var stays = false;
-        var earliest = pair.IsLoaded ? 0 : -dt * solver.LastSubstepCount;
+        // Who is in joints bounces where he is: what is moved along joints for so long is moved uphill, and others of its structure into who is in the way.
+        var earliest = pair.IsLoaded || pair.IsInStructure ? 0 : -dt * solver.LastSubstepCount;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             var gap = contacts.Gap(i, pair.Rows[i]);
@@ -249,10 +251,10 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             pair.Time = time;
             pair.Speed = speed;
         }
-        // To move one body out of an overlap is to move all of its structure, some of it into others: the solver is told.
+        // To move one body out of an overlap is to move all of its structure, some of it into others.
         if (!stays || !pair.IsInStructure)
             return;
-        pair.Overlaps = false;
+        pair.Stays = true;
         pair.Overlap = 0;
     }
 
@@ -266,7 +268,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
 
     static bool IsLoaded(in BouncingPair pair, in ContactRows contacts)
     {
-        var weight = MathHelper.Max(Exact.LengthSquared(pair.GainA.Linear), Exact.LengthSquared(pair.GainB.Linear));
+        var weight = pair.GainSquared;
         if (!(weight > 0))
             return false;
         var load = contacts.Load * (contacts.InertiaA.InverseMass + contacts.InertiaB.InverseMass);
