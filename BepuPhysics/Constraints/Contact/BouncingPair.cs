@@ -37,9 +37,11 @@ struct BouncingPair
     public float Overlap;
     /// <summary>Whether the constraint carries a load in this substep.</summary>
     public bool IsLoaded;
-    /// <summary>Whether the surfaces overlap, and carry no load.</summary>
+    /// <summary>Whether the surfaces overlap, and the solver is not told: they carry no load, or hang in joints.</summary>
     public bool Overlaps;
-    /// <summary>Whether they overlap, do not part by themselves, and are in joints.</summary>
+    /// <summary>How far it may overlap by its load, m.</summary>
+    public float Sunk;
+    /// <summary>Whether they overlap, and do not part by themselves or carry a load, and are in joints.</summary>
     public bool Stays;
     /// <summary>Whether one of the bodies is in a structure of joints; known from the first impact of a step on.</summary>
     public bool IsInStructure;

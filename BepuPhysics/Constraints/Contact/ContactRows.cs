@@ -124,12 +124,12 @@ readonly unsafe ref struct ContactRows
             Depth(i) -= apart;
     }
 
-    /// <summary>Takes all overlap out of the rows.</summary>
-    internal void Hide(ref FourFloats hidden)
+    /// <summary>Takes the overlap beyond a depth out of the rows.</summary>
+    internal void Hide(ref FourFloats hidden, float depth)
     {
         for (int i = 0; i < contactCount; ++i)
         {
-            hidden[i] = MathHelper.Max(0, -Gap(i, NormalRow(i)));
+            hidden[i] = MathHelper.Max(0, -Gap(i, NormalRow(i)) - depth);
             Depth(i) -= hidden[i];
         }
     }

@@ -66,7 +66,7 @@ sealed unsafe partial class Restitution
             {
                 ref var pair = ref Pairs[owner.groups.Pair(group, i)];
                 if (pair.Overlaps)
-                    owner.Contacts(pair).Hide(ref pair.Hidden);
+                    owner.Contacts(pair).Hide(ref pair.Hidden, pair.Sunk);
             }
         }
 

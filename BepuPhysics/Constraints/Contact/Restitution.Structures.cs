@@ -52,7 +52,10 @@ sealed unsafe partial class Restitution
                 ref var pair = ref Pairs[owner.groups.Pair(group, i)];
                 if (!pair.IsLoaded || !pair.IsInStructure)
                     continue;
+                // What presses against each other as it hangs is not borne by it.
                 var (a, b) = owner.structures.IslandsOf(pair);
+                if (a >= 0 && b >= 0)
+                    continue;
                 owner.structures.NoteBorne(a, isBorne);
                 owner.structures.NoteBorne(b, isBorne);
             }

@@ -37,6 +37,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     // Part of the speed at which two bodies were stopped below which they are not stopped again in the same substep: neighbours push each other on by ever
     // less, and the solver stops what is left. What does not give way stops all: it is met at corners, with something else in turn.
     const float StoppedShare = 1 / 16f;
+    // What a rigid contact gives way under the weight of a body, of the way that it falls in a substep: 1 / (w h)^2.
+    const float SunkShare = 1.6f;
     // Part of the least hit of a pair up to which the solver takes out its overlaps.
     const float OverlapShare = 1e-2f;
     // Speed of approach over speed of the bodies that may be rounding.
@@ -192,6 +194,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             }
             pair.Stopped = 0;
             pair.IsLoaded = IsLoaded(pair, contacts);
+            pair.Sunk = pair.IsLoaded ? SunkShare * MathF.Sqrt(pair.GainSquared) * substep.Dt : 0;
             Predict(ref pair, contacts, substep.Dt);
             // Whichever block writes it writes the same.
             if (pair.Time < BouncingPair.Never || pair.Overlaps)
@@ -231,7 +234,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         {
             var gap = contacts.Gap(i, pair.Rows[i]);
             var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
-            if (gap < -OverlapShare * pair.LeastHit && !pair.IsLoaded)
+            if (gap < -MathHelper.Max(OverlapShare * pair.LeastHit, pair.Sunk) && (!pair.IsLoaded || pair.IsInStructure))
             {
                 pair.Overlaps = true;
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
@@ -252,7 +255,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             pair.Speed = speed;
         }
         // To move one body out of an overlap is to move all of its structure, some of it into others.
-        if (!stays || !pair.IsInStructure)
+        if (!pair.IsInStructure || !(pair.IsLoaded ? pair.Overlaps : stays))
             return;
         pair.Stays = true;
         pair.Overlap = 0;
