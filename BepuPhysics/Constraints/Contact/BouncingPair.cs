@@ -41,6 +41,8 @@ struct BouncingPair
     public bool Overlaps;
     /// <summary>How far it may overlap by its load, m.</summary>
     public float Sunk;
+    /// <summary>Whether it carries a load, and overlaps by more.</summary>
+    public bool Presses;
     /// <summary>Whether they overlap, and do not part by themselves or carry a load, and are in joints.</summary>
     public bool Stays;
     /// <summary>Whether one of the bodies is in a structure of joints; known from the first impact of a step on.</summary>

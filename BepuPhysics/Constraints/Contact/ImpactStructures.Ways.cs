@@ -20,6 +20,11 @@ sealed unsafe partial class ImpactStructures
         var (first, end) = PartsOf(island);
         for (int i = first; i < end; ++i)
             parts[i].Change = ChangeOf(i);
+        // What drives keeps the speed that it has here.
+        ReadVelocities(island);
+        var memory = Memory(island);
+        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
+            driven[i] = memory.Rows[i].Target;
     }
 
     /// <summary>What the blow adds to the velocity of a part.</summary>
@@ -74,8 +79,10 @@ sealed unsafe partial class ImpactStructures
             velocity.Angular += parts[i].Change.Angular - parts[i].Gain.Angular * 0.5f;
         }
         ReadVelocities(island);
-        Equations(island).Project();
         var memory = Memory(island);
+        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
+            memory.Rows[i].Target = driven[i];
+        Equations(island).Project();
         for (int i = first; i < end; ++i)
         {
             ref var velocity = ref set.MotionStates[parts[i].Reference].Velocity;

@@ -49,6 +49,8 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
     QuickList<Part> parts;
     // Of each island, whether its equations are those of the present substep.
     QuickList<bool> isEntered;
+    // Of each row, the speed at which it drives where the structure was hit.
+    QuickList<OneNumber> driven;
     // Of each island, whether it rests on something, while that is asked.
     QuickList<bool> isBorne;
     // The structure that is being looked for.
@@ -101,6 +103,9 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         pool.ReturnIfTaken(ref memory);
         pool.Take(plan.MemoryCount, out memory);
         memory.Clear(0, plan.MemoryCount);
+        var rowCount = plan.Islands[plan.Islands.Count - 1].EndRow;
+        driven.EnsureCapacity(rowCount, pool);
+        driven.Count = rowCount;
     }
 
     void MakeLists()
@@ -115,12 +120,14 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         parts = new(16, pool);
         isEntered = new(4, pool);
         isBorne = new(4, pool);
+        driven = new(16, pool);
         found = new(16, pool);
         joints = new(16, pool);
         handles = new(16, pool);
     }
 
-    bool AnyJoints()
+    /// <summary>Whether any body is in a joint that may hold in no time.</summary>
+    internal bool AnyJoints()
     {
         foreach (ref var batch in solver.ActiveSet.Batches.AsSpan())
         {
@@ -240,6 +247,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         parts.Dispose(pool);
         isEntered.Dispose(pool);
         isBorne.Dispose(pool);
+        driven.Dispose(pool);
         found.Dispose(pool);
         joints.Dispose(pool);
         handles.Dispose(pool);
@@ -253,6 +261,7 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         parts = default;
         isEntered = default;
         isBorne = default;
+        driven = default;
         found = default;
         joints = default;
         handles = default;

@@ -84,6 +84,8 @@ sealed unsafe partial class Restitution
                     continue;
                 owner.structures.NoteBlow(island);
                 owner.structures.KeepBlow(island);
+                if (!impact.GoesAlongJoints)
+                    continue;
                 var (first, end) = owner.structures.PartsOf(island);
                 for (int part = first; part < end; ++part)
                     ShiftPart(contacts, owner.structures.BodyOf(part), Times(owner.structures.KeptChangeOf(part), time * -0.5f));
@@ -104,14 +106,21 @@ sealed unsafe partial class Restitution
             {
                 if (!impact.TryGetStructure(i, out var island))
                     continue;
-                owner.structures.Turn(island);
+                var alongJoints = impact.GoesAlongJoints;
+                if (alongJoints)
+                    owner.structures.Turn(island);
                 var (first, end) = owner.structures.PartsOf(island);
                 for (int part = first; part < end; ++part)
                 {
-                    var half = Times(owner.structures.KeptChangeOf(part), 0.5f);
-                    ShiftPart(contacts, owner.structures.BodyOf(part), Times(Difference(owner.structures.PathOf(part), half), -time));
+                    var body = owner.structures.BodyOf(part);
+                    var change = owner.structures.KeptChangeOf(part);
+                    if (!alongJoints)
+                        contacts.Push(body, change);
+                    var way = alongJoints ? Difference(owner.structures.PathOf(part), Times(change, 0.5f)) : change;
+                    ShiftPart(contacts, body, Times(way, -time));
                 }
-                owner.structures.Reenter(island, substep);
+                if (alongJoints)
+                    owner.structures.Reenter(island, substep);
             }
         }
 

@@ -50,6 +50,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     bool isLinked;
     bool anyMeets;
     bool anySleeps;
+    // Without, nobody looks for them.
+    bool anyJoints;
 
     /// <summary>What impacts of a substep have made of bodies, by their index in the active set; nothing where nobody asks for it.</summary>
     internal QuickList<Strike> Strikes;
@@ -123,6 +125,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         anyMeets = false;
         if (anySleeps)
             ForgetSleepers();
+        anyJoints = pairs.Count > 0 && structures.AnyJoints();
         return pairs.Count > 0;
     }
 
@@ -197,7 +200,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
             pair.Sunk = pair.IsLoaded ? SunkShare * MathF.Sqrt(pair.GainSquared) * substep.Dt : 0;
             Predict(ref pair, contacts, substep.Dt);
             // Whichever block writes it writes the same.
-            if (pair.Time < BouncingPair.Never || pair.Overlaps)
+            if (pair.Time < BouncingPair.Never || pair.Overlaps || (pair.Presses && anyJoints))
                 anyMeets = true;
         }
     }
@@ -227,6 +230,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pair.Overlap = 0;
         pair.Overlaps = false;
         pair.Stays = false;
+        pair.Presses = false;
         var stays = false;
         // Who is in joints bounces where he is: what is moved along joints for so long is moved uphill, and others of its structure into who is in the way.
         var earliest = pair.IsLoaded || pair.IsInStructure ? 0 : -dt * solver.LastSubstepCount;
@@ -234,7 +238,9 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         {
             var gap = contacts.Gap(i, pair.Rows[i]);
             var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
-            if (gap < -MathHelper.Max(OverlapShare * pair.LeastHit, pair.Sunk) && (!pair.IsLoaded || pair.IsInStructure))
+            var overlaps = gap < -MathHelper.Max(OverlapShare * pair.LeastHit, pair.Sunk);
+            pair.Presses |= overlaps && pair.IsLoaded;
+            if (overlaps && (!pair.IsLoaded || pair.IsInStructure))
             {
                 pair.Overlaps = true;
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.

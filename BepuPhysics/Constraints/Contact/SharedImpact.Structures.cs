@@ -175,6 +175,20 @@ unsafe partial struct SharedImpact
     /// <summary>Whether any body that takes part is in a structure of joints.</summary>
     internal readonly bool HasStructures => hasStructures;
 
+    /// <summary>Whether structures that take part are moved along their joints: what does not bounce goes on with who stopped it, wherever that is.</summary>
+    internal readonly bool GoesAlongJoints
+    {
+        get
+        {
+            for (int i = 0; i < patches.Count; ++i)
+            {
+                if (patches[i].Coefficient > Restitution.LeastCoefficient)
+                    return hasStructures;
+            }
+            return false;
+        }
+    }
+
     /// <summary>The structure of a body, if it is the first one of it.</summary>
     /// <param name="index">Which of those that take part.</param>
     /// <param name="island">The structure, whose last blow is that of the impact.</param>
