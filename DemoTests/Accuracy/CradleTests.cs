@@ -2,7 +2,6 @@ using System;
 using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
-using BepuPhysics.CollisionDetection;
 using BepuPhysics.Constraints;
 using BepuUtilities.Memory;
 using Xunit;
@@ -21,7 +20,6 @@ public class CradleTests(ITestOutputHelper output)
         BallSocket,
         TwoBallSockets,
         TwoCenterDistances,
-        TwoDistanceServos,
     }
 
     sealed class Cradle : IDisposable
@@ -63,8 +61,6 @@ public class CradleTests(ITestOutputHelper output)
                 var distance = MathF.Sqrt(Length * Length + half * half) * scale;
                 if (hanger == Hanger.TwoCenterDistances)
                     Simulation.Solver.Add(anchor, ball, new CenterDistanceConstraint(distance, SpringSettings.Rigid));
-                else if (hanger == Hanger.TwoDistanceServos)
-                    Simulation.Solver.Add(anchor, ball, new DistanceServo(default, default, distance, SpringSettings.Rigid, ServoSettings.Default));
                 else
                     Simulation.Solver.Add(anchor, ball, new BallSocket { LocalOffsetB = (new Vector3(0, Length, 0) + offset) * scale });
             }

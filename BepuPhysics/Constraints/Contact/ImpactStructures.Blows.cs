@@ -50,11 +50,11 @@ sealed unsafe partial class ImpactStructures
     {
         if (island < 0 || isEntered[island])
             return;
+        ReadGains(island, pairs, groups);
         var equations = Read(island, substep);
         if (!TakeLost(island, equations))
             return;
         isEntered[island] = true;
-        ReadGains(island, pairs, groups);
         FindGains(island, equations);
     }
 
@@ -178,19 +178,23 @@ sealed unsafe partial class ImpactStructures
                 }
                 memory.Rows[node.FirstRow + row] = new() { Softness = softness };
                 if (hasBounds)
-                    AimDriven(memory, node, row);
+                    AimDriven(memory, node, row, -1);
             }
         }
     }
 
-    // What drives keeps the speed that it has.
-    static void AimDriven(in DirectMemory<OneVector, OneNumber> memory, in DirectNode node, int row)
+    // What drives keeps the speed that it has, or has without what the substep has added to it.
+    void AimDriven(in DirectMemory<OneVector, OneNumber> memory, in DirectNode node, int row, int gains)
     {
         var jacobians = memory.Jacobians + node.Jacobian + row * node.BodyCount;
         double along = 0;
         for (int slot = 0; slot < node.BodyCount; ++slot)
         {
-            var product = DirectPair<OneVector, OneNumber>.Multiply(jacobians[slot], memory.Bodies[node.Bodies[slot]].Velocity);
+            var velocity = memory.Bodies[node.Bodies[slot]].Velocity;
+            DirectPair<OneVector, OneNumber> gain = default;
+            Write(ref gain, parts[node.Bodies[slot]].FreeGain);
+            velocity.Add(gain, OneNumber.Of(gains));
+            var product = DirectPair<OneVector, OneNumber>.Multiply(jacobians[slot], velocity);
             var sum = OneVector.Sum(product);
             along += DirectLane.Of(ref sum, 0);
         }
@@ -207,7 +211,7 @@ sealed unsafe partial class ImpactStructures
         {
             ref var node = ref plan.Nodes[i];
             for (int row = 0; row < node.RowCount && solver.Processor(node.TypeId).LimitOf(0) != RowLimit.None; ++row)
-                AimDriven(memory, node, row);
+                AimDriven(memory, node, row, 0);
         }
     }
 

@@ -79,9 +79,8 @@ sealed unsafe partial class ImpactStructures
             velocity.Angular += parts[i].Change.Angular - parts[i].Gain.Angular * 0.5f;
         }
         ReadVelocities(island);
+        Drive(island);
         var memory = Memory(island);
-        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
-            memory.Rows[i].Target = driven[i];
         Equations(island).Project();
         for (int i = first; i < end; ++i)
         {
@@ -110,8 +109,16 @@ sealed unsafe partial class ImpactStructures
             AddLost(ref velocity, part, 1);
         }
         ReadVelocities(island);
+        Drive(island);
         isEntered[island] = TakeLost(island, equations);
         BeginChanges(island);
+    }
+
+    void Drive(int island)
+    {
+        var memory = Memory(island);
+        for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)
+            memory.Rows[i].Target = driven[i];
     }
 
     // What joints take of the gain.
