@@ -1,4 +1,3 @@
-using System.Numerics;
 using BepuUtilities;
 
 namespace BepuPhysics.Constraints.Contact;
