@@ -76,8 +76,8 @@ public class CradleTests(ITestOutputHelper output)
             foreach (var handle in balls)
             {
                 var body = Simulation.Bodies[handle];
-                energy += (body.Velocity.Linear.LengthSquared() / 2 + body.Velocity.Angular.LengthSquared() / body.LocalInertia.InverseInertiaTensor.XX / 2) /
-                    (scale * scale) + Gravity * body.Pose.Position.Y / scale;
+                var spin = body.Velocity.Angular.LengthSquared() / body.LocalInertia.InverseInertiaTensor.XX;
+                energy += (body.Velocity.Linear.LengthSquared() + spin) / (2 * scale * scale) + Gravity * body.Pose.Position.Y / scale;
             }
             return energy;
         }

@@ -6,8 +6,8 @@ namespace BepuPhysics.Constraints.Contact;
 // them: moved along straight lines they left their joints, which pulled them back, mostly up, for nothing.
 //
 // With D the change of velocity, t the time that has passed since the impact and P halfway, the way is t P D: the chord of a circle is along its tangent in
-// the middle. Velocities turn along: 2 P - 1 halfway is a mirror that takes the tangent at the beginning of the chord to that at its end, and keeps the energy of
-// any velocity and, as it adds only what joints push, the momentum of what nothing else holds.
+// the middle. Velocities turn along: 2 P - 1 halfway is a mirror that takes the tangent at the beginning of the chord to that at its end, and keeps the
+// energy of any velocity and, as it adds only what joints push, the momentum of what nothing else holds.
 //
 // Gravity: at the time of the impact velocities were those of now less what they have gained since, and with a straight way that is the work of gravity along
 // it, to the last digit. What it does along the rest, t (P D - D), is owed by the impact, which bounces by that less.
