@@ -10,7 +10,7 @@ using Xunit.Abstractions;
 
 namespace DemoTests.Accuracy;
 
-/// <summary>Balls in a row that hang from rods and swing against each other, as games build them: nobody has given them a margin to see each other by.</summary>
+/// <summary>Balls in a row that hang from rods and swing against each other, as games build them: without a margin to see each other by.</summary>
 public class CradleTests(ITestOutputHelper output)
 {
     const float Gravity = 9.81f, Length = 1, Radius = .1f;
