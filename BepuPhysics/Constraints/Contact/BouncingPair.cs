@@ -43,10 +43,14 @@ struct BouncingPair
     public float Sunk;
     /// <summary>Whether it carries a load, and overlaps by more.</summary>
     public bool Presses;
-    /// <summary>Whether they overlap, and do not part by themselves or carry a load, and are in joints.</summary>
+    /// <summary>Whether they overlap, and do not part by themselves or carry a load, and both hang.</summary>
     public bool Stays;
     /// <summary>Whether one of the bodies is in a structure of joints; known from the first impact of a step on.</summary>
     public bool IsInStructure;
+    /// <summary>Whether the surfaces lie on each other more than they press sideways.</summary>
+    public bool Bears;
+    /// <summary>Whether both bodies are in structures that hang from what nothing moves, and meet sideways; known as long.</summary>
+    public bool Hangs;
     /// <summary>Whether it takes part in the impact that is being made.</summary>
     public bool Joins;
     /// <summary>Whether A rests on something, so that its velocity is without what the substep has added to it.</summary>

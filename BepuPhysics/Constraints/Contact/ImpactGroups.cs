@@ -82,6 +82,7 @@ struct ImpactGroups(BufferPool pool)
             ref var pair = ref pairs[i];
             var (islandA, islandB) = structures.IslandsOf(pair);
             pair.IsInStructure = islandA >= 0 || islandB >= 0;
+            pair.Hangs = !pair.Bears && structures.Hangs(islandA) && structures.Hangs(islandB);
             LinkStructure(islandA, i);
             LinkStructure(islandB, i);
         }

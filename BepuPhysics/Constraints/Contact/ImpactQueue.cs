@@ -26,7 +26,7 @@ unsafe struct ImpactQueue(BufferPool pool)
             var pair = groups.Pair(group, i);
             pairs[pair].QueueIndex = -1;
             pairs[pair].ImpactCount = 0;
-            overlaps |= pairs[pair].Overlaps || (pairs[pair].Presses && pairs[pair].IsInStructure);
+            overlaps |= pairs[pair].Overlaps || (pairs[pair].Presses && pairs[pair].Hangs);
             Update(ref pairs, pair);
         }
         return overlaps || !IsEmpty;

@@ -11,15 +11,36 @@ namespace BepuPhysics.Constraints.Contact;
 //
 // Gravity: at the time of the impact velocities were those of now less what they have gained since, and with a straight way that is the work of gravity along
 // it, to the last digit. What it does along the rest, t (P D - D), is owed by the impact, which bounces by that less.
+//
+// All this is of the second order in the angles by which bodies turn on the way: where one turns by more, as links of a long chain do, ways are straight. So
+// they are of structures that nothing holds, which joints pull wherever they go.
 sealed unsafe partial class ImpactStructures
 {
+    // Greatest angle of a way along joints.
+    const float GreatestTurn = 1 / 4f;
+
     /// <summary>Takes note of the last blow on a structure.</summary>
-    internal void KeepBlow(int island)
+    /// <param name="island">The structure.</param>
+    /// <param name="time">Time since the blow.</param>
+    /// <param name="mayBeLed">Whether it may go along its joints, if it hangs in them.</param>
+    internal void KeepBlow(int island, float time, bool mayBeLed)
     {
         var (first, end) = PartsOf(island);
+        var isLed = mayBeLed && Hangs(island);
         for (int i = first; i < end; ++i)
+        {
             parts[i].Change = ChangeOf(i);
-        // What drives keeps the speed that it has here.
+            isLed &= Exact.LengthSquared(parts[i].Change.Angular) * time * time < GreatestTurn * GreatestTurn;
+        }
+        parts[first].IsLed = isLed;
+    }
+
+    /// <summary>Whether a structure goes along its joints.</summary>
+    internal bool IsLed(int island) => parts[plan.Islands[island].FirstBody].IsLed;
+
+    /// <summary>Takes note of the speeds of what drives, where the structure is hit: it keeps them.</summary>
+    internal void KeepDrives(int island)
+    {
         ReadVelocities(island);
         var memory = Memory(island);
         for (int i = plan.Islands[island].FirstRow; i < plan.Islands[island].EndRow; ++i)

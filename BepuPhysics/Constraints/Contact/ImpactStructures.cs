@@ -40,6 +40,8 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
         // What the impact that is being made adds to its velocity, and that as the joints let it halfway (ImpactStructures.Ways.cs).
         public BodyVelocity Change;
         public BodyVelocity Path;
+        // Of the first part of a structure: whether the structure goes along its joints.
+        public bool IsLed;
     }
 
     DirectPlan plan;
@@ -69,6 +71,10 @@ sealed unsafe partial class ImpactStructures(Solver solver, Bodies bodies, Buffe
 
     /// <summary>Those of the bodies of a pair, or -1.</summary>
     internal (int A, int B) IslandsOf(in BouncingPair pair) => (IslandOf(pair.A), pair.B >= 0 ? IslandOf(pair.B) : Alone);
+
+    /// <summary>Whether a structure hangs in joints from something that nothing moves; not where there is none, -1.</summary>
+    internal bool Hangs(int island) =>
+        island >= 0 && plan.Islands[island].EndBody > plan.Islands[island].FirstBody + plan.Islands[island].DynamicCount;
 
     /// <summary>Whether a structure has been noted to rest on something; not where there is none, -1.</summary>
     internal bool IsBorne(int island) => island >= 0 && isBorne[island];

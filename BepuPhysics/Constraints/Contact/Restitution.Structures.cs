@@ -83,9 +83,10 @@ sealed unsafe partial class Restitution
                 if (!impact.TryGetStructure(i, out var island))
                     continue;
                 owner.structures.NoteBlow(island);
-                owner.structures.KeepBlow(island);
-                if (!impact.GoesAlongJoints)
+                owner.structures.KeepBlow(island, time, impact.GoesAlongJoints);
+                if (!owner.structures.IsLed(island))
                     continue;
+                owner.structures.KeepDrives(island);
                 var (first, end) = owner.structures.PartsOf(island);
                 for (int part = first; part < end; ++part)
                     ShiftPart(contacts, owner.structures.BodyOf(part), Times(owner.structures.KeptChangeOf(part), time * -0.5f));
@@ -94,8 +95,13 @@ sealed unsafe partial class Restitution
             var scale = impact.Pay(owed);
             for (int i = 0; i < impact.BodyCount; ++i)
             {
-                if (scale != 1 && impact.TryGetStructure(i, out var island))
-                    owner.structures.ScaleBlow(island, scale);
+                if (scale == 1 || !impact.TryGetStructure(i, out var island))
+                    continue;
+                // They are half of the way on of the whole blow.
+                var (first, end) = owner.structures.PartsOf(island);
+                for (int part = first; part < end && owner.structures.IsLed(island); ++part)
+                    ShiftPart(contacts, owner.structures.BodyOf(part), Times(owner.structures.KeptChangeOf(part), time * 0.5f * (1 - scale)));
+                owner.structures.ScaleBlow(island, scale);
             }
         }
 
@@ -106,7 +112,7 @@ sealed unsafe partial class Restitution
             {
                 if (!impact.TryGetStructure(i, out var island))
                     continue;
-                var alongJoints = impact.GoesAlongJoints;
+                var alongJoints = owner.structures.IsLed(island);
                 if (alongJoints)
                     owner.structures.Turn(island);
                 var (first, end) = owner.structures.PartsOf(island);

@@ -39,6 +39,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
     const float StoppedShare = 1 / 16f;
     // What a rigid contact gives way under the weight of a body, of the way that it falls in a substep: 1 / (w h)^2.
     const float SunkShare = 1.6f;
+    // Part of gravity along a normal from which on one of the two lies on the other.
+    const float BearingShare = 1 / 2f;
     // Part of the least hit of a pair up to which the solver takes out its overlaps.
     const float OverlapShare = 1e-2f;
     // Speed of approach over speed of the bodies that may be rounding.
@@ -213,6 +215,7 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         // In a pile that falls nobody falls against another, and yet its contacts rest on the floor below.
         var along = MathHelper.Max(
             MathF.Abs(Exact.Dot(pair.GainA.Linear, contacts.Normal)), MathF.Abs(Exact.Dot(pair.GainB.Linear, contacts.Normal)));
+        pair.Bears = along * along > BearingShare * BearingShare * pair.GainSquared;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             pair.Rows[i] = contacts.NormalRow(i);
@@ -232,15 +235,15 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         pair.Stays = false;
         pair.Presses = false;
         var stays = false;
-        // Who is in joints bounces where he is: what is moved along joints for so long is moved uphill, and others of its structure into who is in the way.
-        var earliest = pair.IsLoaded || pair.IsInStructure ? 0 : -dt * solver.LastSubstepCount;
+        // Who hangs in joints bounces where he is: what is moved along joints for so long is moved uphill, and others of its structure into who is in the way.
+        var earliest = pair.IsLoaded || pair.Hangs ? 0 : -dt * solver.LastSubstepCount;
         for (int i = 0; i < pair.ContactCount; ++i)
         {
             var gap = contacts.Gap(i, pair.Rows[i]);
             var speed = -pair.Rows[i].Along(contacts.VelocityA, contacts.VelocityB);
             var overlaps = gap < -MathHelper.Max(OverlapShare * pair.LeastHit, pair.Sunk);
             pair.Presses |= overlaps && pair.IsLoaded;
-            if (overlaps && (!pair.IsLoaded || pair.IsInStructure))
+            if (overlaps && (!pair.IsLoaded || pair.Hangs))
             {
                 pair.Overlaps = true;
                 // Who bounced and parts by himself in a few steps is not moved: to move him is work, of gravity above all.
@@ -263,7 +266,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         // To move one body out of an overlap is to move all of its structure, some of it into others.
         if (!pair.IsInStructure || !(pair.IsLoaded ? pair.Overlaps : stays))
             return;
-        pair.Stays = true;
+        pair.Stays = pair.Hangs;
+        pair.Overlaps = pair.Hangs;
         pair.Overlap = 0;
     }
 
