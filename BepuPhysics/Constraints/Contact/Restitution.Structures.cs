@@ -26,7 +26,7 @@ sealed unsafe partial class Restitution
         }
 
         // The solver is told of the overlaps of structures that lie on something, and of those without weight, which nothing else would bring apart: what
-        // swings or falls would be pushed apart with a speed that its bounces keep.
+        // hangs side by side would be pushed apart with a speed that its bounces keep.
         readonly void ShowStructures(int group)
         {
             var any = false;
