@@ -17,7 +17,7 @@ public sealed class JointedPileTests : IDisposable
 
     readonly BufferPool pool = new();
     readonly List<BodyHandle> balls = [];
-    Simulation simulation;
+    Simulation simulation = null!;
 
     public void Dispose()
     {
