@@ -69,8 +69,8 @@ sealed unsafe partial class LoadPathStage
             return true;
         for (int i = node.FirstSupport; i < node.FirstSupport + node.SupportCount; ++i)
         {
-            var lower = graph.Links[i].Lower;
-            if (lower >= 0 && graph.Nodes[graph.NodeOf[lower]] is var below && (below.Way != default || below.Turn != default))
+            var (way, turn) = WayOf(graph.Links[i].Lower);
+            if (way != default || turn != default)
                 return MayLift(node);
         }
         return false;
