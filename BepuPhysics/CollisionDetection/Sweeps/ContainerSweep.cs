@@ -7,8 +7,8 @@ namespace BepuPhysics.CollisionDetection;
 
 /// <summary>A convex part of a body against the children of another one, those first whose boxes it meets first.</summary>
 /// <remarks>
-/// In the frame of the container the part moves along a line, unless the container turns. Around all places that it gets to by turning
-/// there is a box, and only children whose boxes that box meets are tested, up to the first impact that is known.
+/// In the frame that the container has at first the part moves along a line. Around all places that it gets to by turning, and that the
+/// container does, there is a box, and only children whose boxes that box meets are tested, up to the first impact that is known.
 /// </remarks>
 /// <param name="motion">How the bodies move.</param>
 /// <param name="part">The part of A.</param>
@@ -53,11 +53,10 @@ ref struct ContainerSweep<TFilter>(in SweepMotion motion, ref ImpactBody part, i
         hit.Test(motion, ref part, ref body, partIndex, index);
     }
 
-    // The place of the part in the container's frame, and its way there. Where the container turns there is no such way, and everything
-    // is met at once.
+    // The place of the part in the container's frame, and its way there. A half-space is everywhere, and meets everything at once.
     public readonly SlabTest CreateTest(Buffer<NodeChild> root, int count)
     {
-        if (motion.AngularB.X != 0 || motion.AngularB.Y != 0 || motion.AngularB.Z != 0 || part.Core.IsPlane)
+        if (part.Core.IsPlane)
             return new SlabTest(new((float)-Farthest), new((float)Farthest), default);
         var relative = motion.LinearA - motion.LinearB;
         SweepBounds.InContainer(motion, part, root, count, relative.Length, out var min, out var max);

@@ -21,7 +21,11 @@ static class SweepBounds
     static double Pad(in ImpactBody part, in SweepMotion motion, double coordinate, double speed) =>
         part.Core.Size * TouchingPart + coordinate * Rounding + motion.Accuracy.TouchingDistance + Touching(motion, speed + part.SurfaceSpeed);
 
-    /// <summary>A box around a part of A on its way, where it starts, in the frame of a container B.</summary>
+    /// <summary>A box around a part of A on its way, where it starts, in the frame that a container B has at first.</summary>
+    /// <remarks>
+    /// Where B turns, a point of its own is, in that frame, away from where it is in B by an arc at most, or by a diameter. What touches a child of B does so
+    /// at a point of it: so the box is wider by the arc of the farthest point that a child has.
+    /// </remarks>
     /// <param name="motion">How the bodies move.</param>
     /// <param name="part">The part.</param>
     /// <param name="root">Boxes around all children of B, in its frame.</param>
@@ -37,7 +41,10 @@ static class SweepBounds
             farthest = Exact.Max(farthest, Exact.Max(Vector3.Abs(root[i].Min), Vector3.Abs(root[i].Max)));
         part.GetBounds(motion.OrientationB, motion.MaximumT, out var lower, out var upper);
         var place = motion.OrientationB.TurnBack(-motion.OffsetB);
-        var pad = Pad(part, motion, place.Length + Exact.Length(farthest), speed);
+        double radius = Exact.Length(farthest), turn = motion.AngularB.Length;
+        var pad = Pad(part, motion, place.Length + radius, speed + turn * radius);
+        if (turn > 0)
+            pad += radius * Math.Min(2, turn * motion.MaximumT);
         min = Lower(place + lower, pad);
         max = Upper(place + upper, pad);
     }
