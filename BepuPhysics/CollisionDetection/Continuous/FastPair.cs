@@ -37,6 +37,8 @@ struct FastPair
     public float Lost;
     /// <summary>Rounds that its sweeps have taken in this step.</summary>
     public int RoundCount;
+    /// <summary>The thickest cores that were apart when its last sweep began, by their number; as many as there are if none were.</summary>
+    public int Level;
     /// <summary>Inner radius of the thinner shape, m.</summary>
     public float Inner;
     /// <summary>What it is if it is one of balls; known from the first sweep on.</summary>

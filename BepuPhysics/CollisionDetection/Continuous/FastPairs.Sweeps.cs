@@ -1,3 +1,4 @@
+using System;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
 
@@ -30,9 +31,7 @@ sealed unsafe partial class FastPairs
             return;
         }
         motion.MostThinnerOf = pair.SmallerInner;
-        motion.ThinnerPart = SkinParts[0];
-        Sweep(ref pair, motion, temporary, out hit);
-        if ((hit.Overlaps || hit.RanOut) && !TrySweepThinner(ref pair, motion, temporary, out hit))
+        if (!TrySweepApart(ref pair, motion, temporary, out hit))
             return;
         if (!hit.Exists)
             return;
@@ -42,31 +41,52 @@ sealed unsafe partial class FastPairs
         pair.ArmB = hit.Place - motion.OffsetB - motion.LinearB * hit.T;
     }
 
-    // So many parts are tried before it is asked whether any will do: most that overlap do so by little.
-    const int PartBeforeThinnest = 2;
-
-    bool TrySweepThinner(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
+    // With the thickest cores that are apart; those whose ways take too many rounds are swept with thinner ones. Where these were in the last sweep of the step
+    // is where they most likely are, and most pairs never overlap: so these are swept at once.
+    bool TrySweepApart(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
-        hit = default;
-        for (int i = 1; i < SkinParts.Length; ++i)
+        if (pair.Level > 0)
+            pair.Level = FirstApart(ref pair, motion, -1, temporary);
+        for (int level = pair.Level; level < SkinParts.Length; ++level)
         {
-            // What is within each other however thin it is has no way at all.
-            if (i == PartBeforeThinnest && OverlapsAtFirst(ref pair, motion, SkinParts[^1], temporary))
-                return false;
-            if (OverlapsAtFirst(ref pair, motion, SkinParts[i], temporary))
-                continue;
-            motion.ThinnerPart = SkinParts[i];
+            motion.ThinnerPart = SkinParts[level];
             Sweep(ref pair, motion, temporary, out hit);
-            if (!hit.RanOut)
-                return !hit.Overlaps;
+            if (hit.Overlaps)
+            {
+                // Most that overlap do so by little.
+                pair.Level = level + 1;
+                pair.Level = FirstApart(ref pair, motion, level, temporary);
+                level = pair.Level - 1;
+            }
+            else if (!hit.RanOut)
+                return true;
         }
+        hit = default;
         return false;
     }
 
-    // Whether shapes are apart at all is told without a way.
+    // Of cores that are not apart all thicker ones overlap too: so the first that are is found by halves. What is within each other however thin it is has none,
+    // and no way at all.
+    int FirstApart(ref FastPair pair, in SweepMotion motion, int overlapping, BufferPool temporary)
+    {
+        var first = Math.Min(pair.Level, SkinParts.Length - 1);
+        int within = overlapping, apart = SkinParts.Length;
+        for (int level = first; apart - within > 1;)
+        {
+            if (OverlapsAtFirst(ref pair, motion, SkinParts[level], temporary))
+                within = level;
+            else
+                apart = level;
+            level = apart == SkinParts.Length ? apart - 1 : apart == first && within < 0 ? first - 1 : (within + apart) / 2;
+        }
+        return apart;
+    }
+
+    // Whether shapes are apart at all is told without a way, and without a turn.
     bool OverlapsAtFirst(ref FastPair pair, SweepMotion motion, double part, BufferPool temporary)
     {
         (motion.ThinnerPart, motion.MaximumT) = (part, 0);
+        motion.LinearA = motion.LinearB = motion.AngularA = motion.AngularB = default;
         Sweep(ref pair, motion, temporary, out var hit);
         return hit.Overlaps;
     }
