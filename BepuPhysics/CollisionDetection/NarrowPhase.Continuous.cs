@@ -132,6 +132,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             AngularA = new(velocityA.Angular),
             AngularB = new(velocityB.Angular),
             OffsetB = new(offsetB),
+            ReachOfB = gate.ReachOfB,
             MaximumT = maximumT,
             Accuracy = new ImpactAccuracy(
                 LimitTime(continuity.MinimumSweepTimestep, ProgressionPart * inner / speed),

@@ -20,6 +20,7 @@ sealed unsafe partial class FastPairs
             LinearA = linearA,
             LinearB = linearB,
             OffsetB = positionB - positionA,
+            ReachOfB = pair.Gate.ReachOfB,
         };
         Place(pair.A, pair.ShapeA, pair.PoseA, from, out motion.AngularA, out motion.OrientationA);
         Place(pair.B, pair.ShapeB, pair.PoseB, from, out motion.AngularB, out motion.OrientationB);

@@ -17,6 +17,9 @@ struct WayGate
     DoubleVector3 first, second;
     bool isPlane, isStatic;
 
+    /// <summary>How far B reaches from its centre, m; infinite if it is a half-space.</summary>
+    public double ReachOfB { get; private set; }
+
     /// <summary>Says how far the shapes reach.</summary>
     /// <param name="a">From the centre of A, m.</param>
     /// <param name="b">From that of B, m; infinite if it is a half-space.</param>
@@ -25,6 +28,7 @@ struct WayGate
     {
         reach = (a + b) * (1 + Slack) + touching;
         reachOfA = a * (1 + 16 * Slack) + 2 * touching;
+        ReachOfB = b;
         isPlane = isStatic = false;
     }
 

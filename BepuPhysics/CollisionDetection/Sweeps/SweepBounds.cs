@@ -12,6 +12,9 @@ static class SweepBounds
     // Beyond anything that has a place, and finite.
     const double Farthest = 1e18;
 
+    // As a box without an end: its squares are finite.
+    const float WithoutEnd = 1e15f;
+
     // Of the size of what is swept: beyond what counts as touching.
     const double TouchingPart = 4e-5;
     // Of coordinates: what boxes and directions lose by being floats.
@@ -47,6 +50,28 @@ static class SweepBounds
             pad += radius * Math.Min(2, turn * motion.MaximumT);
         min = Lower(place + lower, pad);
         max = Upper(place + upper, pad);
+    }
+
+    /// <summary>
+    /// A box around all places where B gets to within the time, in the frame that a container A has at first: of its children only those in it may be met.
+    /// </summary>
+    /// <param name="motion">How the bodies move.</param>
+    /// <param name="min">Lower corner, m.</param>
+    /// <param name="max">Upper corner, m.</param>
+    public static void AroundB(in SweepMotion motion, out Vector3 min, out Vector3 max)
+    {
+        (min, max) = (new(-WithoutEnd), new(WithoutEnd));
+        if (!(motion.ReachOfB > 0 && motion.MaximumT < WithoutEnd))
+            return;
+        var relative = motion.LinearB - motion.LinearA;
+        DoubleVector3 start = motion.OrientationA.TurnBack(motion.OffsetB), end = motion.OrientationA.TurnBack(motion.OffsetB + relative * motion.MaximumT);
+        // No point of B is farther from the centre of A.
+        var farthest = Math.Max(start.Length, end.Length) + motion.ReachOfB;
+        var turn = motion.AngularA.Length;
+        var pad = motion.ReachOfB + farthest * (Math.Min(2, turn * motion.MaximumT) + Rounding) + motion.Accuracy.TouchingDistance +
+            Touching(motion, relative.Length + turn * farthest + motion.AngularB.Length * motion.ReachOfB);
+        min = Lower(new(Math.Min(start.X, end.X), Math.Min(start.Y, end.Y), Math.Min(start.Z, end.Z)), pad);
+        max = Upper(new(Math.Max(start.X, end.X), Math.Max(start.Y, end.Y), Math.Max(start.Z, end.Z)), pad);
     }
 
     /// <summary>A box around a body A that is alone and moves, where it starts, in the world.</summary>

@@ -23,6 +23,8 @@ struct SweepMotion
     public double ThinnerPart;
     /// <summary>Inner radius, m, of which that part is the most that is taken: nothing that is thick loses more than what is small has.</summary>
     public double MostThinnerOf;
+    /// <summary>How far B reaches from its centre, m; zero where nobody has said so.</summary>
+    public double ReachOfB;
 
     // Arms are rounded to floats.
     const double ArcSlack = 1 + 1e-6;
@@ -51,12 +53,28 @@ struct SweepMotion
     {
         if (core.IsPlane || part.Core.IsPlane)
             return true;
-        var center = OffsetB + OrientationB.Turn(new(local)) - part.BallCenter;
-        var radius = part.BallRadius + core.Margin + core.Reach + Accuracy.TouchingDistance;
-        // Where B turns, its part goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle.
+        var arm = part.Arm.Length;
+        var arcA = Arc(arm, AngularA, maximumT);
+        // What turns by much is nearer to the middle of its body.
+        var isTurned = arcA > arm;
+        var center = OffsetB + OrientationB.Turn(new(local)) - (isTurned ? part.BallCenter : part.Arm);
+        var radius = (isTurned ? part.BallRadius : part.Core.Margin + part.Core.Reach + arcA) + core.Margin + core.Reach + TouchingIn(part, core, local);
         if (local != default)
-            radius += Exact.Length(local) * Math.Min(2, AngularB.Length * maximumT) * ArcSlack;
+            radius += Arc(Exact.Length(local), AngularB, maximumT);
         return ImpactBalls.FirstMeeting(center, LinearA - LinearB, radius) <= maximumT;
+    }
+
+    // What turns goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle.
+    static double Arc(double arm, in DoubleVector3 angular, double time) => arm > 0 ? arm * Math.Min(2, angular.Length * time) * ArcSlack : 0;
+
+    // As far as parts may be from each other and still count as touching.
+    readonly double TouchingIn(in ImpactBody part, in ImpactCore core, Vector3 local)
+    {
+        var threshold = Accuracy.ConvergenceThreshold;
+        if (threshold == 0)
+            return Accuracy.TouchingDistance;
+        var speed = (LinearA - LinearB).Length + part.SurfaceSpeed + AngularB.Length * (Exact.Length(local) + core.Reach);
+        return Math.Max(Accuracy.TouchingDistance, speed > 0 ? threshold * speed : 0);
     }
 }
 

@@ -95,14 +95,14 @@ static unsafe class SweepPairs
 
         public readonly void Use<TContainer>(in TContainer a) where TContainer : unmanaged, IContainer
         {
-            const float Farthest = 1e15f;
+            SweepBounds.AroundB(motion, out var min, out var max);
             var children = new QuickList<int>(64, pool);
             var list = default(Buffer<NodeChild>);
             try
             {
                 if (TContainer.IsList)
                     ContainerPlaces.Open(a, 0, shapes, ref list, pool);
-                a.FindOverlaps(new Vector3(-Farthest), new Vector3(Farthest), default, shapes, list.Memory, ref children, pool);
+                a.FindOverlaps(min, max, default, shapes, list.Memory, ref children, pool);
                 var scratch = stackalloc Vector4[IContainer.ScratchByteCount / 16];
                 for (int i = 0; i < children.Count && !hit.Overlaps; ++i)
                 {
