@@ -24,6 +24,8 @@ struct FastBody
     public DoubleVector3 FreeChange;
     /// <summary>Greatest speed by which it may move otherwise than its bounds have foreseen, m/s.</summary>
     public double UnforeseenSpeed;
+    /// <summary>Radius of a ball about the centre that is in its shape, m, or what stands for one (<see cref="NarrowPhase.RadiiOf"/>).</summary>
+    public float Inner;
     /// <summary>Radius around the centre that its shape does not leave, m; that of the shape's farthest turning point, 0 for a ball.</summary>
     public double Radius, TurningRadius;
     /// <summary>Index in the active set.</summary>

@@ -86,6 +86,7 @@ sealed unsafe partial class FastPairs
             CheckedPosition = motion.Pose.Position,
             CheckedOrientation = motion.Pose.Orientation,
             Inertia = set.LocalInertias[body],
+            Inner = inner,
             Radius = radius,
             TurningRadius = inner < radius ? radius : 0,
             Look = -1,

@@ -12,8 +12,10 @@ sealed unsafe partial class FastPairs
         if (!pair.IsSensor && pair.Balls.TrySet(
             pair.ShapeA.Type, PointerTo(pair.ShapeA), pair.ShapeB.Type, PointerTo(pair.ShapeB), pair.PoseB.Orientation, pair.B >= 0))
             return;
-        pair.SmallerInner = SmallerInner(pair);
-        pair.Gate.Set(ReachOf(pair, pair.ShapeA), ReachOf(pair, pair.ShapeB), TouchingPart * pair.Inner);
+        var (a, b) = (RadiiOf(pair.A, pair.ShapeA), RadiiOf(pair.B, pair.ShapeB));
+        // A half-space has no inner radius, and reaches farthest.
+        pair.SmallerInner = a.Radius <= b.Radius ? a.Inner : b.Inner;
+        pair.Gate.Set(ReachOf(pair, pair.ShapeA, a.Radius), ReachOf(pair, pair.ShapeB, b.Radius), TouchingPart * pair.Inner);
         if (pair.Pair.B.Mobility == CollidableMobility.Static)
             SetStill(ref pair.Gate, pair.Pair.B, pair.ShapeB, pair.PoseB);
     }
@@ -35,18 +37,15 @@ sealed unsafe partial class FastPairs
         gate.SetStatic(new(bounds.Min), new(bounds.Max));
     }
 
-    // A half-space has no inner radius, and reaches farthest.
-    float SmallerInner(in FastPair pair)
-    {
-        var (a, b) = (narrowPhase.RadiiOf(pair.ShapeA), narrowPhase.RadiiOf(pair.ShapeB));
-        return a.Radius <= b.Radius ? a.Inner : b.Inner;
-    }
+    // Those of what moves are known: they are measured anew each time where a shape has children.
+    (float Inner, float Radius) RadiiOf(int body, TypedIndex shape) =>
+        body < 0 ? narrowPhase.RadiiOf(shape) : (movers[body].Inner, (float)movers[body].Radius);
 
     // How far what is swept of a shape reaches from its centre.
-    double ReachOf(in FastPair pair, TypedIndex shape)
+    double ReachOf(in FastPair pair, TypedIndex shape, float radius)
     {
         if (shape.Type == HalfSpace.Id || !ImpactCore.Exists(shape.Type, simulation.Shapes))
-            return narrowPhase.RadiiOf(shape).Radius;
+            return radius;
         var core = ImpactCore.Of(shape.Type, PointerTo(shape), simulation.Shapes);
         if (!pair.IsSensor)
             core.Thin(SkinParts[0], pair.SmallerInner);

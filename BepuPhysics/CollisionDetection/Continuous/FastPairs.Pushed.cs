@@ -41,20 +41,28 @@ sealed unsafe partial class FastPairs
         }
     }
 
-    struct ConnectedList(FastPairs owner) : IForEach<BodyHandle>
+    struct ConnectedList(FastPairs owner, int first) : IForEach<BodyHandle>
     {
         public readonly void LoopBody(BodyHandle body)
         {
-            if (owner.pushed.Count < MostPushed && owner.MayBePushed(body) && !owner.pushed.AsSpan().Contains(body))
+            if (owner.pushed.Count - first < MostPushed && owner.MayBePushed(body) && !owner.pushed.AsSpan()[first..].Contains(body))
                 owner.pushed.Add(body, owner.Pool);
         }
     }
 
-    // What hangs together with what one body is shot at. It has memory from the first one on.
+    // Bodies that are shot at, each before those that hang together with it. It has memory from the first one on.
     QuickList<BodyHandle> pushed;
+    // Where those of each mover are: many may be shot at one. None where nobody has asked.
+    QuickList<PushedRange> pushedBy;
+
+    struct PushedRange
+    {
+        public int First, Count;
+    }
 
     void WatchPushed()
     {
+        pushed.Count = pushedBy.Count = 0;
         var count = pairs.Count;
         for (int i = 0; i < count; ++i)
         {
@@ -63,28 +71,44 @@ sealed unsafe partial class FastPairs
                 continue;
             // One of them is marked.
             if (MayBePushed(pair.A.BodyHandle))
-                WatchPushed(b, pair.B, pair.A.BodyHandle);
+                WatchPushed(b, pair.B, a, pair.A.BodyHandle);
             else if (MayBePushed(pair.B.BodyHandle))
-                WatchPushed(a, pair.A, pair.B.BodyHandle);
+                WatchPushed(a, pair.A, b, pair.B.BodyHandle);
         }
     }
 
-    void WatchPushed(int body, CollidableReference self, BodyHandle hit)
+    void WatchPushed(int body, CollidableReference self, int hitBody, BodyHandle hit)
     {
         if (self.Mobility != CollidableMobility.Dynamic)
             return;
-        if (!pushed.Span.Allocated)
-            pushed = new(MostPushed, pool);
-        pushed.Count = 0;
+        var range = FindPushedBy(hitBody, hit);
+        for (int i = range.First + 1; i < range.First + range.Count; ++i)
+            PairFromTheBeginning(body, self, BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, Bodies.Locations[pushed[i].Slot].Index));
+    }
+
+    PushedRange FindPushedBy(int hitBody, BodyHandle hit)
+    {
+        if (pushedBy.Count == 0)
+        {
+            if (!pushed.Span.Allocated)
+                (pushed, pushedBy) = (new(MostPushed, pool), new(movers.Count, pool));
+            pushedBy.EnsureCapacity(movers.Count, pool);
+            pushedBy.Count = movers.Count;
+            pushedBy.AsSpan().Clear();
+        }
+        ref var range = ref pushedBy[hitBody];
+        if (range.Count > 0)
+            return range;
+        range.First = pushed.Count;
         pushed.Add(hit, pool);
-        var list = new ConnectedList(this);
-        for (int i = 0; i < pushed.Count; ++i)
+        var list = new ConnectedList(this, range.First);
+        for (int i = range.First; i < pushed.Count; ++i)
         {
             foreach (var constraint in Bodies.GetConstraints(pushed[i]))
                 simulation.Solver.EnumerateOtherBodies(constraint, ref list);
         }
-        for (int i = 1; i < pushed.Count; ++i)
-            PairFromTheBeginning(body, self, BepuPhysics.Bodies.ReferenceAt(Bodies.ActiveSet, Bodies.Locations[pushed[i].Slot].Index));
+        range.Count = pushed.Count - range.First;
+        return range;
     }
 
     bool MayBePushed(BodyHandle body) => IsPushable(body, out var isMarked) && !isMarked;

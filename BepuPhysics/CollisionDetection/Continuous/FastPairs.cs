@@ -120,6 +120,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         slow.Dispose(pool);
         near.DisposeIfTaken(pool);
         pushed.DisposeIfTaken(pool);
+        pushedBy.DisposeIfTaken(pool);
         if (looks.Span.Allocated)
         {
             looks.Dispose(pool);
@@ -139,6 +140,7 @@ sealed unsafe partial class FastPairs(NarrowPhase narrowPhase, Simulation simula
         slow = default;
         near = default;
         pushed = default;
+        pushedBy = default;
         looks = default;
         found = default;
         times = default;

@@ -12,13 +12,17 @@ ref partial struct ImpactPair
     // at it with all of its speed for the world's axes.
     const int PlainRounds = 24;
 
-    /// <summary>A time in which the shapes cannot cross a gap along the normal; infinite where they never can.</summary>
-    readonly double LongestSafe(double width, int round)
+    /// <summary>A time in which the shapes cannot cross a gap along the normal; infinite where they cannot in the time that is left, s.</summary>
+    readonly double LongestSafe(double width, int round, double left)
     {
         var closing = DoubleVector3.Dot(linear, normal);
         if (!a.Turns && !b.Turns)
             return closing > 0 ? width / closing : double.PositiveInfinity;
-        var dt = LongestSafeBySpeeds(width, closing);
+        // Most are too far apart for the fastest of their points.
+        var fastest = closing + a.SurfaceSpeed + b.SurfaceSpeed;
+        if (fastest <= 0 || fastest * left < width)
+            return double.PositiveInfinity;
+        var dt = LongestSafeBySpeeds(width, closing, left);
         var offset = offsetB - centerA;
         if (IsFarReaching(a, b, offset, round))
             dt = Math.Max(dt, LongestSafeInFrame(a, b, normal, offset, -linear, width));
@@ -59,7 +63,7 @@ ref partial struct ImpactPair
         return speed > 0 ? Math.Min(dt, away / speed) : dt;
     }
 
-    readonly double LongestSafeBySpeeds(double width, double closing)
+    readonly double LongestSafeBySpeeds(double width, double closing, double left)
     {
         double greatest = closing, linearPart = closing, quadratic = 0, revolved = width;
         Add(a, normal, ref linearPart, ref quadratic, ref greatest, ref revolved);
@@ -72,7 +76,7 @@ ref partial struct ImpactPair
         dt = Math.Max(dt, width / greatest);
         if (revolved > 0)
             dt = Math.Max(dt, revolved / closing);
-        return TryLater(width, closing, dt);
+        return dt > left ? dt : TryLater(width, closing, dt);
     }
 
     static void Add(

@@ -107,7 +107,7 @@ ref partial struct ImpactPair
                 if (!Separate(touching))
                     return Touch(t, lastT, touching, ref impact);
             }
-            var dt = Math.Max(LongestSafe(Math.Max(gap - touching * 0.5, gap * 0.5), round), accuracy.MinimumProgression);
+            var dt = Math.Max(LongestSafe(Math.Max(gap - touching * 0.5, gap * 0.5), round, maximumT - t), accuracy.MinimumProgression);
             lastT = t;
             t += dt;
             if (!(t <= maximumT))
