@@ -83,6 +83,85 @@ public unsafe class SweepShortcutTests
         return least;
     }
 
+    /// <summary>
+    /// Shapes of many children that both fly and turn: of all children of the one against all of the other, each pair asked for itself, none meets earlier than
+    /// the sweep says, which looks at few.
+    /// </summary>
+    [Theory]
+    [InlineData(1, .004)]
+    [InlineData(2, .05)]
+    [InlineData(3, .6)]
+    public void What_is_left_out_of_two_that_turn_meets_nowhere(int seed, double length)
+    {
+        var random = new Random(seed);
+        var pool = new BufferPool();
+        var shapes = new Shapes(pool, 4);
+        TypedIndex[] parts = [shapes.Add(new Sphere(.15f)), shapes.Add(new Capsule(.08f, .3f)), shapes.Add(new Box(.2f, .1f, .3f))];
+        var filter = new All();
+        var (hits, overlaps, misses) = (0, 0, 0);
+        for (int i = 0; i < 1200; ++i)
+        {
+            var a = new Compound(Scattered(random, parts, 2 + random.Next(6), pool));
+            var b = new BigCompound(Scattered(random, parts, 2 + random.Next(12), pool), shapes, pool);
+            var (spinA, spinB) = (new DoubleVector3(TestWorld.Scatter(random, 20)), new DoubleVector3(TestWorld.Scatter(random, i % 3 == 0 ? 0 : 20)));
+            var motion = new SweepMotion
+            {
+                OrientationA = DoubleMatrix3x3.FromQuaternion(TestWorld.Turn(random)),
+                OrientationB = DoubleMatrix3x3.FromQuaternion(TestWorld.Turn(random)),
+                LinearA = new DoubleVector3(TestWorld.Scatter(random, 2)) * (1 / length),
+                LinearB = new DoubleVector3(TestWorld.Scatter(random, 2)) * (1 / length),
+                AngularA = spinA,
+                AngularB = spinB,
+                OffsetB = new(TestWorld.Scatter(random, 4)),
+                MaximumT = length,
+                Accuracy = ImpactAccuracy.Default with { TouchingDistance = 1e-4 },
+                ReachOfB = i % 2 == 0 ? 0 : FarthestOf(b, shapes),
+            };
+            SweepPairs.Test(motion, Compound.Id, &a, BigCompound.Id, &b, ref filter, shapes, pool, out var hit);
+            SweepHit each = default;
+            for (int childA = 0; childA < a.ChildCount; ++childA)
+            {
+                for (int childB = 0; childB < b.ChildCount; ++childB)
+                {
+                    var (bodyA, bodyB) = (BodyOf(a.Children[childA], shapes, motion.OrientationA, spinA), BodyOf(b.Children[childB], shapes, motion.OrientationB, spinB));
+                    each.Test(motion, ref bodyA, ref bodyB, childA, childB);
+                }
+            }
+            Assert.Equal((each.Exists, each.Overlaps, each.T), (hit.Exists, hit.Overlaps, hit.T));
+            (hits, overlaps, misses) = hit.Overlaps ? (hits, overlaps + 1, misses) : hit.Exists ? (hits + 1, overlaps, misses) : (hits, overlaps, misses + 1);
+            a.Dispose(pool);
+            b.Dispose(pool);
+        }
+        Assert.True(hits > 50 && overlaps > 20 && misses > 50, $"{hits} hits, {overlaps} overlaps, {misses} misses");
+        shapes.Dispose();
+        pool.AssertEmpty();
+        pool.Clear();
+    }
+
+    static Buffer<CompoundChild> Scattered(Random random, TypedIndex[] parts, int count, BufferPool pool)
+    {
+        pool.Take<CompoundChild>(count, out var children);
+        for (int i = 0; i < count; ++i)
+            children[i] = new CompoundChild(new RigidPose(TestWorld.Scatter(random, 2), TestWorld.Turn(random)), parts[random.Next(parts.Length)]);
+        return children;
+    }
+
+    static double FarthestOf(in BigCompound compound, Shapes shapes)
+    {
+        var farthest = 0.0;
+        for (int i = 0; i < compound.ChildCount; ++i)
+        {
+            ref readonly var child = ref compound.Children[i];
+            var core = ImpactCore.Of(child.ShapeIndex.Type, shapes.GetBatch(child.ShapeIndex.Type).GetPointer(child.ShapeIndex.Index));
+            farthest = Math.Max(farthest, child.LocalPosition.Length() + core.Reach + core.Margin);
+        }
+        return farthest;
+    }
+
+    static ImpactBody BodyOf(in CompoundChild child, Shapes shapes, in DoubleMatrix3x3 orientation, in DoubleVector3 angular) => new(
+        ImpactCore.Of(child.ShapeIndex.Type, shapes.GetBatch(child.ShapeIndex.Type).GetPointer(child.ShapeIndex.Index)),
+        new RigidPose(child.LocalPosition, child.LocalOrientation), orientation, angular);
+
     /// <summary>What overlaps where it is thin overlaps where it is thicker: if the thinnest do there is no way for any.</summary>
     [Fact]
     public void Thinner_shapes_overlap_less()
