@@ -12,7 +12,7 @@ public class SupportGraphTests
     const int Ground = -1;
     const int Gap = 3;
 
-    readonly struct Heights(float[] heights, bool isBalanced = true, int fast = -1) : IHeights, IFloors
+    readonly struct Heights(float[] heights, bool isBalanced = true, int fast = -1, int hit = -1) : IHeights, IFloors
     {
         public float Of(int body) => heights[body];
 
@@ -28,11 +28,14 @@ public class SupportGraphTests
             isBalanced && heights[supports[0].Upper] < 0.5f;
 
         public int CountConstraints(int body) => 2;
+
+        public bool IsHit(int body) => body == hit;
     }
 
     // Each support has three contacts unless said otherwise.
     static unsafe (int[][] Islands, int SupportCount) Build(int bodyCount, (int Upper, int Lower)[] supports, float[]? heights = null, int contacts = 3,
-        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null, bool[]? held = null, bool isBalanced = true, int fast = -1)
+        bool[]? slides = null, bool[]? leans = null, int spoilt = -1, bool[]? sways = null, bool[]? held = null, bool isBalanced = true, int fast = -1,
+        int hit = -1)
     {
         using var pool = new BufferPool();
         SupportGraph graph = default;
@@ -58,7 +61,7 @@ public class SupportGraphTests
         links.AsSpan(half).CopyTo(found.AsSpan(half + Gap));
         fixed (SupportLink* memory = found)
         {
-            var motions = new Heights(heights ?? new float[bodyCount], isBalanced, fast);
+            var motions = new Heights(heights ?? new float[bodyCount], isBalanced, fast, hit);
             graph.Build(memory, [(0, half), (half + Gap, links.Length - half)], bodyCount, isSpoilt, motions, pool);
             var middle = graph.Nodes.Count / 2;
             graph.Fill(memory, middle, graph.Nodes.Count);
@@ -230,6 +233,20 @@ public class SupportGraphTests
         AssertIslands("0 1 2", Build(4, [.. supports, (3, 2)], sways: [.. sways, true], fast: 3).Islands);
         AssertIslands("", Build(3, supports, sways: sways, fast: 1).Islands);
         AssertIslands("", Build(5, [(0, Ground), (1, 0), (2, 0), (3, 1), (3, 2), (4, 3)], sways: [true, true, true, true, true, true], fast: 1).Islands);
+    }
+
+    /// <summary>What is hit is let go with all that sways with it; what rests below stays held.</summary>
+    [Fact]
+    public void What_is_hit_does_not_sway()
+    {
+        AssertIslands("0", Build(3, [(0, Ground), (1, 0), (2, 1)], sways: [false, true, true], hit: 2).Islands);
+        AssertIslands("", Build(3, [(0, Ground), (1, 0), (2, 1)], sways: [true, true, true], hit: 0).Islands);
+        (int, int)[] supports = [(0, Ground), (1, Ground), (2, 0), (2, 1)];
+        for (int body = 0; body < 3; ++body)
+            AssertIslands("", Build(3, supports, sways: [true, true, true, true], hit: body).Islands);
+        AssertIslands("0 1 2", Build(4, [.. supports, (3, Ground)], sways: [true, true, true, true, true], hit: 3).Islands);
+        // What rests is no concern of it.
+        AssertIslands("0 1 2", Build(3, [(0, Ground), (1, 0), (2, 1)], hit: 1).Islands);
     }
 
     [Theory, InlineData(SupportGraph.MaximumStructure, 1), InlineData(SupportGraph.MaximumStructure + 1, 0)]

@@ -29,4 +29,7 @@ interface IFloors
 
     /// <summary>Number of constraints of a body.</summary>
     int CountConstraints(int body);
+
+    /// <summary>Whether something hits a body hard in this step, or lies deep in it.</summary>
+    bool IsHit(int body);
 }

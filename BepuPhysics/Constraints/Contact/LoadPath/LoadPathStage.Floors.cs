@@ -224,8 +224,8 @@ sealed unsafe partial class LoadPathStage
     static Vector3 TurnChange(in MotionState floor, in BodyVelocity turnsBefore) =>
         floor.Velocity.Angular == turnsBefore.Linear ? turnsBefore.Linear - turnsBefore.Angular : default;
 
-    readonly struct Motions(Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<BodyVelocity> turnsBefore, Buffer<BodyInertia> inertias,
-        Buffer<ConstraintList> constraints, int substepCount, float dt) : IHeights, IFloors
+    readonly partial struct Motions(Solver solver, Buffer<MotionState> motions, Buffer<BodyVelocity> before, Buffer<BodyVelocity> turnsBefore,
+        Buffer<BodyInertia> inertias, Buffer<ConstraintList> constraints, int substepCount, float dt) : IHeights, IFloors
     {
         public float Of(int body) => -Exact.Dot(motions[body].Pose.Position, Gain(body));
 

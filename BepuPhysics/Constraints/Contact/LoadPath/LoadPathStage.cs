@@ -213,7 +213,7 @@ sealed unsafe partial class LoadPathStage(Solver solver, Bodies bodies, BufferPo
             return;
         }
         ref var set = ref bodies.Awake;
-        var motions = new Motions(set.MotionStates, before, turnsBefore, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
+        var motions = new Motions(solver, set.MotionStates, before, turnsBefore, set.LocalInertias, set.Constraints, solver.LastSubstepCount, dt);
         var byHandle = SortByHandle();
         graph.Build(found.Memory, used, set.Count, spoilt, motions, pool, byHandle);
         pool.ReturnIfTaken(ref byHandle);

@@ -96,7 +96,7 @@ unsafe partial struct SupportGraph
             isColumn = grounded[column[held]] == 0;
             column.Count = held;
         }
-        return isColumn && column.Count > 1 && Sways(column);
+        return isColumn && column.Count > 1 && Sways(column) && !IsHit(column, motions);
     }
 
     // What moves too fast, or on less than a face, is on top of a column and none of it; but not what rests, whose load nobody would know.
@@ -138,6 +138,16 @@ unsafe partial struct SupportGraph
         foreach (var body in column.AsSpan())
         {
             if (grounded[body] == 0)
+                return true;
+        }
+        return false;
+    }
+
+    static bool IsHit<TMotions>(in QuickList<int> bodies, TMotions motions) where TMotions : struct, IFloors
+    {
+        foreach (var body in bodies.AsSpan())
+        {
+            if (motions.IsHit(body))
                 return true;
         }
         return false;

@@ -45,8 +45,8 @@ unsafe partial struct SupportGraph
             var body = byUpper[i].Upper;
             if (grounded[body] != 0 || waiting[body] == Refused)
                 continue;
-            var isStructure = FindFloor(body, ref structure) && Gather(body, motions, ref structure, pool) && Place(ref structure, pool) &&
-                IsBalanced(found, motions, ref structure, pool);
+            var isStructure = FindFloor(body, ref structure) && Gather(body, motions, ref structure, pool) &&
+                !IsHit(structure.Bodies, motions) && Place(ref structure, pool) && IsBalanced(found, motions, ref structure, pool);
             foreach (var other in structure.Bodies.AsSpan())
                 waiting[other] = Refused;
             if (!isStructure)
