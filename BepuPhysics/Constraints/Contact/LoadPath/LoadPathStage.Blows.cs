@@ -68,7 +68,8 @@ sealed unsafe partial class LoadPathStage
                 if (!place.IsFixedB)
                     extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm - Three(place, ContactPrestepLayout.OffsetB(count)), normal)));
             }
-            return depth > CrushedShare * count * extent;
+            // In by more than to a centre, nothing says which way is out: soft contacts would throw it.
+            return depth > CrushedShare * count * extent && depth < count * extent;
         }
 
         static float Depth(in ContactPlace place, int contact) =>
