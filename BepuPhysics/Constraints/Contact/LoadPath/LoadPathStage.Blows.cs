@@ -14,7 +14,8 @@ namespace BepuPhysics.Constraints.Contact;
 // it comes out by its soft contacts, and the one below is let go by that, and so on: a stack that has landed takes itself apart from the top down.
 sealed unsafe partial class LoadPathStage
 {
-    // Steps of acceleration by which a blow makes a body faster: as what is quiet. A part of what sways, so that a light body does nothing to a heavy one.
+    // Steps of acceleration by which a blow makes a body faster: as what is quiet, a quarter of what sways at most. It is what the body gains and not how fast
+    // the other comes, so that a light thing does nothing to a heavy one.
     const float BlowSteps = QuietSteps;
     // Overlap of a patch beyond which a body is crushed, per distance from the nearer of the centres: a tenth of its size.
     const float CrushedShare = 0.2f;
