@@ -26,9 +26,8 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         var softness = Softness(ref bodies, substep, prestep);
         if (MayTurnFar && !substep.IsRelaxation)
         {
-            var turnsFar = BodySlots.At(ref bodies, 0).TurnMask;
-            if (!Vector.EqualsAll(turnsFar, Vector<int>.Zero))
-                DampLimit(bodies, substep, geometry, error, turnsFar, ref softness);
+            if (!Vector.EqualsAll(BodySlots.At(ref bodies, 0).CorrectionFlags, Vector<int>.Zero))
+                DampLimit(bodies, substep, geometry, error, impulses, ref softness);
         }
         // Slack that is left (C > 0) may be used up but not overdrawn: v >= -C / h. A violation is corrected as the spring says.
         // The first is the smaller of the two where C > 0, the second where C < 0, since ErrorToVelocity < 1 / h.
@@ -65,12 +64,12 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
     // Copies: a local whose address is taken is in memory all the time.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     static void DampLimit(
-        in TBodies bodies, in Substep substep, in TGeometry geometry, in TRows error, Vector<int> turnsFar, ref SoftnessWide softness)
+        in TBodies bodies, in Substep substep, in TGeometry geometry, in TRows error, in TRows impulses, ref SoftnessWide softness)
     {
         TGeometry arms = geometry;
         SoftnessWide damped = softness;
         TJoint.InverseEffectiveMass(arms, bodies, out var mass);
-        DampTurn(bodies, substep, arms, mass, TRows.Min(error, default), turnsFar, ref damped);
+        Damp(bodies, substep, arms, mass, TRows.Min(error, default), impulses, ref damped);
         softness = damped;
     }
 

@@ -76,7 +76,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         TJoint.Prepare(bodies, prestep, out var geometry);
         TJoint.PositionError(bodies, prestep, geometry, out var error);
         TJoint.LeanRows(bodies, prestep, ref geometry);
-        Aim(bodies, substep, prestep, geometry, error, out var target, out var softness, out var isHard);
+        Aim(bodies, substep, prestep, geometry, error, impulses, out var target, out var softness, out var isHard);
         if (IsLimited && substep.IsRelaxation)
             softness = default;
         var greatest = new Vector<float>(float.PositiveInfinity);
@@ -138,7 +138,7 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 
     // The velocity that Solve wants, and how softly.
     static void Aim(
-        in TBodies bodies, in Substep substep, in TPrestep prestep, in TGeometry geometry, in TRows error,
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TGeometry geometry, in TRows error, in TRows impulses,
         out TRows target, out SoftnessWide softness, out Vector<int> isHard)
     {
         if (TJoint.Kind == RowKind.Motor)
@@ -151,11 +151,11 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         isHard = Vector.Equals(TJoint.Spring(prestep).AngularFrequency, Vector<float>.Zero);
         var slots = bodies;
         softness = Softness(ref slots, substep, prestep);
-        if (MayTurnFar && !substep.IsRelaxation && !Vector.EqualsAll(BodySlots.At(ref slots, 0).TurnMask, Vector<int>.Zero))
+        if (MayTurnFar && !substep.IsRelaxation && !Vector.EqualsAll(BodySlots.At(ref slots, 0).CorrectionFlags, Vector<int>.Zero))
         {
             TJoint.InverseEffectiveMass(geometry, bodies, out var inverseMass);
             var off = TJoint.Kind == RowKind.Inequality ? TRows.Min(error, default) : error;
-            DampTurn(bodies, substep, geometry, inverseMass, off, BodySlots.At(ref slots, 0).TurnMask, ref softness);
+            Damp(bodies, substep, geometry, inverseMass, off, impulses, ref softness);
         }
         target = error * -softness.ErrorToVelocity;
         if (TJoint.Kind == RowKind.Inequality)

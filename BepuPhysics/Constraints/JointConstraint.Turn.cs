@@ -117,9 +117,4 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
         if (TBodies.Count > 2) greatest = Wide.Max(greatest, BodySlots.At(ref still, 2).Angular.LengthSquared());
         return greatest;
     }
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    static void DampTurn(
-        in TBodies bodies, in Substep substep, in TGeometry geometry, in TMass inverseMass, in TRows error, Vector<int> turnsFar, ref SoftnessWide softness) =>
-        JointTurn.Damp(TurnSquared(bodies, geometry, inverseMass, error), substep.Dt, turnsFar, ref softness);
 }

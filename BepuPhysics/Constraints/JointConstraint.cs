@@ -90,15 +90,14 @@ public readonly partial struct JointConstraint<TBodies, TPrestep, TGeometry, TRo
 
         if (MayTurnFar && !substep.IsRelaxation)
         {
-            var turnsFar = BodySlots.At(ref bodies, 0).TurnMask;
-            if (!Vector.EqualsAll(turnsFar, Vector<int>.Zero))
+            if (!Vector.EqualsAll(BodySlots.At(ref bodies, 0).CorrectionFlags, Vector<int>.Zero))
             {
                 // Copies: a local whose address is taken is in memory all the time.
                 TGeometry arms = geometry;
                 TMass mass = inverseMass;
                 TRows off = error;
                 SoftnessWide damped = softness;
-                DampTurn(bodies, substep, arms, mass, off, turnsFar, ref damped);
+                Damp(bodies, substep, arms, mass, off, impulses, ref damped);
                 softness = damped;
             }
         }

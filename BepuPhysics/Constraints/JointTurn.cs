@@ -59,19 +59,27 @@ static class JointTurn
         return Vector.GreaterThan(turnSquared, new Vector<float>(limit * limit));
     }
 
-    /// <summary>Damps a correction that would turn a body by more than a small angle, so that it turns it by no more.</summary>
+    /// <summary>Part of a correction that would turn a body by more than a small angle which turns it by no more; one of others.</summary>
     /// <param name="turnSquared">Square of the angle, rad, by which correcting all of the error would turn a body.</param>
     /// <param name="dt">Length of the substep, s.</param>
     /// <param name="lanes">Lanes that are concerned.</param>
-    /// <param name="softness">What is damped.</param>
-    // More damping c at the same stiffness k: ErrorToVelocity = k / (h k + c) becomes a part of itself, and h (h k + c) grows by as much.
+    /// <param name="softness">That of the joint.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    internal static void Damp(Vector<float> turnSquared, float dt, Vector<int> lanes, ref SoftnessWide softness)
+    internal static Vector<float> PartOf(Vector<float> turnSquared, float dt, Vector<int> lanes, in SoftnessWide softness)
     {
         var angle = Vector.SquareRoot(turnSquared) * softness.ErrorToVelocity * new Vector<float>(dt);
         var near = new Vector<float>(Near);
-        lanes &= Vector.GreaterThan(angle, near);
-        var part = Wide.Select(lanes, near / angle, Vector<float>.One);
+        return Wide.Select(lanes & Vector.GreaterThan(angle, near), near / angle, Vector<float>.One);
+    }
+
+    /// <summary>Damps a correction, so that it is a part of itself, and keeps its stiffness.</summary>
+    /// <param name="part">The part; lanes in which it is one stay as they are.</param>
+    /// <param name="softness">What is damped.</param>
+    // More damping c at the same stiffness k: ErrorToVelocity = k / (h k + c) becomes a part of itself, and h (h k + c) grows by as much.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal static void Damp(Vector<float> part, ref SoftnessWide softness)
+    {
+        var lanes = Vector.LessThan(part, Vector<float>.One);
         var massScale = softness.MassScale / (softness.MassScale + part * softness.ImpulseScale);
         softness.ErrorToVelocity *= part;
         softness.MassScale = Wide.Select(lanes, massScale, softness.MassScale);

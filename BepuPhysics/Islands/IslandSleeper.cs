@@ -182,10 +182,11 @@ public sealed unsafe class IslandSleeper
         }
     }
 
-    // What rests while its joints go over from the sweeps to being solved at once would sleep with the gaps that they still have.
+    // What rests while its joints go over from the sweeps to being solved at once, or close what they were added with, would sleep with the gaps that they
+    // still have: of small bodies that is slower than what counts as rest.
     bool IsOnItsWay(ReadOnlySpan<int> slots)
     {
-        if (!solver.MayHaveDirectJoints)
+        if (!solver.MayBeOnTheWay)
             return false;
         foreach (var slot in slots)
         {

@@ -26,8 +26,14 @@ public struct SolverBodyWide
     public Vector3Wide Rotation;
     /// <summary>Lanes in which the body is a hub: constraints that move it at the same time are many, or do not see each other's impulses.</summary>
     public Vector<int> HubMask;
+    /// <summary>Both masks of a joint that holds points, as they are in its reference to its first body. Zero in nearly all lanes.</summary>
+    internal Vector<int> CorrectionFlags;
+
     /// <summary>Lanes in which a joint that holds points may turn a body far by correcting its error; of a constraint's first body.</summary>
-    public Vector<int> TurnMask;
+    public readonly Vector<int> TurnMask => ~Vector.Equals(CorrectionFlags & new Vector<int>(EncodedBody.TurnFlag), Vector<int>.Zero);
+
+    /// <summary>Lanes in which a joint closes, slowly, a gap that it was added with; of a constraint's first body.</summary>
+    public readonly Vector<int> GapMask => ~Vector.Equals(CorrectionFlags & new Vector<int>(EncodedBody.GapMask), Vector<int>.Zero);
 }
 
 /// <summary>Parts of a body that a constraint reads, and of its velocities those that it writes. Folded away by the JIT.</summary>

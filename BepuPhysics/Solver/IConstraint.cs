@@ -28,6 +28,25 @@ public interface IConstraint<TBodies, TPrestep, TImpulses>
     /// <summary>Whether correcting the position may turn bodies far, so that it is asked once per step where it does. Only of types that make hubs.</summary>
     static virtual bool MayTurnFar => false;
 
+    /// <summary>Whether a gap that the constraint is added with closes slowly. Only of types that <see cref="MayTurnFar"/>.</summary>
+    static virtual bool ClosesGaps => false;
+
+    /// <summary>
+    /// Square of the way that a body goes, in its radii of gyration or in radians, to close what the constraint is off by; zero where that is little, or no
+    /// more than its load makes of it. Asked for only where <see cref="ClosesGaps"/>.
+    /// </summary>
+    /// <param name="bodies">The bodies, with their velocities.</param>
+    /// <param name="substep">The substep.</param>
+    /// <param name="prestep">Description.</param>
+    /// <param name="impulses">Accumulated impulses.</param>
+    /// <param name="opens">Receives lanes in which the bodies move so that there will be more of it.</param>
+    static virtual Vector<float> GapSquared(
+        in TBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses, out Vector<int> opens)
+    {
+        opens = Vector<int>.Zero;
+        return Vector<float>.Zero;
+    }
+
     /// <summary>Whether several constraints of the type on one body make it a hub.</summary>
     static virtual bool MakesHubs => false;
 

@@ -36,6 +36,12 @@ public struct SolveDescription
     /// </summary>
     public bool StopsImpacts;
     /// <summary>
+    /// Whether rigid joints close slowly what they are off by when they are added, or enabled: with a time constant of .2 s, and at no more than five radii
+    /// of gyration, or radians, a second for any body; not unless said otherwise, when they close it as fast as a substep can. Ropes that are cut and joined
+    /// again with a gap are not thrown about by it. What opens later is corrected at once, and so is what has a frequency of its own.
+    /// </summary>
+    public bool ClosesGapsSlowly;
+    /// <summary>
     /// Whether loads of what rests on others are handed down to the ground in one go; <see cref="LoadPathMode.WhereNeeded"/> unless said otherwise.
     /// </summary>
     public LoadPathMode LoadPath;

@@ -81,8 +81,14 @@ public sealed unsafe partial class Solver
     /// </summary>
     internal void SetSwept(ConstraintHandle handle, bool isSwept)
     {
-        if (IsSwept(handle) != isSwept)
-            TryMove(handle, isSwept ? BatchKind.Coloured : BatchKind.Direct);
+        if (IsSwept(handle) == isSwept)
+            return;
+        TryMove(handle, isSwept ? BatchKind.Coloured : BatchKind.Direct);
+        // What it was added with it goes on to close.
+        if (!isSwept || handle.Slot >= needs.Length || !needs[handle.Slot].Closes)
+            return;
+        MarkGap(Locations[handle.Slot]);
+        needs[handle.Slot].Closing = 0;
     }
 
     // Puts a constraint into a batch anew, for what its bodies are now; false where none of them is dynamic. Coloured stands for all kinds that are swept.
@@ -104,12 +110,15 @@ public sealed unsafe partial class Solver
         if (!anyDynamic)
             return false;
         processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);
+        var hasGap = HasGap(old);
         RemoveFromBatch(old);
         var location = Allocate(handle, handles[..processor.BodiesPerConstraint], old.TypeId, kind);
         Locations[handle.Slot] = location;
         processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
         if (processor.MakesHubs)
             MarkHubs(location);
+        if (hasGap && kind == BatchKind.Coloured)
+            MarkGap(location);
         return true;
     }
 

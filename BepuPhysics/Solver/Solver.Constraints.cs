@@ -204,6 +204,8 @@ public sealed unsafe partial class Solver
             bodies.ActiveSet.EnsureStiffness(pool);
         if (Processor(typeId).MakesHubs)
             CountJoint(handle, bodyHandles);
+        if (closesGapsSlowly)
+            MarkGap(Locations[handle.Slot]);
         return handle;
     }
 

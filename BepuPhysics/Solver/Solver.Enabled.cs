@@ -36,6 +36,8 @@ public sealed unsafe partial class Solver
         // One of the bodies is dynamic, or it would have been removed.
         TryMove(handle, enabled ? BatchKind.Coloured : BatchKind.Disabled);
         CountEnabled(Locations[handle.Slot], enabled ? 1 : -1);
+        if (enabled && closesGapsSlowly)
+            MarkGap(Locations[handle.Slot]);
         // What it needed before means nothing either.
         NumberJoint(handle);
     }

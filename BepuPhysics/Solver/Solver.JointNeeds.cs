@@ -41,12 +41,14 @@ public sealed unsafe partial class Solver
     /// <summary>Which joints are looked at in the present step.</summary>
     internal int NeedTurn => needTurn;
 
-    /// <summary>Whether joints may be solved at once, and some that are awake are, or were.</summary>
+    /// <summary>Whether joints may be on their way: some that are awake are solved at once, or were, or close slowly what they were added with.</summary>
     // Not what was chosen last: a restored world has to choose first.
-    internal bool MayHaveDirectJoints => directJoints != DirectJointsMode.Off && FindBatch(ActiveSet, BatchKind.Direct) >= 0;
+    internal bool MayBeOnTheWay => closesGapsSlowly || (directJoints != DirectJointsMode.Off && FindBatch(ActiveSet, BatchKind.Direct) >= 0);
 
-    /// <summary>Whether a constraint that exists is a joint on its way from the sweeps to being solved at once. Only where some are.</summary>
-    internal bool IsOnItsWay(int slot) => KindOf(Locations[slot]) == BatchKind.Direct && needs[slot].IsUnderway;
+    /// <summary>Whether a joint is on its way from the sweeps to being solved at once, or closes a gap that it was added with.</summary>
+    internal bool IsOnItsWay(int slot) => KindOf(Locations[slot]) == BatchKind.Direct
+        ? needs[slot].IsUnderway
+        : BatchOf(Locations[slot]).IsOfColour && HasGap(Locations[slot]);
 
     /// <summary>What is remembered of a joint. Only where joints may be solved at once.</summary>
     internal ref JointNeed NeedOf(ConstraintHandle joint) => ref needs[joint.Slot];
@@ -124,7 +126,9 @@ public sealed unsafe partial class Solver
             if (joint.IsDirect != IsSwept(joint.Handle))
                 continue;
             // One that the sweeps have had for a step goes over slowly. One that is new has not given way to anything, and is corrected at once.
-            if (joint.IsDirect && need.Number <= numberedBefore)
+            if (joint.IsDirect && HasGap(Locations[joint.Handle.Slot]))
+                (need.Closing, need.Underway) = (float.PositiveInfinity, 0);
+            else if (joint.IsDirect && need.Number <= numberedBefore)
                 need.Ease();
             joints[count++] = joint;
         }

@@ -60,13 +60,15 @@ public sealed unsafe partial class Solver
         processor.WriteColumn(ref TypeBatchAt(location), location.IndexInTypeBatch, column);
         if (processor.MakesHubs && kind != BatchKind.Disabled)
             MarkHubs(location);
+        if (kind == BatchKind.Coloured && (encoded[0] & EncodedBody.GapMask) != 0)
+            MarkGap(location);
     }
 
     /// <summary>Takes a constraint out of its batch, with all that it holds.</summary>
     /// <param name="constraint">The constraint.</param>
     /// <param name="asleepChange">What is added to the number of sleeping constraints of its kinematic bodies.</param>
     /// <param name="column">Receives description and impulses.</param>
-    /// <param name="encoded">Receives the slots of its bodies, with the mark of kinematic ones.</param>
+    /// <param name="encoded">Receives the slots of its bodies, with the mark of kinematic ones, and that of a gap.</param>
     /// <param name="processor">Its processor.</param>
     /// <param name="kind">Kind of the batch that it was in.</param>
     ConstraintHandle TakeOut(int constraint, int asleepChange, Span<float> column, Span<int> encoded, out TypeProcessor processor, out BatchKind kind)
@@ -78,9 +80,9 @@ public sealed unsafe partial class Solver
         for (int i = 0; i < processor.BodiesPerConstraint; ++i)
         {
             var slot = BodySlotOf(old, i);
-            var mark = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & EncodedBody.KinematicFlag;
-            encoded[i] = slot | mark;
-            if (mark != 0)
+            var marks = processor.BodyReference(ref typeBatch, old.IndexInTypeBatch, i) & (EncodedBody.KinematicFlag | EncodedBody.GapMask);
+            encoded[i] = slot | marks;
+            if ((marks & EncodedBody.KinematicFlag) != 0)
                 CountAsleep(slot, asleepChange);
         }
         processor.ReadColumn(ref typeBatch, old.IndexInTypeBatch, column);

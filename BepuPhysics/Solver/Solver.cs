@@ -40,6 +40,7 @@ public sealed unsafe partial class Solver
     int relaxationIterationCount;
     LoadPathMode loadPath;
     bool stopsImpacts;
+    bool closesGapsSlowly;
 
     /// <summary>Sets of constraints: 0 is the active one, 1 has all that sleep.</summary>
     public Buffer<ConstraintSet> Sets;
@@ -124,6 +125,19 @@ public sealed unsafe partial class Solver
         }
     }
 
+    /// <summary>
+    /// Whether rigid joints that are added, or enabled, from now on close slowly what they are off by; see <see cref="SolveDescription.ClosesGapsSlowly"/>.
+    /// </summary>
+    public bool ClosesGapsSlowly
+    {
+        get => closesGapsSlowly;
+        set
+        {
+            world.CheckChangeable("Solver.ClosesGapsSlowly");
+            closesGapsSlowly = value;
+        }
+    }
+
     /// <summary>Whether loads of what rests on others are handed down to the ground in one go.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
     public LoadPathMode LoadPath
@@ -169,6 +183,7 @@ public sealed unsafe partial class Solver
         relaxationIterationCount = description.RelaxationIterationCount;
         loadPath = description.LoadPath;
         stopsImpacts = description.StopsImpacts;
+        closesGapsSlowly = description.ClosesGapsSlowly;
         directJoints = description.DirectJoints;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
         governor = description.Governor;

@@ -40,6 +40,10 @@ static class EncodedBody
     internal const int HubFlag = 1 << 29;
     /// <summary>Set, in the first reference of a joint that holds points, where its correction may turn a body far (JointTurn.cs); anew in each step.</summary>
     internal const int TurnFlag = 1 << 28;
+    /// <summary>Least size yet, in the first reference of a joint that holds points, of a gap that it was added with and closes (JointGap.cs).</summary>
+    internal const int GapMask = TurnFlag - (1 << GapShift);
+    /// <summary>Lowest bit of that.</summary>
+    internal const int GapShift = HandleLayout.SlotBits;
     /// <summary>Bits of the body index.</summary>
-    internal const int IndexMask = TurnFlag - 1;
+    internal const int IndexMask = (1 << HandleLayout.SlotBits) - 1;
 }

@@ -16,6 +16,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     internal override bool CarriesPointLoad => TConstraint.CarriesPointLoad;
     /// <inheritdoc/>
     internal override bool MakesHubs => TConstraint.MakesHubs;
+    /// <inheritdoc/>
+    internal override bool ClosesGaps => TConstraint.ClosesGaps;
 
     /// <inheritdoc/>
     internal override void ShiftOrigin(ref TypeBatch batch, Vector3 shift)
@@ -117,6 +119,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
             ScaleInverseMass(i, split, ref slots);
             // Constraints of split bodies do not see each other's impulses until the parts are joined.
             BodySlots.At(ref slots, 0).HubMask = new(-1);
+            // Nor does a warm start look at what they are off by.
+            BodySlots.At(ref slots, 0).CorrectionFlags = Vector<int>.Zero;
             TConstraint.Solve(ref slots, substep, ref prestep[i], ref impulses[i]);
             WriteParts(i, split, ref slots);
         }
@@ -129,7 +133,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     {
         var isStiffened = TConstraint.TryGetGeometricStiffness(slots, substep, prestep, impulses, out var stiffnessA, out var stiffnessB, out var turnsFar);
         if (TConstraint.MayTurnFar)
-            MarkTurning(ref references[0], turnsFar);
+            MarkCorrection(ref references[0], turnsFar, LookAtGap(references, bodies, substep, prestep, impulses));
         if (TConstraint.TakesAlong)
             LookForNeighbours(references, bodies, slots, prestep, impulses);
         if (!isStiffened)
@@ -191,12 +195,34 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         }
     }
 
+    // Joints that close a gap which is still there. Hardly ever is there one.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    static Vector<int> LookAtGap(Vector<int>* references, in SolverBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses)
+    {
+        var closes = CorrectionFlags(references[0]) & new Vector<int>(EncodedBody.GapMask);
+        return Vector.EqualsAll(closes, Vector<int>.Zero) ? closes : MeasureGap(references, closes, bodies, substep, prestep, impulses);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    static Vector<int> MeasureGap(
+        Vector<int>* references, Vector<int> closes, in SolverBodies bodies, in Substep substep, in TPrestep prestep, in TImpulses impulses)
+    {
+        // A warm start has not read all of it.
+        Gather(references, PlaceMask, bodies, TConstraint.SolveAccess, substep, out _, out var slots);
+        var isFixed = Vector<int>.Zero;
+        for (int slot = 0; slot < TBodies.Count; ++slot)
+            isFixed |= Vector.Equals(BodySlots.At(ref slots, slot).InverseMass, Vector<float>.Zero);
+        var waySquared = TConstraint.GapSquared(slots, substep, prestep, impulses, out var opens);
+        return JointGap.Follow(closes, waySquared, isFixed, opens);
+    }
+
     // An empty reference keeps all of its bits.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static void MarkTurning(ref Vector<int> references, Vector<int> turnsFar)
+    static void MarkCorrection(ref Vector<int> references, Vector<int> turnsFar, Vector<int> gap)
     {
-        var flag = Vector.AndNot(new Vector<int>(EncodedBody.TurnFlag), Vector.Equals(references, new Vector<int>(EncodedBody.Empty)));
-        var marked = Wide.Select(turnsFar, references | flag, Vector.AndNot(references, flag));
+        var flags = (turnsFar & new Vector<int>(EncodedBody.TurnFlag)) | gap;
+        var marked = Vector.AndNot(references, new Vector<int>(EncodedBody.TurnFlag | EncodedBody.GapMask)) | flags;
+        marked |= Vector.Equals(references, new Vector<int>(EncodedBody.Empty));
         // Hardly ever one to write.
         if (!Vector.EqualsAll(marked, references))
             references = marked;
@@ -248,7 +274,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
         if ((access & BodyAccess.Hub) != 0)
         {
             BodySlots.At(ref slots, 0).HubMask = HubMask(references[0]);
-            if (TConstraint.MayTurnFar) BodySlots.At(ref slots, 0).TurnMask = TurnMask(references[0]);
+            if (TConstraint.MayTurnFar) BodySlots.At(ref slots, 0).CorrectionFlags = CorrectionFlags(references[0]);
             if (TBodies.Count > 1) BodySlots.At(ref slots, 1).HubMask = HubMask(references[1]);
             if (TBodies.Count > 2) BodySlots.At(ref slots, 2).HubMask = HubMask(references[2]);
             if (TBodies.Count > 3) BodySlots.At(ref slots, 3).HubMask = HubMask(references[3]);
@@ -302,7 +328,7 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
     static Vector<int> PlaceMask
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => TConstraint.MakesHubs ? new Vector<int>(~(EncodedBody.HubFlag | EncodedBody.TurnFlag)) : new Vector<int>(-1);
+        get => TConstraint.MakesHubs ? new Vector<int>(~(EncodedBody.HubFlag | EncodedBody.TurnFlag | EncodedBody.GapMask)) : new Vector<int>(-1);
     }
 
     // All bits of an empty reference are set; what its lane holds means nothing.
@@ -311,8 +337,8 @@ public sealed unsafe partial class TypeProcessor<TBodies, TPrestep, TImpulses, T
 
     // None of an empty reference, of which the sign is set as well: it is not worth a look.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    static Vector<int> TurnMask(Vector<int> references) =>
-        Vector.Equals(references & new Vector<int>(EncodedBody.TurnFlag | int.MinValue), new(EncodedBody.TurnFlag));
+    static Vector<int> CorrectionFlags(Vector<int> references) =>
+        Vector.AndNot(references & new Vector<int>(EncodedBody.TurnFlag | EncodedBody.GapMask), references >> 31);
 
     // What is split and put together again is the whole body, whatever the constraint reads of it.
     const BodyAccess SplitAccess = BodyAccess.Velocity | BodyAccess.Mass;

@@ -39,6 +39,8 @@ public abstract partial class TypeProcessor
     internal abstract bool CarriesPointLoad { get; }
     /// <summary>Whether several constraints of this type on one body make it a hub.</summary>
     internal abstract bool MakesHubs { get; }
+    /// <summary>Whether constraints of this type close slowly a gap that they are added with.</summary>
+    internal abstract bool ClosesGaps { get; }
     /// <summary>Applies the accumulated impulses of some bundles.</summary>
     internal abstract void WarmStart(ref TypeBatch batch, in SolverBodies bodies, in Substep substep, int startBundle, int endBundle);
     /// <summary>Solves some bundles once.</summary>

@@ -108,7 +108,7 @@ public unsafe class AccessTests
             body.InverseMass = body.InverseMass.WithElement(lane, samples.Integer(5) == 0 ? 0 : samples.Positive(0.2f, 2));
             Lanes.Write(samples.Definite(samples.Integer(4) == 0 ? 30 : 1), ref body.InverseInertia, lane);
             body.HubMask = body.HubMask.WithElement(lane, -samples.Integer(2));
-            body.TurnMask = body.TurnMask.WithElement(lane, -samples.Integer(2));
+            body.CorrectionFlags = body.CorrectionFlags.WithElement(lane, -samples.Integer(2));
         }
     }
 

@@ -13,8 +13,8 @@ namespace DemoTests.Constraints;
 public class BreakingBlowTests
 {
     /// <summary>
-    /// Balls of m in a row, of which the first one moves along it with v. In the end all move with v / n: so the first joint had to bring n - 1 of them to that,
-    /// and was pulled with m v (n - 1) / n. A joint that gives way pulls by some more, in the step of the blow.
+    /// Balls of m in a row, of which the first one moves along it with v. In the end all move with v / n: so the first joint had to bring n - 1 of them to
+    /// that, and was pulled with m v (n - 1) / n. A joint that gives way pulls by some more, in the step of the blow.
     /// </summary>
     [Theory]
     [InlineData(2, 4, DirectJointsChoice.Off)]

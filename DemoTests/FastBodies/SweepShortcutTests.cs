@@ -123,7 +123,8 @@ public unsafe class SweepShortcutTests
             {
                 for (int childB = 0; childB < b.ChildCount; ++childB)
                 {
-                    var (bodyA, bodyB) = (BodyOf(a.Children[childA], shapes, motion.OrientationA, spinA), BodyOf(b.Children[childB], shapes, motion.OrientationB, spinB));
+                    var bodyA = BodyOf(a.Children[childA], shapes, motion.OrientationA, spinA);
+                    var bodyB = BodyOf(b.Children[childB], shapes, motion.OrientationB, spinB);
                     each.Test(motion, ref bodyA, ref bodyB, childA, childB);
                 }
             }

@@ -66,8 +66,8 @@ sealed unsafe partial class FastPairs
         return false;
     }
 
-    // Of cores that are not apart all thicker ones overlap too: so the first that are is found by halves. What is within each other however thin it is has none,
-    // and no way at all.
+    // Of cores that are not apart all thicker ones overlap too: so the first that are is found by halves. What is within each other however thin it is has
+    // none, and no way at all.
     int FirstApart(ref FastPair pair, in SweepMotion motion, int overlapping, BufferPool temporary)
     {
         var first = Math.Min(pair.Level, SkinParts.Length - 1);

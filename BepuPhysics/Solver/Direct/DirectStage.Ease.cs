@@ -33,6 +33,33 @@ sealed unsafe partial class DirectStage
             joint.Target(row) *= joint.IsLinear(row) ? linearPart : angularPart;
     }
 
+    // A joint that was added with a gap closes it as fast as sweeps would. The least way yet; zero where hardly any is left, or where it is another gap.
+    static float CloseSlowly(in JointLane joint, in BodySet set, float least)
+    {
+        var (linear, angular) = joint.Error();
+        var way = Math.Max(linear > 0 ? linear / Correction.Reach(joint, set.LocalInertias) : 0, angular);
+        if (way <= JointGap.Near || (way > JointGap.GreatestGrowth * least && HasFixed(joint, set)))
+            return 0;
+        double target = 0;
+        for (int row = 0; row < joint.RowCount; ++row)
+            target += joint.Target(row) * joint.Target(row);
+        var closing = JointGap.RateOf(way) * Math.Sqrt(linear * linear + angular * angular);
+        var part = Math.Min(1, closing / Math.Sqrt(target));
+        for (int row = 0; row < joint.RowCount && target > 0; ++row)
+            joint.Target(row) *= part;
+        return Math.Min((float)way, least);
+    }
+
+    static bool HasFixed(in JointLane joint, in BodySet set)
+    {
+        for (int slot = 0; slot < joint.BodyCount; ++slot)
+        {
+            if (set.LocalInertias[joint.Body(slot)].InverseMass == 0)
+                return true;
+        }
+        return false;
+    }
+
     // Of the body that turns fastest.
     static float TurnSquared(in JointLane joint, in BodySet set)
     {

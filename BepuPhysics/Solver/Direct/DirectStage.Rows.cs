@@ -48,12 +48,15 @@ sealed unsafe partial class DirectStage
         return anyEases;
     }
 
-    // A bit for each joint that is on its way from the sweeps.
+    // A bit for each joint that is on its way from the sweeps, or closes a gap that it was added with.
     int LanesThatEase(int* members, int count)
     {
         var lanes = 0;
         for (int lane = 0; lane < count; ++lane)
-            lanes |= (solver.NeedOf(plan.Members[members[lane]].Handle).Eases > 0 ? 1 : 0) << lane;
+        {
+            ref var need = ref solver.NeedOf(plan.Members[members[lane]].Handle);
+            lanes |= (need.Eases > 0 || need.Closes ? 1 : 0) << lane;
+        }
         return lanes;
     }
 
@@ -151,7 +154,18 @@ sealed unsafe partial class DirectStage
         ref var set = ref bodies.Awake;
         var corrects = joint.IsHard && (joint.Limit == RowLimit.None || CorrectsAll(joint, substep));
         if (eases)
-            Ease(joint, ref solver.NeedOf(plan.Members[member].Handle), set, substep, corrects);
+        {
+            ref var need = ref solver.NeedOf(plan.Members[member].Handle);
+            if (need.Closes)
+            {
+                need.Closing = corrects ? CloseSlowly(joint, set, need.Closing) : 0;
+                need.Underway += substep.Dt;
+                if (need.Closes)
+                    return;
+            }
+            else
+                Ease(joint, ref need, set, substep, corrects);
+        }
         if (corrects && joint.Limit != RowLimit.Length)
             Correction.Limit(joint, set, substep.Dt);
     }

@@ -63,6 +63,12 @@ struct JointNeed
     /// <summary>The same about axes, rad.</summary>
     public float Turn;
 
+    /// <summary>Least way yet of a gap that it was added with, and closes as sweeps would (JointGap.cs); infinite of a new one, zero of none.</summary>
+    public float Closing;
+
+    /// <summary>Whether it closes a gap that it was added with.</summary>
+    internal readonly bool Closes => Closing > 0;
+
     /// <summary>There is a reason to ask.</summary>
     /// <returns>Whether it did not ask before.</returns>
     internal bool Ask()
@@ -94,7 +100,8 @@ struct JointNeed
     internal void Refuse() => (Asks, Refused) = (0, GreatestPeriod);
 
     /// <summary>What stays when the mode becomes another one: how far it is on its way from the sweeps.</summary>
-    internal readonly JointNeed Renewed(long number) => new() { Number = number, Eases = Eases, Underway = Underway, Gap = Gap, Turn = Turn };
+    internal readonly JointNeed Renewed(long number) =>
+        new() { Number = number, Eases = Eases, Underway = Underway, Gap = Gap, Turn = Turn, Closing = Closing };
 
     /// <summary>Begins to go over from the sweeps.</summary>
     internal void Ease() => (Eases, Underway, Gap, Turn) = (EaseEnd, 0, 0, 0);
@@ -107,7 +114,7 @@ struct JointNeed
     }
 
     /// <summary>Whether it is on its way from the sweeps, and may get there soon: of joints that contradict each other some never do.</summary>
-    internal readonly bool IsUnderway => Eases > 0 && Underway < GreatestPeriod;
+    internal readonly bool IsUnderway => (Eases > 0 || Closes) && Underway < GreatestPeriod;
 
     /// <summary>How many times as fast an error goes: slower where it is large, and faster if a body of the joint turns.</summary>
     /// <param name="turnSquared">Square of the angular speed of the body that turns fastest, rad2/s2.</param>
