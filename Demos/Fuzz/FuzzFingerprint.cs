@@ -92,6 +92,8 @@ static class FuzzFingerprint
         hash.Add(solver.RelaxationIterationCount);
         hash.Add((int)solver.LoadPath);
         hash.Add((int)solver.DirectJoints);
+        hash.Add(solver.StopsImpacts ? 1 : 0);
+        hash.Add(solver.ClosesGapsSlowly ? 1 : 0);
         hash.Add(solver.Governor.HasValue ? 1 : 0);
         hash.Add(solver.Governor.GetValueOrDefault().TargetError);
         hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);

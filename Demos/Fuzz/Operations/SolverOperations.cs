@@ -13,6 +13,8 @@ static class SolverOperations
         new("Solver.RelaxationIterationCount", 2, w => w.Simulation.Solver.RelaxationIterationCount = Few(w)),
         new("Solver.LoadPath", 2, w => w.Simulation.Solver.LoadPath = Mode(w)),
         new("Solver.DirectJoints", 2, w => w.Simulation.Solver.DirectJoints = JointMode(w)),
+        new("Solver.StopsImpacts", 2, w => w.Simulation.Solver.StopsImpacts = w.Random.Percent(50)),
+        new("Solver.ClosesGapsSlowly", 2, w => w.Simulation.Solver.ClosesGapsSlowly = w.Random.Percent(50)),
         new("Solver.Governor", 2, Govern),
         new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
         new("Solver.VelocityIterationScheduler", 2, Schedule),
