@@ -56,6 +56,8 @@ public sealed unsafe partial class Solver
         copy.Value(ref relaxationIterationCount);
         copy.Value(ref loadPath);
         copy.Value(ref directJoints);
+        copy.Value(ref stopsImpacts);
+        copy.Value(ref closesGapsSlowly);
         copy.Value(ref hasFixedSubstepCount);
         var isGoverned = copy.Value(governor.HasValue);
         var settings = copy.Value(governor.GetValueOrDefault());

@@ -4,6 +4,7 @@ using System.Numerics;
 using BepuPhysics;
 using BepuPhysics.Collidables;
 using BepuUtilities.Memory;
+using Demos.Accuracy;
 using Demos.Scenes;
 using DemoTests.Determinism;
 using DemoTests.Scenes;
@@ -62,6 +63,26 @@ public class SnapshotTests
         world.Simulation.Solver.DirectJoints = mode;
         AssertGoesOn(world, other);
         Assert.Equal(mode, other.Simulation.Solver.DirectJoints);
+    }
+
+    /// <summary>What the solver was told to do comes back too: a game may have changed it after it saved.</summary>
+    [Theory, InlineData(false), InlineData(true)]
+    public void What_the_solver_was_told_comes_back(bool isSaved)
+    {
+        using var world = new TestWorld(new AccuracySettings());
+        using var pool = new BufferPool();
+        using var snapshot = new SimulationSnapshot(pool);
+        var solver = world.Solver;
+        void Tell(bool value) =>
+            (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.DirectJoints, solver.LoadPath) =
+            (value, value, value ? DirectJointsMode.Always : DirectJointsMode.Off, value ? LoadPathMode.Off : LoadPathMode.WhereNeeded);
+        Tell(isSaved);
+        world.Simulation.Save(snapshot);
+        Tell(!isSaved);
+        world.Simulation.Restore(snapshot);
+        Assert.Equal(
+            (isSaved, isSaved, isSaved ? DirectJointsMode.Always : DirectJointsMode.Off, isSaved ? LoadPathMode.Off : LoadPathMode.WhereNeeded),
+            (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.DirectJoints, solver.LoadPath));
     }
 
     static void AssertGoesOn(SceneWorld world, SceneWorld other)
