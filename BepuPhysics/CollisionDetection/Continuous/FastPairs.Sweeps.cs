@@ -47,7 +47,7 @@ sealed unsafe partial class FastPairs
     bool TrySweepApart(ref FastPair pair, SweepMotion motion, BufferPool temporary, out SweepHit hit)
     {
         if (pair.Level > 0)
-            pair.Level = FirstApart(ref pair, motion, -1, temporary);
+            pair.Level = FirstApart(ref pair, motion, pair.Level, -1, temporary);
         for (int level = pair.Level; level < SkinParts.Length; ++level)
         {
             motion.ThinnerPart = SkinParts[level];
@@ -55,8 +55,7 @@ sealed unsafe partial class FastPairs
             if (hit.Overlaps)
             {
                 // Most that overlap do so by little.
-                pair.Level = level + 1;
-                pair.Level = FirstApart(ref pair, motion, level, temporary);
+                pair.Level = FirstApart(ref pair, motion, level + 1, level, temporary);
                 level = pair.Level - 1;
             }
             else if (!hit.RanOut)
@@ -68,10 +67,10 @@ sealed unsafe partial class FastPairs
 
     // Of cores that are not apart all thicker ones overlap too: so the first that are is found by halves. What is within each other however thin it is has
     // none, and no way at all.
-    int FirstApart(ref FastPair pair, in SweepMotion motion, int overlapping, BufferPool temporary)
+    int FirstApart(ref FastPair pair, in SweepMotion motion, int first, int within, BufferPool temporary)
     {
-        var first = Math.Min(pair.Level, SkinParts.Length - 1);
-        int within = overlapping, apart = SkinParts.Length;
+        first = Math.Min(first, SkinParts.Length - 1);
+        var apart = SkinParts.Length;
         for (int level = first; apart - within > 1;)
         {
             if (OverlapsAtFirst(ref pair, motion, SkinParts[level], temporary))

@@ -44,10 +44,9 @@ static class SweepBounds
             farthest = Exact.Max(farthest, Exact.Max(Vector3.Abs(root[i].Min), Vector3.Abs(root[i].Max)));
         part.GetBounds(motion.OrientationB, motion.MaximumT, out var lower, out var upper);
         var place = motion.OrientationB.TurnBack(-motion.OffsetB);
-        double radius = Exact.Length(farthest), turn = motion.AngularB.Length;
-        var pad = Pad(part, motion, place.Length + radius, speed + turn * radius);
-        if (turn > 0)
-            pad += radius * Math.Min(2, turn * motion.MaximumT);
+        double radius = Exact.Length(farthest);
+        var pad = Pad(part, motion, place.Length + radius, speed + motion.AngularB.Length * radius) +
+            SweepMotion.Arc(radius, motion.AngularB, motion.MaximumT);
         min = Lower(place + lower, pad);
         max = Upper(place + upper, pad);
     }
@@ -67,9 +66,8 @@ static class SweepBounds
         DoubleVector3 start = motion.OrientationA.TurnBack(motion.OffsetB), end = motion.OrientationA.TurnBack(motion.OffsetB + relative * motion.MaximumT);
         // No point of B is farther from the centre of A.
         var farthest = Math.Max(start.Length, end.Length) + motion.ReachOfB;
-        var turn = motion.AngularA.Length;
-        var pad = motion.ReachOfB + farthest * (Math.Min(2, turn * motion.MaximumT) + Rounding) + motion.Accuracy.TouchingDistance +
-            Touching(motion, relative.Length + turn * farthest + motion.AngularB.Length * motion.ReachOfB);
+        var pad = motion.ReachOfB + farthest * Rounding + SweepMotion.Arc(farthest, motion.AngularA, motion.MaximumT) + motion.Accuracy.TouchingDistance +
+            Touching(motion, relative.Length + motion.AngularA.Length * farthest + motion.AngularB.Length * motion.ReachOfB);
         min = Lower(new(Math.Min(start.X, end.X), Math.Min(start.Y, end.Y), Math.Min(start.Z, end.Z)), pad);
         max = Upper(new(Math.Max(start.X, end.X), Math.Max(start.Y, end.Y), Math.Max(start.Z, end.Z)), pad);
     }

@@ -64,8 +64,15 @@ struct SweepMotion
         return ImpactBalls.FirstMeeting(center, LinearA - LinearB, radius) <= maximumT;
     }
 
-    // What turns goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle.
-    static double Arc(double arm, in DoubleVector3 angular, double time) => arm > 0 ? arm * Math.Min(2, angular.Length * time) * ArcSlack : 0;
+    /// <summary>What turns goes along an arc: away from where it would be by no more than its length, nor than the diameter of the circle, m.</summary>
+    /// <param name="arm">Distance from the centre, m.</param>
+    /// <param name="angular">Angular velocity, rad/s.</param>
+    /// <param name="time">The time, s; may be infinite.</param>
+    internal static double Arc(double arm, in DoubleVector3 angular, double time)
+    {
+        var speed = angular.Length;
+        return arm > 0 && speed > 0 ? arm * Math.Min(2, speed * time) * ArcSlack : 0;
+    }
 
     // As far as parts may be from each other and still count as touching.
     readonly double TouchingIn(in ImpactBody part, in ImpactCore core, Vector3 local)

@@ -30,6 +30,8 @@ struct ContactMaterialWide
     internal const float BandPerExtent = 1e-3f;
 
     const float LeastBand = 1e-30f;
+    /// <summary>Part of the overlap beyond the band that is taken out of held patches for each substep: by a velocity, or out of the poses.</summary>
+    internal const float HeldRecovery = 0.04f;
     const int LoneBit = 1;
     const int RestBit = 2;
     const int LiftBit = 4;

@@ -23,8 +23,6 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
 {
     // Least part of its softness that a row keeps whose recovery is limited, and which bears a load.
     const float LeastSoftness = 0.25f;
-    // Part of the overlap beyond the band that a held contact takes out in a substep.
-    const float HeldRecovery = 0.04f;
 
     /// <inheritdoc/>
     public static BodyAccess WarmStartAccess => BodyAccess.Velocity | BodyAccess.Mass;
@@ -264,7 +262,7 @@ readonly partial struct ConvexContactConstraint<TBodies, TContacts, TNormals> :
     {
         softness.MassScale = Wide.Select(isHeld, Vector<float>.One, softness.MassScale);
         softness.ImpulseScale = Vector.AndNot(softness.ImpulseScale, Vector.AsVectorSingle(isHeld));
-        var recovery = new Vector<float>(substep.IsRelaxation ? 0 : HeldRecovery * substep.InverseDt);
+        var recovery = new Vector<float>(substep.IsRelaxation ? 0 : ContactMaterialWide.HeldRecovery * substep.InverseDt);
         softness.ErrorToVelocity = Wide.Select(
             isHeld, Wide.Mask(~ContactMaterialWide.IsLifted(angularFrequency), recovery), softness.ErrorToVelocity);
         return Wide.Mask(isHeld, -angularFrequency);

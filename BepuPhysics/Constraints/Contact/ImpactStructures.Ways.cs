@@ -82,8 +82,8 @@ sealed unsafe partial class ImpactStructures
         for (int i = first; i < end; ++i)
         {
             ref var part = ref parts[i];
-            part.Change = new(part.Change.Linear * scale, part.Change.Angular * scale);
-            part.Path = new(part.Path.Linear * scale, part.Path.Angular * scale);
+            part.Change = Restitution.Times(part.Change, scale);
+            part.Path = Restitution.Times(part.Path, scale);
         }
     }
 

@@ -130,8 +130,6 @@ sealed unsafe partial class Restitution
             }
         }
 
-        static BodyVelocity Times(in BodyVelocity velocity, float factor) => new(velocity.Linear * factor, velocity.Angular * factor);
-
         // A body in joints has to be turned with its structure: moved alone it would leave them.
         readonly void ShiftPart(in ContactRows contacts, int body, in BodyVelocity way)
         {

@@ -223,6 +223,8 @@ sealed unsafe partial class Restitution(Solver solver, Bodies bodies, BufferPool
         }
     }
 
+    internal static BodyVelocity Times(in BodyVelocity velocity, float factor) => new(velocity.Linear * factor, velocity.Angular * factor);
+
     static BodyVelocity Difference(in BodyVelocity a, in BodyVelocity b) => new(a.Linear - b.Linear, a.Angular - b.Angular);
 
     // When a pair meets, and where it should have before.

@@ -33,7 +33,7 @@ sealed unsafe partial class LoadPathStage
                     continue;
                 var place = new ContactPlace(solver, ref solver.TypeBatchAt(location), location.IndexInTypeBatch);
                 var count = ConstraintTypeIds.ContactCount(location.TypeId);
-                var normal = Three(place, ContactPrestepLayout.Normal(count));
+                var normal = LoadSupport.Three(place.Prestep, ContactPrestepLayout.Normal(count));
                 if (IsCrushed(place, count, normal) || (!place.IsFixedB && IsBlow(body, place, count, normal)))
                     return true;
             }
@@ -64,22 +64,16 @@ sealed unsafe partial class LoadPathStage
             var extent = float.MaxValue;
             for (int i = 0; i < count; ++i)
             {
-                var arm = Three(place, i * ContactPrestepLayout.FloatsPerContact);
+                var arm = LoadSupport.Three(place.Prestep, i * ContactPrestepLayout.FloatsPerContact);
                 extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm, normal)));
                 if (!place.IsFixedB)
-                    extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm - Three(place, ContactPrestepLayout.OffsetB(count)), normal)));
+                    extent = MathHelper.Min(extent, MathF.Abs(Exact.Dot(arm - LoadSupport.Three(place.Prestep, ContactPrestepLayout.OffsetB(count)), normal)));
             }
             // In by more than to a centre, nothing says which way is out: soft contacts would throw it.
             return depth > CrushedShare * count * extent && depth < count * extent;
         }
 
         static float Depth(in ContactPlace place, int contact) =>
-            place.Prestep[(contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth) * Vector<float>.Count];
-
-        static Vector3 Three(in ContactPlace place, int field)
-        {
-            var first = place.Prestep + field * Vector<float>.Count;
-            return new(first[0], first[Vector<float>.Count], first[2 * Vector<float>.Count]);
-        }
+            LoadSupport.Number(place.Prestep, contact * ContactPrestepLayout.FloatsPerContact + ContactPrestepLayout.Depth);
     }
 }

@@ -15,8 +15,6 @@ namespace BepuPhysics.Constraints.Contact;
 // with what is below and out of its own overlaps, by the least squares of its contacts, like a thing that is glued to them. No velocity tells of it.
 sealed unsafe partial class LoadPathStage
 {
-    // Part of the overlap beyond the band that is taken out for each substep of a step.
-    const float LiftPerSubstep = 0.04f;
     // Part of the band to which it is taken out, so that it comes to an end.
     const float AimedBand = 0.9375f;
     // Steps of acceleration up to which what rests is lifted.
@@ -43,7 +41,7 @@ sealed unsafe partial class LoadPathStage
     {
         var left = 1f;
         for (int i = 0; i < substepCount; ++i)
-            left *= 1 - LiftPerSubstep;
+            left *= 1 - ContactMaterialWide.HeldRecovery;
         return left;
     }
 

@@ -140,7 +140,9 @@ unsafe struct LoadSupport
 
     readonly ref float Impulse(int field) => ref Number(Impulses, field);
 
-    static ref float Number(float* column, int field) => ref column[field * Vector<float>.Count];
+    /// <summary>A number of a constraint, of which the first is at a place and the others lie a vector apart.</summary>
+    internal static ref float Number(float* column, int field) => ref column[field * Vector<float>.Count];
 
-    static Vector3 Three(float* column, int field) => new(Number(column, field), Number(column, field + 1), Number(column, field + 2));
+    /// <summary>A vector of a constraint, as <see cref="Number"/>.</summary>
+    internal static Vector3 Three(float* column, int field) => new(Number(column, field), Number(column, field + 1), Number(column, field + 2));
 }
