@@ -11,14 +11,14 @@ namespace BepuPhysics.CollisionDetection;
 // away from it, takes nothing of that: as LoadPathStage.Elsewhere has it for kinematic bodies.
 public sealed unsafe partial class NarrowPhase<TCallbacks>
 {
-    // As stiff as a substep allows, and damped as what is rigid.
-    static SpringSettings Stiffest => new() { AngularFrequency = Limits.MaximumSpringFrequency, TwiceDampingRatio = 2 };
+    // As stiff and damped as what is rigid.
+    SpringSettings LikeRigid => new() { AngularFrequency = Simulation.Solver.RigidContactFrequency, TwiceDampingRatio = 2 };
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     void LetGoOfMoved(in CollidablePair pair, in Vector3 normal, ref PairMaterialProperties material)
     {
         if (Simulation.Statics.AnyMoved && pair.B.Mobility == CollidableMobility.Static && material.SpringSettings.AngularFrequency == 0 &&
             Simulation.Statics.WasMovedInto(pair.B.StaticHandle, normal))
-            material.SpringSettings = Stiffest;
+            material.SpringSettings = LikeRigid;
     }
 }

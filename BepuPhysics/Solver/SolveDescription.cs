@@ -36,6 +36,16 @@ public struct SolveDescription
     /// </summary>
     public bool StopsImpacts;
     /// <summary>
+    /// Frequency of rigid contacts, Hz, where sweeps hold that; 0 for as stiff as sweeps hold, which is 30 Hz at four substeps of sixty steps a second, and
+    /// goes with the number of both.
+    /// </summary>
+    /// <remarks>
+    /// What falls onto each other is thrown about the more the stiffer contacts are: of 32 houses of three storeys that are dropped layer by layer 11 fall
+    /// at eight substeps, 27 at sixteen, and none at 30 Hz. What no <see cref="LoadPath"/> carries, heaps and what is squeezed, sinks in by the inverse
+    /// square of it. Changed while things rest on each other it lifts them or lets them sink.
+    /// </remarks>
+    public float ContactFrequency;
+    /// <summary>
     /// Whether rigid joints close slowly what they are off by when they are added, or enabled: with a time constant of .2 s, and at no more than five radii
     /// of gyration, or radians, a second for any body; not unless said otherwise, when they close it as fast as a substep can. Ropes that are cut and joined
     /// again with a gap are not thrown about by it. What opens later is corrected at once, and so is what has a frequency of its own.
@@ -106,9 +116,17 @@ public struct SolveDescription
         ArgumentOutOfRangeException.ThrowIfLessThan(SubstepCount, 1, nameof(SubstepCount));
         ArgumentOutOfRangeException.ThrowIfNegative(RelaxationIterationCount, nameof(RelaxationIterationCount));
         ArgumentOutOfRangeException.ThrowIfLessThan(FallbackBatchThreshold, 1, nameof(FallbackBatchThreshold));
+        CheckFrequency(ContactFrequency);
         Check(LoadPath);
         Check(DirectJoints);
         Governor?.Validate();
+    }
+
+    internal static void CheckFrequency(float frequency)
+    {
+        if (!(frequency >= 0 && frequency <= Limits.MaximumSpringFrequency))
+            throw new ArgumentOutOfRangeException(
+                nameof(frequency), frequency, $"{nameof(ContactFrequency)} must be from 0 to {Limits.MaximumSpringFrequency} Hz.");
     }
 
     internal static void Check(DirectJointsMode mode)

@@ -58,6 +58,7 @@ public sealed unsafe partial class Solver
         copy.Value(ref directJoints);
         copy.Value(ref stopsImpacts);
         copy.Value(ref closesGapsSlowly);
+        copy.Value(ref contactFrequency);
         copy.Value(ref hasFixedSubstepCount);
         var isGoverned = copy.Value(governor.HasValue);
         var settings = copy.Value(governor.GetValueOrDefault());

@@ -246,7 +246,7 @@ public sealed unsafe partial class Solver
     {
         var scale = substep == 0 ? work.FirstWarmStartScale : 1;
         work.Substeps.Add(
-            new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt)
+            new(substep, work.SubstepDt, scale, work.Iterations, relaxationIterationCount, isRelaxation, usualSubstepDt, contactFrequency)
             {
                 Lands = stopsImpacts && LastSubstepCount >= LeastSubstepsForLanding,
             }, pool);

@@ -41,6 +41,7 @@ public sealed unsafe partial class Solver
     LoadPathMode loadPath;
     bool stopsImpacts;
     bool closesGapsSlowly;
+    float contactFrequency;
 
     /// <summary>Sets of constraints: 0 is the active one, 1 has all that sleep.</summary>
     public Buffer<ConstraintSet> Sets;
@@ -126,6 +127,24 @@ public sealed unsafe partial class Solver
     }
 
     /// <summary>
+    /// Frequency of rigid contacts, Hz; 0 for as stiff as sweeps hold. See <see cref="SolveDescription.ContactFrequency"/>.
+    /// </summary>
+    /// <exception cref="ArgumentOutOfRangeException">It is negative, not a number, or greater than that of any spring; nothing was changed.</exception>
+    public float ContactFrequency
+    {
+        get => contactFrequency;
+        set
+        {
+            SolveDescription.CheckFrequency(value);
+            world.CheckChangeable("Solver.ContactFrequency");
+            contactFrequency = value;
+        }
+    }
+
+    // rad/s; where none was given one that no substep holds.
+    internal float RigidContactFrequency => contactFrequency > 0 ? MathF.Tau * contactFrequency : Limits.MaximumSpringFrequency;
+
+    /// <summary>
     /// Whether rigid joints that are added, or enabled, from now on close slowly what they are off by; see <see cref="SolveDescription.ClosesGapsSlowly"/>.
     /// </summary>
     public bool ClosesGapsSlowly
@@ -184,6 +203,7 @@ public sealed unsafe partial class Solver
         loadPath = description.LoadPath;
         stopsImpacts = description.StopsImpacts;
         closesGapsSlowly = description.ClosesGapsSlowly;
+        contactFrequency = description.ContactFrequency;
         directJoints = description.DirectJoints;
         hasFixedSubstepCount = description.HasFixedSubstepCount;
         governor = description.Governor;

@@ -53,8 +53,10 @@ public readonly struct Substep
     /// <param name="relaxations">Sweeps after the bodies have moved.</param>
     /// <param name="isRelaxation">Whether this is one of the latter.</param>
     /// <param name="usualDt">Usual length of a substep, s, to which the stiffness of rigid constraints belongs; 0 where that is <paramref name="dt"/>.</param>
+    /// <param name="contactFrequency">Frequency of rigid contacts, Hz; 0 for as stiff as the sweeps hold, beyond which it does not go.</param>
     public Substep(
-        int index, float dt, float warmStartScale = 1, int iterations = 1, int relaxations = 0, bool isRelaxation = false, float usualDt = 0)
+        int index, float dt, float warmStartScale = 1, int iterations = 1, int relaxations = 0, bool isRelaxation = false, float usualDt = 0,
+        float contactFrequency = 0)
     {
         // Stiffness is that of the usual substep. In a longer one both bear more cycles for a time than for ever, joints of chains less than
         // contacts, and those of hubs none.
@@ -70,7 +72,8 @@ public readonly struct Substep
         Joints = new(joint * forJoints, unrelaxedJoint * forJoints);
         Servos = new(unrelaxedJoint * forJoints, unrelaxedJoint * forJoints);
         Hubs = new(contact * forHubs, unrelaxedContact * forHubs);
-        Contacts = new(contact * forContacts, unrelaxedContact * forContacts);
+        var stiffest = contact * forContacts;
+        Contacts = new(contactFrequency > 0 ? MathHelper.Min(contactFrequency * dt, stiffest) : stiffest, unrelaxedContact * forContacts);
         Index = index;
         Dt = dt;
         InverseDt = 1 / dt;

@@ -73,16 +73,15 @@ public class SnapshotTests
         using var pool = new BufferPool();
         using var snapshot = new SimulationSnapshot(pool);
         var solver = world.Solver;
+        static (bool, bool, float, DirectJointsMode, LoadPathMode) Settings(bool value) =>
+            (value, value, value ? 30 : 0, value ? DirectJointsMode.Always : DirectJointsMode.Off, value ? LoadPathMode.Off : LoadPathMode.WhereNeeded);
         void Tell(bool value) =>
-            (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.DirectJoints, solver.LoadPath) =
-            (value, value, value ? DirectJointsMode.Always : DirectJointsMode.Off, value ? LoadPathMode.Off : LoadPathMode.WhereNeeded);
+            (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.ContactFrequency, solver.DirectJoints, solver.LoadPath) = Settings(value);
         Tell(isSaved);
         world.Simulation.Save(snapshot);
         Tell(!isSaved);
         world.Simulation.Restore(snapshot);
-        Assert.Equal(
-            (isSaved, isSaved, isSaved ? DirectJointsMode.Always : DirectJointsMode.Off, isSaved ? LoadPathMode.Off : LoadPathMode.WhereNeeded),
-            (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.DirectJoints, solver.LoadPath));
+        Assert.Equal(Settings(isSaved), (solver.StopsImpacts, solver.ClosesGapsSlowly, solver.ContactFrequency, solver.DirectJoints, solver.LoadPath));
     }
 
     static void AssertGoesOn(SceneWorld world, SceneWorld other)

@@ -94,6 +94,7 @@ static class FuzzFingerprint
         hash.Add((int)solver.DirectJoints);
         hash.Add(solver.StopsImpacts ? 1 : 0);
         hash.Add(solver.ClosesGapsSlowly ? 1 : 0);
+        hash.Add(solver.ContactFrequency);
         hash.Add(solver.Governor.HasValue ? 1 : 0);
         hash.Add(solver.Governor.GetValueOrDefault().TargetError);
         hash.Add(solver.Governor.GetValueOrDefault().LeastSubstepCount);

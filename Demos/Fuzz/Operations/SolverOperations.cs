@@ -15,6 +15,7 @@ static class SolverOperations
         new("Solver.DirectJoints", 2, w => w.Simulation.Solver.DirectJoints = JointMode(w)),
         new("Solver.StopsImpacts", 2, w => w.Simulation.Solver.StopsImpacts = w.Random.Percent(50)),
         new("Solver.ClosesGapsSlowly", 2, w => w.Simulation.Solver.ClosesGapsSlowly = w.Random.Percent(50)),
+        new("Solver.ContactFrequency", 2, w => w.Simulation.Solver.ContactFrequency = w.Random.Of((ReadOnlySpan<float>)[0, 0, 30, 15, 1e-3f, -1, float.NaN])),
         new("Solver.Governor", 2, Govern),
         new("Solver.MinimumCapacityPerTypeBatch", 2, w => w.Simulation.Solver.MinimumCapacityPerTypeBatch = w.AnyCount()),
         new("Solver.VelocityIterationScheduler", 2, Schedule),
