@@ -49,7 +49,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     static float MaximumExpansion(in Collidable collidable) =>
         collidable.Continuity.AllowExpansionBeyondSpeculativeMargin ? float.MaxValue : collidable.SpeculativeMargin;
 
-    int FirstManifold(in TestedPair tested)
+    int FindFirstManifold(in TestedPair tested)
     {
         if (tested.CacheIndex < 0)
             return PairRecords<ChildManifold>.None;
@@ -69,7 +69,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void BeginChildren(int workerIndex, int pairId)
     {
         ref var worker = ref workers[workerIndex];
-        worker.NextManifold = FirstManifold(worker.TestedPairs[pairId]);
+        worker.NextManifold = worker.TestedPairs[pairId].FirstManifold;
     }
 
     // All lists at once: each leads from place to place, and one alone would wait at each.
@@ -77,7 +77,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         Span<int> places = stackalloc int[pairIds.Length];
         for (int i = 0; i < pairIds.Length; ++i)
-            places[i] = FirstManifold(workers[workerIndex].TestedPairs[pairIds[i]]);
+            places[i] = workers[workerIndex].TestedPairs[pairIds[i]].FirstManifold;
         for (var goesOn = true; goesOn;)
         {
             goesOn = false;
@@ -125,7 +125,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     void RecallPatches(in TestedPair tested, out KnownPatches known)
     {
         known = default;
-        for (int i = FirstManifold(tested); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
+        for (int i = tested.FirstManifold; i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
         {
             ref var manifold = ref Pairs.Manifolds.Memory[i];
             if (!manifold.Children.IsPatch)
@@ -139,7 +139,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     {
         motion = default;
         var patch = 0;
-        for (int i = FirstManifold(workers[workerIndex].TestedPairs[pairId]); i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
+        for (int i = workers[workerIndex].TestedPairs[pairId].FirstManifold; i != PairRecords<ChildManifold>.None; i = Pairs.Manifolds.Memory[i].Next)
         {
             if (!Pairs.Manifolds.Memory[i].Children.IsPatch)
                 return;
@@ -223,7 +223,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
             return;
         if (tested.CacheIndex >= 0)
             Pairs.MarkSeen(tested.CacheIndex);
-        var known = FirstManifold(tested);
+        var known = tested.FirstManifold;
         Unsafe.SkipInit(out ConvexContactManifold moved);
         for (; i < results.Length; i = SkipForgotten(results, i + 1))
         {

@@ -161,6 +161,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         ref var tested = ref worker.TestedPairs[pairId];
         tested.Pair = pair;
         tested.CacheIndex = isSensor ? -1 : cacheIndex;
+        tested.FirstManifold = PairRecords<ChildManifold>.None;
         tested.Constraint = default;
         tested.ConstraintTypeId = CachedManifold.NoConstraint;
         tested.KeepsHistory = task.KeepsHistories;
@@ -196,6 +197,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
         tested.MayRoll = task.Expands && MayRoll(tested, collidableA.Shape);
         if (task.Expands)
         {
+            tested.FirstManifold = FindFirstManifold(tested);
             tested.ConstraintTypeId = ConstraintTypeOfChildren(tested);
             if (!TCallbacks.DecidesOnChildren && !tested.IsImpact && TryCarry(workerIndex, tested, collidableA.Shape, shapeB, poseA, poseB))
                 worker.TestedPairs.Free(pairId, worker.Pool);

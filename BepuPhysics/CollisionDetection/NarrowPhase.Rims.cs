@@ -60,7 +60,8 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     [MethodImpl(MethodImplOptions.NoInlining)]
     ref readonly ConvexContactManifold AtRims(in CollidablePair pair, in ConvexContactManifold found, ref ConvexContactManifold moved)
     {
-        if (found.Count > RimContacts.GreatestCount || !(rimTime > 0))
+        // Of what was tested and does not touch, as most children of two compounds, there is nothing to move.
+        if (found.Count == 0 || found.Count > RimContacts.GreatestCount || !(rimTime > 0))
             return ref found;
         var turn = (VelocityOf(pair.A).Angular - VelocityOf(pair.B).Angular) * rimTime;
         if (turn == default)

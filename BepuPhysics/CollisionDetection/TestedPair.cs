@@ -6,6 +6,8 @@ struct TestedPair
     public CollidablePair Pair;
     /// <summary>Index in the cache; negative for a pair that is not in it.</summary>
     public int CacheIndex;
+    /// <summary>Of a pair with children: the first of its manifolds of the last step. These stay until changes are made, after all pairs are tested.</summary>
+    public int FirstManifold;
     /// <summary>Contact constraint that the pair has; means nothing where there is none.</summary>
     public ConstraintHandle Constraint;
     /// <summary>Type id of that constraint; <see cref="CachedManifold.NoConstraint"/> where there is none.</summary>

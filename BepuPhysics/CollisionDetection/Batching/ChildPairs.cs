@@ -1,6 +1,7 @@
 using System;
 using System.Numerics;
 using System.Runtime.CompilerServices;
+using BepuPhysics.Collidables;
 using BepuPhysics.Constraints.Contact;
 using BepuUtilities.Collections;
 using BepuUtilities.Memory;
@@ -87,6 +88,8 @@ unsafe struct ChildPairs(BufferPool pool)
         public bool MoverIsB;
         public bool HasRound;
         public bool LeavesToNeighbours;
+        // Whether a child of either shape is a triangle: nothing else is pressed through.
+        public bool HasTriangle;
         public int PairId;
         public int SlotCount;
         public int WaitCount;
@@ -100,8 +103,17 @@ unsafe struct ChildPairs(BufferPool pool)
     /// <summary>Brings what was found for one parent in the order of children.</summary>
     public readonly void SortFound(int start, int end)
     {
-        var order = new InOrder();
-        QuickSort.Sort(Found.AsSpan()[start..end], ref order);
+        // Mostly they come in order, or nearly: lists are gone through from the first to the last.
+        var found = Found.Span.Memory;
+        for (int i = start + 1; i < end; ++i)
+        {
+            if (found[i].Children.Order < found[i - 1].Children.Order)
+            {
+                var order = new InOrder();
+                QuickSort.Sort(Found.AsSpan()[start..end], ref order);
+                return;
+            }
+        }
     }
 
     /// <summary>Opens a parent with room for a number of children. It stays open until <see cref="Release"/> has said that it is complete.</summary>
@@ -141,6 +153,7 @@ unsafe struct ChildPairs(BufferPool pool)
         result.OffsetA = shapes.OffsetA;
         if (target.Placed.Allocated)
         {
+            target.HasTriangle |= shapes.TypeA == Triangle.Id || shapes.TypeB == Triangle.Id;
             ref var placed = ref target.Placed[target.SlotCount];
             placed.Motion.Write(target.Motion.A, target.Motion.B, shapes.OffsetA, target.OffsetB, target.Dt);
             placed.Write(shapes, target.MoverIsB, target.SpeculativeMargin);
@@ -206,7 +219,7 @@ unsafe struct ChildPairs(BufferPool pool)
 
     /// <summary>Whether a parent may have children that it was pressed through.</summary>
     public readonly bool MayHaveSunk(in SeamSet set, in KnownPatches known) =>
-        set.Count < parents[set.Owner].SlotCount && SunkChildren.MayHave(set, parents[set.Owner].SlotCount, Seams.TouchingOf(set), known);
+        set.Count < parents[set.Owner].SlotCount && parents[set.Owner].HasTriangle && SunkChildren.MayHave(set, parents[set.Owner].SlotCount, Seams.TouchingOf(set), known);
 
     /// <summary>Keeps a parent in front of these.</summary>
     public void HoldSunk(ref SeamSet set, in KnownPatches known, in LastMotion motion, BufferPool pool) =>

@@ -102,6 +102,9 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             return;
         }
         var parent = Children->Open(pair, end - start, task.JoinsChildren, Dt, Pool);
+        Unsafe.SkipInit(out ChildShapes children);
+        // Child of A that was asked for last, if it is where it was; none has a negative number.
+        var placedA = -1;
         for (int i = start; i < end; ++i)
         {
             ref var found = ref Children->Found[i];
@@ -109,7 +112,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
                 Children->LeaveToNeighbours(parent);
             if (!found.IsAllowed && !Callbacks.AllowCollisionTesting(pair.PairId, found.Children.A, found.Children.B))
                 continue;
-            task.GetChildren(batch, Shapes, found, out var children);
+            task.GetChildren(batch, Shapes, found, found.Children.A == placedA && !found.LeadsOut, ref children);
+            placedA = found.LeadsOut ? -1 : found.Children.A;
             AddChild(parent, found.Children, children, pair);
         }
         Release(parent);
@@ -123,7 +127,8 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             CompleteWithoutChildren(pair);
             return;
         }
-        task.GetChildren(batch, Shapes, found, out var children);
+        Unsafe.SkipInit(out ChildShapes children);
+        task.GetChildren(batch, Shapes, found, hasA: false, ref children);
         if (children.TypeA != Triangle.Id && children.TypeB != Triangle.Id && !TCallbacks.KeepsChildren(ref Callbacks, pair.PairId))
         {
             AddLone(found.Children, children, pair);

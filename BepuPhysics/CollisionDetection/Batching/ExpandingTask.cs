@@ -93,7 +93,12 @@ abstract unsafe class ExpandingTask : CollisionTask
     internal abstract void FindChildren(in PairBatch batch, Shapes shapes, float dt, ref QuickList<FoundChild> found, BufferPool pool);
 
     /// <summary>Finds the shapes of two children that were found.</summary>
-    internal abstract void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children);
+    /// <param name="batch">The parents.</param>
+    /// <param name="shapes">Shapes that children refer to.</param>
+    /// <param name="found">The two.</param>
+    /// <param name="hasA">Whether <paramref name="children"/> are two of the same parent, asked for last, with the same child of A, and no way out.</param>
+    /// <param name="children">Receives the two.</param>
+    internal abstract void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children);
 
     internal sealed override void Execute<TCallbacks>(ref PairBatch batch, PairHistory* histories, ref TCallbacks callbacks) =>
         throw new UnreachableException();

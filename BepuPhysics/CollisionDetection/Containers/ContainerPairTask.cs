@@ -90,25 +90,32 @@ sealed unsafe class ContainerPairTask<TContainerA, TContainerB> : ExpandingTask<
 
     static int ChildOfA(in FoundChild found, in ParentPair pair) => pair.Flipped ? found.Children.B : found.Children.A;
 
-    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    // In their order, each child of A comes with all that it meets: it is placed once for these. One that is made on the way stays, as B's has its own room.
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
+        ref readonly var pair = ref entry.Pair;
         var scratch = batch.Bundles.Memory + ScratchStart;
-        ContainerPlaces.SetParents(entry.Pair, out children);
         if (found.LeadsOut)
         {
-            SetWayOut(entry, ChildOfA(found, entry.Pair), shapes, scratch, ref children);
+            ContainerPlaces.SetParents(pair, out children);
+            SetWayOut(entry, ChildOfA(found, pair), shapes, scratch, ref children);
+            return;
         }
-        else if (entry.Pair.Flipped)
-        {
-            ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);
-            ContainerPlaces.SetB(ref children, entry.A, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
-        }
+        if (hasA)
+            ContainerPlaces.SetParentB(pair, ref children);
         else
         {
-            ContainerPlaces.SetA(ref children, entry.A, found.Children.A, shapes, scratch);
-            ContainerPlaces.SetB(ref children, entry.B, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
+            ContainerPlaces.SetParents(pair, out children);
+            if (pair.Flipped)
+                ContainerPlaces.SetA(ref children, entry.B, found.Children.A, shapes, scratch);
+            else
+                ContainerPlaces.SetA(ref children, entry.A, found.Children.A, shapes, scratch);
         }
+        if (pair.Flipped)
+            ContainerPlaces.SetB(ref children, entry.A, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
+        else
+            ContainerPlaces.SetB(ref children, entry.B, found.Children.B, shapes, scratch + IContainer.ScratchByteCount);
     }
 
     static void SetWayOut(in Entry entry, int child, Shapes shapes, byte* scratch, ref ChildShapes children)

@@ -44,6 +44,15 @@ static unsafe class ContainerPlaces
         children.LeadsOut = false;
     }
 
+    /// <summary>The second of two shapes without children, which is to be replaced by a child; the first stays as it is.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void SetParentB(in ParentPair pair, ref ChildShapes children)
+    {
+        children.OffsetB = pair.OffsetB;
+        children.OrientationB = pair.OrientationB;
+        children.NameB = pair.NameB;
+    }
+
     /// <summary>A child of a container, and a shape that has none.</summary>
     /// <param name="pair">The container and the shape.</param>
     /// <param name="containerIsA">Whether the container is A.</param>

@@ -101,7 +101,7 @@ sealed unsafe class ContainerPlaneTask<TContainer> : ExpandingTask<TContainer, H
         return ContainerReach.ListOverlaps(container, min, max, shapes, ref below, pool);
     }
 
-    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
         ContainerPlaces.Set(

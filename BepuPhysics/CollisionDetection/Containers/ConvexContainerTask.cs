@@ -237,7 +237,7 @@ sealed unsafe class ConvexContainerTask<TConvex, TConvexWide, TContainer> : Expa
 
     static Vector3 Read(ref Vector3Wide wide, int lane) => Lanes.Read<Vector3, Vector3Wide>(ref wide, lane);
 
-    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
         if (found.LeadsOut)

@@ -45,6 +45,8 @@ struct RankedChild
     public int Group;
     /// <summary>Of those that may yield: one more than the place of the last leader that they were asked to yield to.</summary>
     public int Asked;
+    /// <summary>Depth by which it may be deeper than what it yields to, m; zero where nobody has asked for it.</summary>
+    public float Tolerance;
 
     /// <summary>Order in which children are accepted.</summary>
     public struct Order : IComparerRef<RankedChild>
@@ -207,15 +209,14 @@ static class ChildAgreement
 
     // Whether the normal of a leader is offered to a child: by the leader itself, or by another child with its normal. A body is moved as a whole, but what one
     // leg stands on says nothing of what another meets that stands on nothing.
-    static bool IsOffered(in RankedChild child, in RankedChild leader, in SeamView view)
+    static bool IsOffered(in RankedChild child, in RankedChild leader, in SeamView view, ref NormalOfferers offerers)
     {
         if (MayOffer(leader, child) && SharesChild(child, leader, view))
             return true;
-        ref readonly var normal = ref view.Result(leader).Manifold.Normal;
-        foreach (ref var other in view.Ranked)
+        for (int i = offerers.First(leader, view); i < view.Ranked.Length; i = offerers.Next(i, leader, view))
         {
-            if (other.Group == leader.Group && MayOffer(other, child) && HasOneNormal(view.Result(other).Manifold.Normal, normal) &&
-                SharesChild(child, other, view))
+            ref var other = ref view.Ranked[i];
+            if (MayOffer(other, child) && SharesChild(child, other, view))
                 return true;
         }
         return false;
@@ -236,18 +237,23 @@ static class ChildAgreement
         view.Placed(a).TypeA == Triangle.Id && view.Placed(b).TypeA == Triangle.Id;
 
     // Whether one child, in the order of children, may yield to another at all.
-    static bool MayYield(in RankedChild child, in RankedChild other, in SeamView view)
+    static bool MayYield(in RankedChild child, in RankedChild other, in SeamView view, ref NormalOfferers offerers)
     {
         if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group)
             return false;
         ref var result = ref view.Result(child);
         ref var accepted = ref view.Result(other);
         return Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) >= LeastCosine &&
-            !HasEqualNormal(result.Manifold.Normal, accepted.Manifold.Normal) && IsOffered(child, other, view);
+            !HasEqualNormal(result.Manifold.Normal, accepted.Manifold.Normal) && IsOffered(child, other, view, ref offerers);
     }
 
     // Depth by which a child may be deeper than what it yields to.
-    static float ToleranceOf(in RankedChild child, in SeamView view) => view.Placed(child).InnerRadius() * Tolerance;
+    static float ToleranceOf(ref RankedChild child, in SeamView view)
+    {
+        if (child.Tolerance == 0)
+            child.Tolerance = view.Placed(child).InnerRadius() * Tolerance;
+        return child.Tolerance;
+    }
 
     // Measures a child along its normal, when that is asked for.
     static float OverlapOf(ref RankedChild child, in SeamView view)
@@ -267,13 +273,14 @@ static class ChildAgreement
         var ranked = view.Ranked;
         var index = view.Set.Index;
         ref var child = ref ranked[index];
-        var tolerance = ToleranceOf(child, view);
+        var tolerance = ToleranceOf(ref child, view);
         var first = tests.Count;
+        NormalOfferers offerers = default;
         for (int i = index + 1; i < ranked.Length && ranked[i].Class == child.Class && tests.Count - first < 2 * MaximumLeaderCount; ++i)
         {
             if (ranked[i].Depth < child.Depth - tolerance)
                 break;
-            if (!MayYield(ranked[i], child, view))
+            if (!MayYield(ranked[i], child, view, ref offerers))
                 continue;
             if (CannotFollow(view, index, i, tolerance) && CannotFollow(view, i, index, tolerance))
                 continue;
@@ -318,18 +325,22 @@ static class ChildAgreement
         var index = view.Set.Index;
         // Of two tests of a rival the second says whether it follows.
         var known = view.Set.Stage == SeamStage.Rivals ? view.Set.Tests.First + 1 : view.Set.Tests.End;
+        NormalOfferers offerers = default;
         for (int i = index + 1; i < view.Ranked.Length; ++i)
         {
             var isRival = known < view.Set.Tests.End && tests[known].Owner == i;
             if (view.Ranked[i].Asked == index + 1)
                 continue;
-            if (isRival || MayYield(view.Ranked[i], view.Ranked[index], view))
+            if (isRival || MayYield(view.Ranked[i], view.Ranked[index], view, ref offerers))
             {
                 view.Ranked[i].Asked = index + 1;
-                var tolerance = ToleranceOf(view.Ranked[i], view);
+                var tolerance = ToleranceOf(ref view.Ranked[i], view);
                 // A rival was allowed what the leader is, which may be another child of the body.
                 if (isRival && tests[known].GreatestDepth == OverlapOf(ref view.Ranked[index], view) + tolerance)
+                {
                     Follow(view, tests[known]);
+                    offerers.Forget();
+                }
                 else if (!CannotFollow(view, i, index, tolerance))
                     AddFollower(ref tests, view, i, index, tolerance, pool);
             }
