@@ -73,11 +73,19 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
     }
 
     // All lists at once: each leads from place to place, and one alone would wait at each.
-    void PrefetchChildren(int workerIndex, ReadOnlySpan<int> pairIds)
+    void PrefetchChildren(int workerIndex, ReadOnlySpan<int> pairIds, bool areTested)
     {
+        // Where all is at hand, to look for it takes longer.
+        if (areTested && isNearby)
+            return;
         Span<int> places = stackalloc int[pairIds.Length];
         for (int i = 0; i < pairIds.Length; ++i)
+        {
             places[i] = workers[workerIndex].TestedPairs[pairIds[i]].FirstManifold;
+            // The queue of pairs has asked for it before they were tested.
+            if (areTested)
+                Pairs.Manifolds.Prefetch(places[i]);
+        }
         for (var goesOn = true; goesOn;)
         {
             goesOn = false;
@@ -86,7 +94,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
                 if (place == PairRecords<ChildManifold>.None)
                     continue;
                 ref var manifold = ref Pairs.Manifolds.Memory[place];
-                if (manifold.Manifold.History >= 0)
+                if (manifold.Manifold.History >= 0 && !areTested)
                     Pairs.Histories.Prefetch(manifold.Manifold.History);
                 place = manifold.Next;
                 Pairs.Manifolds.Prefetch(place);

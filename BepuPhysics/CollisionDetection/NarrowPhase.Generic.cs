@@ -66,10 +66,10 @@ public sealed unsafe partial class NarrowPhase<TCallbacks> : NarrowPhase where T
 
         static bool ICollisionCallbacks.ChangesChildren => TCallbacks.DecidesOnChildren;
 
-        static void ICollisionCallbacks.PrefetchChildren<T>(ref T callbacks, ReadOnlySpan<int> pairIds)
+        static void ICollisionCallbacks.PrefetchChildren<T>(ref T callbacks, ReadOnlySpan<int> pairIds, bool areTested)
         {
             ref var self = ref Unsafe.As<T, Completion>(ref callbacks);
-            self.NarrowPhase.PrefetchChildren(self.WorkerIndex, pairIds);
+            self.NarrowPhase.PrefetchChildren(self.WorkerIndex, pairIds, areTested);
         }
 
         static void ICollisionCallbacks.BeginChildren<T>(ref T callbacks, int pairId)

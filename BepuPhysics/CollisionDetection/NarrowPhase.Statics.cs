@@ -109,7 +109,7 @@ public sealed unsafe partial class NarrowPhase<TCallbacks>
         {
             statics.Bodies.Count = statics.Old.Count = 0;
             statics.Agreement.Begin();
-            while (first < end && statics.Bodies.Count < SeamMemory.SetCapacity)
+            while (first < end && statics.Bodies.Count < SeamMemory.BodyCapacity)
             {
                 var next = first + 1;
                 while (next < end && BodyOf(next) == BodyOf(first))

@@ -95,27 +95,6 @@ unsafe struct ChildPairs(BufferPool pool)
         public int WaitCount;
     }
 
-    struct InOrder : IComparerRef<FoundChild>
-    {
-        public readonly int Compare(ref FoundChild a, ref FoundChild b) => a.Children.Order.CompareTo(b.Children.Order);
-    }
-
-    /// <summary>Brings what was found for one parent in the order of children.</summary>
-    public readonly void SortFound(int start, int end)
-    {
-        // Mostly they come in order, or nearly: lists are gone through from the first to the last.
-        var found = Found.Span.Memory;
-        for (int i = start + 1; i < end; ++i)
-        {
-            if (found[i].Children.Order < found[i - 1].Children.Order)
-            {
-                var order = new InOrder();
-                QuickSort.Sort(Found.AsSpan()[start..end], ref order);
-                return;
-            }
-        }
-    }
-
     /// <summary>Opens a parent with room for a number of children. It stays open until <see cref="Release"/> has said that it is complete.</summary>
     public int Open(in ParentPair pair, int capacity, bool joins, float dt, BufferPool pool)
     {

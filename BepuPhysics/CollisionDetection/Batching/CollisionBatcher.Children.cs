@@ -53,7 +53,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             var end = start;
             while (end < found.Count && found[end].Parent == i)
                 ++end;
-            Children->SortFound(start, end);
+            FoundOrder.Sort(found.AsSpan()[start..end]);
             Expand(task, batch, i, start, TCallbacks.ChangesChildren ? end : LeaveOutOfNeighbours(task.Parent(batch, i).PairId, start, end));
             start = end;
         }
@@ -84,7 +84,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         Span<int> pairIds = stackalloc int[PairBatch.Capacity];
         for (int i = 0; i < batch.Count; ++i)
             pairIds[i] = task.Parent(batch, i).PairId;
-        TCallbacks.PrefetchChildren(ref Callbacks, pairIds[..batch.Count]);
+        TCallbacks.PrefetchChildren(ref Callbacks, pairIds[..batch.Count], areTested: false);
     }
 
     void Expand(ExpandingTask task, in PairBatch batch, int index, int start, int end)
@@ -290,6 +290,7 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
         // Where a callback throws, what is left is lost.
         seams.Sets.Count = 0;
         seams.Reduced.Count = 0;
+        PrefetchChildren(sets);
         foreach (ref var set in sets)
         {
             TCallbacks.RecallPatches(ref Callbacks, Children->PairId(set.Owner), out var known);
@@ -304,6 +305,15 @@ public unsafe partial struct CollisionBatcher<TCallbacks>
             Complete(set.Owner, set.PatchCount);
         }
         seams.Begin();
+    }
+
+    // What was loaded for the tests is gone from the first cache by now.
+    void PrefetchChildren(Span<SeamSet> sets)
+    {
+        Span<int> pairIds = stackalloc int[sets.Length];
+        for (int i = 0; i < sets.Length; ++i)
+            pairIds[i] = Children->PairId(sets[i].Owner);
+        TCallbacks.PrefetchChildren(ref Callbacks, pairIds, areTested: true);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

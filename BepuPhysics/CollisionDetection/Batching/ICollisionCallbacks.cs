@@ -36,7 +36,10 @@ public interface ICollisionCallbacks
     internal static virtual bool ChangesChildren => true;
 
     /// <summary>The children of some pairs come soon: what is remembered of them may be loaded.</summary>
-    internal static virtual void PrefetchChildren<TCallbacks>(ref TCallbacks callbacks, ReadOnlySpan<int> pairIds)
+    /// <param name="callbacks">The callbacks.</param>
+    /// <param name="pairIds">Ids that the pairs were added with.</param>
+    /// <param name="areTested">Whether the tests of these have been made, which their histories are for.</param>
+    internal static virtual void PrefetchChildren<TCallbacks>(ref TCallbacks callbacks, ReadOnlySpan<int> pairIds, bool areTested)
         where TCallbacks : struct, ICollisionCallbacks
     { }
 

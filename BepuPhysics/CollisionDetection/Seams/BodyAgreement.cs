@@ -16,7 +16,7 @@ unsafe struct BodyAgreement(BufferPool pool)
     QuickList<ChildResult> results = new(InitialCapacity, pool);
     QuickList<PlacedChildren> placed = new(InitialCapacity, pool);
 
-    const int InitialCapacity = 4 * SeamMemory.SetCapacity;
+    const int InitialCapacity = 4 * SeamMemory.BodyCapacity;
 
     // What cannot yield comes first: nobody can do anything about it.
     const int FixedClass = -1;

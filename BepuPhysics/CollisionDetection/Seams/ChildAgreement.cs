@@ -239,12 +239,13 @@ static class ChildAgreement
     // Whether one child, in the order of children, may yield to another at all.
     static bool MayYield(in RankedChild child, in RankedChild other, in SeamView view, ref NormalOfferers offerers)
     {
-        if (child.HasYielded || !view.Placed(child).AreKnown || child.Group != other.Group)
+        if (child.HasYielded || child.Group != other.Group)
             return false;
         ref var result = ref view.Result(child);
         ref var accepted = ref view.Result(other);
         return Exact.Dot(result.Manifold.Normal, accepted.Manifold.Normal) >= LeastCosine &&
-            !HasEqualNormal(result.Manifold.Normal, accepted.Manifold.Normal) && IsOffered(child, other, view, ref offerers);
+            !HasEqualNormal(result.Manifold.Normal, accepted.Manifold.Normal) && IsOffered(child, other, view, ref offerers) &&
+            view.Placed(child).AreKnown;
     }
 
     // Depth by which a child may be deeper than what it yields to.

@@ -124,9 +124,10 @@ static class ForeseenContacts
     /// <param name="tests">Receives the next test.</param>
     /// <param name="view">The children that touch, in their order.</param>
     /// <param name="owner">Number of their set.</param>
+    /// <param name="sets">All sets.</param>
     /// <param name="registry">The tasks that test pairs.</param>
     /// <param name="pool">Source of memory.</param>
-    public static void Advance(ref MovedTests tests, in SeamView view, int owner, CollisionTaskRegistry registry, BufferPool pool)
+    public static unsafe void Advance(ref MovedTests tests, in SeamView view, int owner, SeamSet* sets, CollisionTaskRegistry registry, BufferPool pool)
     {
         ref var set = ref view.Set;
         ref var foresight = ref set.Foresight;
@@ -155,7 +156,7 @@ static class ForeseenContacts
             foresight.Time += gap / approach;
         }
         ++foresight.TestCount;
-        tests.Add(placed, foresight.Rise + foresight.Way * foresight.Time, owner, registry, pool);
+        tests.Add(placed, foresight.Rise + foresight.Way * foresight.Time, owner, sets, registry, pool);
     }
 
     // What is grazed and carries nothing yet would be no more than passed: the contact stays as it is then.

@@ -1,6 +1,5 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using BepuUtilities.Diagnostics;
 using BepuUtilities.Memory;
 
 namespace BepuPhysics.CollisionDetection;
@@ -17,9 +16,10 @@ struct MovedTests
     /// <param name="children">The two shapes.</param>
     /// <param name="way">By how much A is beside its place, m.</param>
     /// <param name="owner">Number of the set that is told of what is found.</param>
+    /// <param name="sets">The sets.</param>
     /// <param name="registry">The tasks.</param>
     /// <param name="pool">Source of memory.</param>
-    public unsafe void Add(in PlacedChildren children, in Vector3 way, int owner, CollisionTaskRegistry registry, BufferPool pool)
+    public unsafe void Add(in PlacedChildren children, in Vector3 way, int owner, SeamSet* sets, CollisionTaskRegistry registry, BufferPool pool)
     {
         var task = registry.GetTask(children.TypeA, children.TypeB, out var taskIndex, out var flipped);
         if (!batches.Has(taskIndex))
@@ -27,8 +27,6 @@ struct MovedTests
         var input = new PairInput(children.SpeculativeMargin, owner, flipped, PairInput.NoHistory);
         var offsetB = children.OffsetB - way;
         ref var batch = ref batches[taskIndex];
-        // A batch has room for the tests of all sets.
-        Check.That(batch.Count < PairBatch.Capacity);
         fixed (byte* a = children.ShapeA.Bytes, b = children.ShapeB.Bytes)
         {
             if (flipped)
@@ -37,6 +35,12 @@ struct MovedTests
                 task.WriteDirectly(ref batch, a, b, offsetB, children.OrientationA, children.OrientationB, input);
         }
         ++Count;
+        // Its sets wait for the end of the round all the same.
+        if (batch.Count == PairBatch.Capacity)
+        {
+            var receiver = new Receiver(sets);
+            task.Execute(ref batch, null, ref receiver);
+        }
     }
 
     /// <summary>Makes the tests, and tells the sets.</summary>

@@ -37,7 +37,7 @@ static class PatchLever
         }
         foreach (ref var candidate in candidates)
         {
-            if (kept.Contains(GatherScatter.Get(ref candidate.Name, lane)) && IsThere(ref candidate, lane))
+            if (IsKept(kept, GatherScatter.Get(ref candidate.Name, lane)) && IsThere(ref candidate, lane))
                 whole.Add(ref candidate, lane);
         }
         var size = whole.Size(isLine);
@@ -62,7 +62,7 @@ static class PatchLever
         var distance = 0f;
         foreach (ref var candidate in candidates)
         {
-            if (!kept.Contains(GatherScatter.Get(ref candidate.Name, lane)) || !IsThere(ref candidate, lane))
+            if (!IsKept(kept, GatherScatter.Get(ref candidate.Name, lane)) || !IsThere(ref candidate, lane))
                 continue;
             var (awayX, awayY) = (GatherScatter.Get(ref candidate.X, lane) - x, GatherScatter.Get(ref candidate.Y, lane) - y);
             distance += MathF.Sqrt(Square(awayX) + Square(awayY));
@@ -88,6 +88,17 @@ static class PatchLever
             corners.Add(ref candidates[i], lane);
         }
         return slot >= 0;
+    }
+
+    // Of up to four: a search of the runtime's takes longer to begin.
+    static bool IsKept(ReadOnlySpan<int> kept, int name)
+    {
+        foreach (int other in kept)
+        {
+            if (other == name)
+                return true;
+        }
+        return false;
     }
 
     static bool IsThere(ref FaceCandidate candidate, int lane) => GatherScatter.Get(ref candidate.Depth, lane) != IContactCandidate.None;

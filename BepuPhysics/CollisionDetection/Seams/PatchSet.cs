@@ -41,6 +41,9 @@ unsafe struct PatchSet
     /// <summary>Greatest number of patches.</summary>
     public const int Capacity = 4;
 
+    // Contacts of all patches of a pair.
+    const int Room = 2 * Capacity;
+
     /// <summary>Cosine of 4 degrees: normals that are nearer to each other are one patch.</summary>
     public const float SameNormal = 0.99756405f;
 
@@ -299,24 +302,31 @@ unsafe struct PatchSet
     // than three contacts what holds the body would let it rock.
     void SetShares(int count, int near)
     {
+        if (count * ConvexContactManifold.MaximumContactCount <= Room)
+        {
+            for (int i = 0; i < count; ++i)
+                this[i].Share = ConvexContactManifold.MaximumContactCount;
+            return;
+        }
+        // Numbers are below the capacity, and each is that of one patch.
+        Span<int> places = [-1, -1, -1, -1];
+        for (int i = 0; i < count; ++i)
+            places[this[i].Number] = i;
         var apart = count - BitOperations.PopCount((uint)near);
-        var room = Capacity * 2 - apart;
+        var room = Room - apart;
         var rest = count - apart;
         var left = 0;
         for (int pass = 0; pass < 2; ++pass)
         {
-            for (int number = 0; number < Capacity; ++number)
+            foreach (int i in places)
             {
-                for (int i = 0; i < count; ++i)
-                {
-                    if (this[i].Number != number || (near & 1 << i) != 0 != (pass == 0))
-                        continue;
-                    var share = Math.Min(ConvexContactManifold.MaximumContactCount, (room + rest - 1) / rest);
-                    --rest;
-                    room -= share;
-                    this[i].Share = Math.Min(ConvexContactManifold.MaximumContactCount, share + left);
-                    left = Math.Max(0, this[i].Share - this[i].ContactCount);
-                }
+                if (i < 0 || (near & 1 << i) != 0 != (pass == 0))
+                    continue;
+                var share = Math.Min(ConvexContactManifold.MaximumContactCount, (room + rest - 1) / rest);
+                --rest;
+                room -= share;
+                this[i].Share = Math.Min(ConvexContactManifold.MaximumContactCount, share + left);
+                left = Math.Max(0, this[i].Share - this[i].ContactCount);
             }
             rest = apart;
             room += apart;

@@ -153,8 +153,7 @@ unsafe struct PlacedChildren
     public readonly bool AreDeeper(in Vector3 normal, float depth)
     {
         const float near = 1.01e-2f;
-        var a = new ShapeReach(TypeA, ShapeA, OrientationA);
-        var b = new ShapeReach(TypeB, ShapeB, OrientationB);
-        return Exact.Dot(OffsetB, normal) + b.Along(normal) + a.Along(-normal) - near * (Exact.Length(OffsetB) + a.Size + b.Size) > depth;
+        var across = Exact.Dot(OffsetB, normal) - near * (Exact.Length(OffsetB) + ShapeReach.SizeOf(TypeA, ShapeA) + ShapeReach.SizeOf(TypeB, ShapeB));
+        return across + ShapeReach.AlongOnce(TypeA, ShapeA, OrientationA, -normal) + ShapeReach.AlongOnce(TypeB, ShapeB, OrientationB, normal) > depth;
     }
 }

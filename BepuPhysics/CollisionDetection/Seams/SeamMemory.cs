@@ -29,8 +29,14 @@ struct SeamMemory
     /// <summary>Patches of which contacts are chosen, in the order of their pairs.</summary>
     public QuickList<ReducedPatch> Reduced;
 
-    /// <summary>Number of sets that are worked on at once: some bundles of tests in each round, and shapes that fit a cache.</summary>
-    public const int SetCapacity = 16;
+    /// <summary>
+    /// Number of sets of parents that are worked on at once. Tests of a round are of up to 21 pairs of shape types, and each has bundles of its own: the more
+    /// sets, the fuller these are.
+    /// </summary>
+    public const int SetCapacity = 64;
+
+    /// <summary>Number of bodies that agree at once: some bundles of tests in each round, and shapes that fit a cache.</summary>
+    public const int BodyCapacity = 16;
 
     /// <summary>Forgets all sets.</summary>
     public void Begin() => Sets.Count = Touching.Count = 0;

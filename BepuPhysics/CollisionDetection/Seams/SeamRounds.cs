@@ -52,7 +52,7 @@ static class SeamRounds
 
     static SeamView View(ref SeamMemory memory, int number) => new(ref memory.Sets[number], memory.Touching.AsSpan());
 
-    static void Advance(ref SeamMemory memory, int number, CollisionTaskRegistry registry, BufferPool pool)
+    static unsafe void Advance(ref SeamMemory memory, int number, CollisionTaskRegistry registry, BufferPool pool)
     {
         ref var set = ref memory.Sets[number];
         var (first, firstMoved) = (memory.Tests.Count, memory.Moved.Count);
@@ -60,7 +60,7 @@ static class SeamRounds
         {
             var view = new SeamView(ref set, memory.Touching.AsSpan());
             if (set.Stage == SeamStage.Foreseen)
-                ForeseenContacts.Advance(ref memory.Moved, view, number, registry, pool);
+                ForeseenContacts.Advance(ref memory.Moved, view, number, memory.Sets.Span.Memory, registry, pool);
             else
                 Advance(ref memory, view, pool);
             set.Tests = new(first, memory.Tests.Count - first);

@@ -97,13 +97,61 @@ unsafe struct ShapeReach
         return Wide.SpreadGreatest(farthest)[0];
     }
 
-    /// <summary>Distance from the centre that no point of the shape is beyond, m.</summary>
-    public readonly float Size => typeId switch
+    /// <summary>How far a shape reaches along a unit direction from its centre, m: to rounding what <see cref="Along(in Vector3)"/> says, for one direction.
+    /// </summary>
+    /// <param name="typeId">Its type, one of those that can be copied.</param>
+    /// <param name="shape">The shape.</param>
+    /// <param name="orientation">Rotation from its frame to the world.</param>
+    /// <param name="direction">The direction.</param>
+    public static float AlongOnce(int typeId, in ShapeCopy shape, in Quaternion orientation, in Vector3 direction)
     {
-        Sphere.Id => half.X,
-        Capsule.Id or Cylinder.Id => half.X + half.Y,
-        Box.Id => half.X + half.Y + half.Z,
-        Triangle.Id => Exact.Length(x) + Exact.Length(y) + Exact.Length(z),
-        _ => hull->OuterRadius,
-    };
+        if (typeId == Sphere.Id)
+            return shape.Read<Sphere>().Radius;
+        // The direction to the shape's frame, and not the shape's axes to the world.
+        var local = Exact.RotateByInverse(direction, orientation);
+        switch (typeId)
+        {
+            case Capsule.Id:
+                var capsule = shape.Read<Capsule>();
+                return MathF.Abs(local.Y) * capsule.HalfLength + capsule.Radius;
+            case Box.Id:
+                var box = shape.Read<Box>();
+                return MathF.Abs(local.X) * box.HalfWidth + MathF.Abs(local.Y) * box.HalfHeight + MathF.Abs(local.Z) * box.HalfLength;
+            case Triangle.Id:
+                var triangle = shape.Read<Triangle>();
+                return MathHelper.Max(
+                    Exact.Dot(triangle.A, local), MathHelper.Max(Exact.Dot(triangle.B, local), Exact.Dot(triangle.C, local)));
+            case Cylinder.Id:
+                var cylinder = shape.Read<Cylinder>();
+                return MathF.Abs(local.Y) * cylinder.HalfLength + MathF.Sqrt(local.X * local.X + local.Z * local.Z) * cylinder.Radius;
+            default:
+                return Along(shape.Read<ConvexHull>().Header, local);
+        }
+    }
+
+    /// <summary>Distance from the centre that no point of a shape is beyond, m.</summary>
+    /// <param name="typeId">Its type, one of those that can be copied.</param>
+    /// <param name="shape">The shape.</param>
+    public static float SizeOf(int typeId, in ShapeCopy shape)
+    {
+        switch (typeId)
+        {
+            case Sphere.Id:
+                return shape.Read<Sphere>().Radius;
+            case Capsule.Id:
+                var capsule = shape.Read<Capsule>();
+                return capsule.Radius + capsule.HalfLength;
+            case Box.Id:
+                var box = shape.Read<Box>();
+                return box.HalfWidth + box.HalfHeight + box.HalfLength;
+            case Triangle.Id:
+                var triangle = shape.Read<Triangle>();
+                return Exact.Length(triangle.A) + Exact.Length(triangle.B) + Exact.Length(triangle.C);
+            case Cylinder.Id:
+                var cylinder = shape.Read<Cylinder>();
+                return cylinder.Radius + cylinder.HalfLength;
+            default:
+                return shape.Read<ConvexHull>().Header->OuterRadius;
+        }
+    }
 }
