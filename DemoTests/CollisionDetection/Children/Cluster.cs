@@ -159,7 +159,7 @@ sealed unsafe class ClusterTask<TShape>(ClusterRules rules) : ExpandingTask<TSha
         }
     }
 
-    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    internal override void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
         ref var pair = ref entry.Pair;
@@ -199,7 +199,7 @@ sealed class ClusterPairTask(ClusterRules rules) : ExpandingTask<Cluster, Cluste
         }
     }
 
-    internal override unsafe void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, out ChildShapes children)
+    internal override unsafe void GetChildren(in PairBatch batch, Shapes shapes, in FoundChild found, bool hasA, ref ChildShapes children)
     {
         ref var entry = ref Entries(batch)[found.Parent];
         children = new() { OffsetB = entry.Pair.OffsetB, OrientationA = entry.Pair.OrientationA, OrientationB = entry.Pair.OrientationB };
