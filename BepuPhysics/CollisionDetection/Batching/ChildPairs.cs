@@ -198,7 +198,8 @@ unsafe struct ChildPairs(BufferPool pool)
 
     /// <summary>Whether a parent may have children that it was pressed through.</summary>
     public readonly bool MayHaveSunk(in SeamSet set, in KnownPatches known) =>
-        set.Count < parents[set.Owner].SlotCount && parents[set.Owner].HasTriangle && SunkChildren.MayHave(set, parents[set.Owner].SlotCount, Seams.TouchingOf(set), known);
+        set.Count < parents[set.Owner].SlotCount && parents[set.Owner].HasTriangle &&
+        SunkChildren.MayHave(set, parents[set.Owner].SlotCount, Seams.TouchingOf(set), known);
 
     /// <summary>Keeps a parent in front of these.</summary>
     public void HoldSunk(ref SeamSet set, in KnownPatches known, in LastMotion motion, BufferPool pool) =>

@@ -98,7 +98,7 @@ public sealed unsafe class ManySetsTests : IDisposable
         }
     }
 
-    /// <summary>Those that have the normal of a leader are all found, once each and in their order, however many there are; also when one has changed.</summary>
+    /// <summary>Those that have the normal of a leader are all found, once each and in order, however many there are; also when one has changed.</summary>
     [Theory, InlineData(1), InlineData(2), InlineData(63), InlineData(64), InlineData(65), InlineData(128), InlineData(200)]
     public void Who_offers_a_normal_is_found(int count)
     {
