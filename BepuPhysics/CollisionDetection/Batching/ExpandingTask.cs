@@ -55,7 +55,7 @@ struct FoundChild(int parent, ChildIds children)
 unsafe struct ChildShapes
 {
     public int TypeA, TypeB;
-    /// <summary>The shapes, which stay in place until the next two are asked for.</summary>
+    /// <summary>The shapes, which stay in place until the next two are asked for; that of A goes on where the next two have the same.</summary>
     public void* ShapeA, ShapeB;
     /// <summary>By what histories know the shapes.</summary>
     public TypedIndex NameA, NameB;

@@ -49,7 +49,7 @@ static unsafe class FoundOrder
             found[i] = unsorted[keys[i] & ((1 << IndexBits) - 1)];
     }
 
-    // Both children and the place in one number: what is moved about is a third as large, and compared at once.
+    // Both children and the place in one number: what is moved about is less than half as large, and compared at once.
     static bool TryMakeKeys(Span<FoundChild> found, ulong* keys)
     {
         var all = 0u;

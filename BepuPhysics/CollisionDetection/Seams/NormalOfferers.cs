@@ -16,7 +16,7 @@ struct NormalOfferers
     /// <summary>Number of children for which there are bits.</summary>
     public const int BitCount = 64;
 
-    /// <summary>Place of the first; the number of children where there is none.</summary>
+    /// <summary>Place of the first; no less than the number of children where there is none.</summary>
     public int First(in RankedChild leader, in SeamView view)
     {
         if (!areKnown)
@@ -24,7 +24,7 @@ struct NormalOfferers
         return Next(-1, leader, view);
     }
 
-    /// <summary>Place of the next one; the number of children where there is none.</summary>
+    /// <summary>Place of the next one; no less than the number of children where there is none.</summary>
     public readonly int Next(int index, in RankedChild leader, in SeamView view)
     {
         if (++index < BitCount)
