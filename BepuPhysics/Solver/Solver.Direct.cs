@@ -17,9 +17,9 @@ public sealed unsafe partial class Solver
 
     /// <summary>Whether all joints of a structure are solved at once.</summary>
     /// <remarks>
-    /// May be changed between any two steps: impulses stay. From <see cref="DirectJointsMode.Always"/> to <see cref="DirectJointsMode.WhereNeeded"/> nothing
-    /// changes at first, until the loads say which structures the sweeps bear. What sweeps have let open closes within a second or some, not at once, and does
-    /// not fall asleep by itself meanwhile.
+    /// May be changed between any two steps. What goes back to the sweeps when it is switched off begins there without impulses. From
+    /// <see cref="DirectJointsMode.Always"/> to <see cref="DirectJointsMode.WhereNeeded"/> nothing changes at first, until the loads say which structures
+    /// the sweeps bear. What sweeps have let open closes within a second or some, not at once, and does not fall asleep by itself meanwhile.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mode.</exception>
     public DirectJointsMode DirectJoints
@@ -73,7 +73,14 @@ public sealed unsafe partial class Solver
             ChangeOver(ref joints);
         }
         for (int i = 0; i < joints.Count; ++i)
+        {
+            // Where the solver chooses, what goes back to the sweeps bears little. Elsewhere the impulses are those of one substep in which nothing gave way,
+            // which may have been a blow: a hundred times what is borne, given to light links that have turned since.
+            var bearsLittle = ChoosesDirectJoints && !joints[i].IsRefused;
+            if (!joints[i].IsDirect && !bearsLittle && KindOf(Locations[joints[i].Handle.Slot]) == BatchKind.Direct)
+                ForgetImpulses(joints[i].Handle);
             SetSwept(joints[i].Handle, !joints[i].IsDirect);
+        }
         joints.Dispose(pool);
         directStage.Replace(plan);
         if (directJoints == DirectJointsMode.Off)

@@ -25,9 +25,11 @@ sealed class HeavyChain : IDisposable
     /// <summary>Draws one.</summary>
     /// <param name="seed">Which.</param>
     /// <param name="crooked">By how much a link may be turned against the chain, rad; joints are where they should be all the same.</param>
-    public HeavyChain(int seed, float crooked)
+    /// <param name="zigzag">Whether all links are turned by that, to and fro.</param>
+    /// <param name="substeps">Number of substeps.</param>
+    public HeavyChain(int seed, float crooked, bool zigzag = false, int substeps = 4)
     {
-        World = new TestWorld(new AccuracySettings { Contacts = ContactScope.None });
+        World = new TestWorld(new AccuracySettings { Contacts = ContactScope.None, SubstepCount = substeps });
         var random = new Random(seed);
         float Uniform(float from, float to) => from + random.NextSingle() * (to - from);
         var count = random.Next(3, 41);
@@ -43,7 +45,8 @@ sealed class HeavyChain : IDisposable
         var end = Vector3.Transform(half, turn);
         for (int i = 1; i <= count; ++i)
         {
-            var own = turn * Quaternion.CreateFromAxisAngle(Vector3.UnitZ, i < count ? Uniform(-crooked, crooked) : 0);
+            var angle = i == count ? 0 : zigzag ? (i % 2 * 2 - 1) * crooked : Uniform(-crooked, crooked);
+            var own = turn * Quaternion.CreateFromAxisAngle(Vector3.UnitZ, angle);
             var center = end + Vector3.Transform(half, own);
             end = center + Vector3.Transform(half, own);
             bodies.Add(World.AddDynamic(box, i < count ? 1 : load, new RigidPose(center, own), new BodyVelocity(i < count ? default : kick)));

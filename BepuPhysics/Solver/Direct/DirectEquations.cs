@@ -57,6 +57,31 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(
         }
     }
 
+    /// <summary>Takes the impulses back from the bodies of some structures, which they stay known of.</summary>
+    internal void TakeBack(TNumbers mask)
+    {
+        for (int k = firstNode; k < endNode; ++k)
+        {
+            if (IsIdle(k))
+                continue;
+            for (int i = 0; i < nodes[k].RowCount; ++i)
+                rows[nodes[k].FirstRow + i].X = default(TNumbers) - rows[nodes[k].FirstRow + i].Impulse;
+            ApplyRows(nodes[k], rows + nodes[k].FirstRow, changes: true, mask);
+        }
+    }
+
+    /// <summary>Gives them to bodies that have other inertias since.</summary>
+    internal void GiveAgain(TNumbers mask)
+    {
+        for (int k = firstNode; k < endNode; ++k)
+        {
+            if (IsIdle(k))
+                continue;
+            Weigh(nodes[k]);
+            ApplyRows(nodes[k], rows + nodes[k].FirstRow, changes: false, mask);
+        }
+    }
+
     TNumbers IsFree(int node) => ~holds[node].IsHeld;
 
     // M^-1 J^T.

@@ -42,6 +42,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         // Lanes without a structure have zeros.
         memory.Clear(0, plan.MemoryCount);
         pool.Take(plan.Bodies.Count, out sweptStiffness);
+        pool.Take(plan.Bodies.Count, out blowLoads);
         CountJoints();
         mayEase.AsSpan().Fill(true);
         new DirectArrangement(solver, plan, pool).Arrange(ref LeftOut);
@@ -131,7 +132,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         if (point == SolverPoint.AfterWarmStart)
             Begin<TVectors, TNumbers>(island, substep);
         else
-            Solve<TVectors, TNumbers>(island);
+            Solve<TVectors, TNumbers>(island, substep);
     }
 
     /// <summary>The joints that are solved here, as the sweeps leave them out. There are some.</summary>
@@ -149,7 +150,10 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         if (substep.Index == 0)
             FindTouched(island);
         if (touched[IndexOf(island)] is var lanes and not 0)
+        {
             system.Solve(DirectLane.MaskOf<TNumbers>(lanes));
+            SolveBlows(island, equations, substep, lanes);
+        }
         var sound = SoundLanes(island, equations);
         WriteVelocities(island, equations, sound);
         for (int lane = 0; lane < island.MemberCount; ++lane)
@@ -162,12 +166,13 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         }
     }
 
-    void Solve<TVectors, TNumbers>(in DirectIsland island)
+    void Solve<TVectors, TNumbers>(in DirectIsland island, in Substep substep)
         where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
     {
         var equations = new DirectMemory<TVectors, TNumbers>(memory.Memory, island);
         ReadVelocities(island, equations);
         new DirectEquations<TVectors, TNumbers>(plan, island, equations, KeepsFactors).Solve(TNumbers.All, isFactored: touched[IndexOf(island)] != 0);
+        SolveBlows(island, equations, substep, (1 << island.MemberCount) - 1);
         var sound = SoundLanes(island, equations);
         WriteVelocities(island, equations, sound);
         WriteImpulses(island, equations, sound);
@@ -308,6 +313,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         pool.Return(ref memory);
         pool.Return(ref memberOfLane);
         pool.Return(ref sweptStiffness);
+        pool.Return(ref blowLoads);
         pool.Return(ref jointCounts);
         pool.Return(ref touched);
     }
@@ -319,6 +325,7 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
         memory = default;
         memberOfLane = default;
         sweptStiffness = default;
+        blowLoads = default;
         jointCounts = default;
         touched = default;
     }
