@@ -58,9 +58,9 @@ public class GoingOverTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// What hangs in a crooked chain falls until that is taut, and stops: a blow of a hundred times its weight, which no link was prepared for. Rigid links let it
-    /// no farther, and it has no more energy than it fell with. Solved as if nothing hindered the links, they turned by radians in a substep, and of some chains
-    /// the load fell on for ever beside them, through gaps of up to eighty links.
+    /// What hangs in a crooked chain falls until that is taut, and stops: a blow of a hundred times its weight, which no link was prepared for. Rigid links
+    /// let it no farther, and it has no more energy than it fell with. Solved as if nothing hindered the links, they turned by radians in a substep, and of
+    /// some chains the load fell on for ever beside them, through gaps of up to eighty links.
     /// </summary>
     [Theory]
     [InlineData(DirectJointsMode.Always, 1)]
@@ -90,8 +90,8 @@ public class GoingOverTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Off and on again: the impulses of a hard substep are none that sweeps may begin with. When they did, 54 of 200 such chains gained more than all of their
-    /// fall and kick.
+    /// Off and on again: the impulses of a hard substep are none that sweeps may begin with. When they did, 54 of 200 such chains gained more than all of
+    /// their fall and kick.
     /// </summary>
     [Fact]
     public void A_mode_that_comes_and_goes_throws_no_chain()
