@@ -34,11 +34,9 @@ static unsafe class ContainerPlaces
     {
         Unsafe.SkipInit(out children);
         children.OffsetA = default;
-        children.OffsetB = pair.OffsetB;
         children.OrientationA = pair.OrientationA;
-        children.OrientationB = pair.OrientationB;
         children.NameA = pair.NameA;
-        children.NameB = pair.NameB;
+        SetParentB(pair, ref children);
         children.ConeA = default;
         children.ConeB = default;
         children.LeadsOut = false;

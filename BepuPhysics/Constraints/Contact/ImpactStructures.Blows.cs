@@ -144,12 +144,9 @@ sealed unsafe partial class ImpactStructures
                 part.Inertia.InverseMass = local.InverseMass;
                 part.Inertia.InverseInertiaTensor = Symmetric3x3.RotateInverseInertia(local.InverseInertiaTensor, motion.Pose.Orientation);
             }
-            ref var tensor = ref part.Inertia.InverseInertiaTensor;
             ref var body = ref memory.Bodies[i];
             body.InverseMass = OneNumber.Of(part.Inertia.InverseMass);
-            DirectLane.Write<OneVector, OneNumber>(ref body.InverseInertiaX, 0, tensor.XX, tensor.YX, tensor.ZX);
-            DirectLane.Write<OneVector, OneNumber>(ref body.InverseInertiaY, 0, tensor.YX, tensor.YY, tensor.ZY);
-            DirectLane.Write<OneVector, OneNumber>(ref body.InverseInertiaZ, 0, tensor.ZX, tensor.ZY, tensor.ZZ);
+            body.WriteInertia(0, part.Inertia.InverseInertiaTensor);
             Write(ref body.Velocity, motion.Velocity);
         }
     }

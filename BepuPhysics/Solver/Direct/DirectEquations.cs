@@ -57,13 +57,11 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(
         }
     }
 
-    /// <summary>Takes the impulses back from the bodies of some structures, which they stay known of.</summary>
+    /// <summary>Takes the impulses back from the bodies of some structures, which they stay known of. None of these has bounds.</summary>
     internal void TakeBack(TNumbers mask)
     {
         for (int k = firstNode; k < endNode; ++k)
         {
-            if (IsIdle(k))
-                continue;
             for (int i = 0; i < nodes[k].RowCount; ++i)
                 rows[nodes[k].FirstRow + i].X = default(TNumbers) - rows[nodes[k].FirstRow + i].Impulse;
             ApplyRows(nodes[k], rows + nodes[k].FirstRow, changes: true, mask);
@@ -75,8 +73,6 @@ readonly unsafe partial struct DirectEquations<TVectors, TNumbers>(
     {
         for (int k = firstNode; k < endNode; ++k)
         {
-            if (IsIdle(k))
-                continue;
             Weigh(nodes[k]);
             ApplyRows(nodes[k], rows + nodes[k].FirstRow, changes: false, mask);
         }

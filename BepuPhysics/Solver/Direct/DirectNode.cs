@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using BepuUtilities;
 
 namespace BepuPhysics.Constraints;
 
@@ -190,4 +191,22 @@ struct DirectBody<TVectors, TNumbers> where TVectors : unmanaged, IVectors<TVect
     public TVectors InverseInertiaX, InverseInertiaY, InverseInertiaZ;
     /// <summary>1/kg.</summary>
     public TNumbers InverseMass;
+
+    /// <summary>The inverse inertia in a structure, world axes.</summary>
+    internal Symmetric3x3 ReadInertia(int lane)
+    {
+        var x = DirectLane.Read<TVectors, TNumbers>(ref InverseInertiaX, lane);
+        var y = DirectLane.Read<TVectors, TNumbers>(ref InverseInertiaY, lane);
+        var z = DirectLane.Read<TVectors, TNumbers>(ref InverseInertiaZ, lane);
+        return new() { XX = x.X, YX = x.Y, YY = y.Y, ZX = x.Z, ZY = y.Z, ZZ = z.Z };
+    }
+
+    /// <summary>Sets the inverse inertia in a structure, world axes.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    internal void WriteInertia(int lane, in Symmetric3x3 tensor)
+    {
+        DirectLane.Write<TVectors, TNumbers>(ref InverseInertiaX, lane, tensor.XX, tensor.YX, tensor.ZX);
+        DirectLane.Write<TVectors, TNumbers>(ref InverseInertiaY, lane, tensor.YX, tensor.YY, tensor.ZY);
+        DirectLane.Write<TVectors, TNumbers>(ref InverseInertiaZ, lane, tensor.ZX, tensor.ZY, tensor.ZZ);
+    }
 }

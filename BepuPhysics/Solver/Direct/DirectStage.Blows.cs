@@ -108,7 +108,7 @@ sealed unsafe partial class DirectStage
             if (!(turn > FarTurn * FarTurn) || !(load.Tension > 0))
                 continue;
             // Three over the trace is no more than the greatest moment.
-            var inverse = InverseInertia(ref body, lane);
+            var inverse = body.ReadInertia(lane);
             var moment = 3 / (inverse.XX + inverse.YY + inverse.ZZ) + load.ArmSquared / (float)DirectLane.Of(ref body.InverseMass, lane);
             if (load.Tension * (substep.Dt * substep.Dt) > leastSwing * moment)
                 return true;
@@ -157,33 +157,14 @@ sealed unsafe partial class DirectStage
             var inverseMass = (float)DirectLane.Of(ref body.InverseMass, lane);
             if (!(load.Tension > 0) || !(inverseMass > 0))
                 continue;
-            var inertia = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(InverseInertia(ref body, lane));
+            var inertia = Lanes.Broadcast<Symmetric3x3, Symmetric3x3Wide>(body.ReadInertia(lane));
             var angular = Vector3Wide.Broadcast(DirectLane.Read<TVectors, TNumbers>(ref body.Velocity.Angular, lane));
             var stiffness = Symmetric3x3Wide.AddDiagonal(default, new Vector<float>(margin * load.Tension));
             GeometricStiffness.Apply(
                 stiffness, new Vector<float>(load.ArmSquared / inverseMass), new Vector<float>(substep.Dt), ref inertia, ref angular);
             var turn = Lanes.Read<Vector3, Vector3Wide>(ref angular, 0);
-            var stiffened = Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref inertia, 0);
             DirectLane.Write<TVectors, TNumbers>(ref body.Velocity.Angular, lane, turn.X, turn.Y, turn.Z);
-            DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaX, lane, stiffened.XX, stiffened.YX, stiffened.ZX);
-            DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaY, lane, stiffened.YX, stiffened.YY, stiffened.ZY);
-            DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaZ, lane, stiffened.ZX, stiffened.ZY, stiffened.ZZ);
+            body.WriteInertia(lane, Lanes.Read<Symmetric3x3, Symmetric3x3Wide>(ref inertia, 0));
         }
-    }
-
-    static Symmetric3x3 InverseInertia<TVectors, TNumbers>(ref DirectBody<TVectors, TNumbers> body, int lane)
-        where TVectors : unmanaged, IVectors<TVectors, TNumbers> where TNumbers : unmanaged, INumbers<TNumbers>
-    {
-        var x = DirectLane.Read<TVectors, TNumbers>(ref body.InverseInertiaX, lane);
-        var y = DirectLane.Read<TVectors, TNumbers>(ref body.InverseInertiaY, lane);
-        return new()
-        {
-            XX = x.X,
-            YX = x.Y,
-            YY = y.Y,
-            ZX = x.Z,
-            ZY = y.Z,
-            ZZ = DirectLane.Read<TVectors, TNumbers>(ref body.InverseInertiaZ, lane).Z,
-        };
     }
 }

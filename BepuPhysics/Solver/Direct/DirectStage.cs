@@ -241,11 +241,8 @@ sealed unsafe partial class DirectStage(Solver solver, Bodies bodies, BufferPool
             for (int lane = 0; lane < island.MemberCount; ++lane)
             {
                 ref var inertia = ref set.WorldInertias[plan.Bodies[i * DirectPlan.Lanes + lane] & EncodedBody.IndexMask];
-                ref var tensor = ref inertia.InverseInertiaTensor;
                 DirectLane.Of(ref body.InverseMass, lane) = inertia.InverseMass;
-                DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaX, lane, tensor.XX, tensor.YX, tensor.ZX);
-                DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaY, lane, tensor.YX, tensor.YY, tensor.ZY);
-                DirectLane.Write<TVectors, TNumbers>(ref body.InverseInertiaZ, lane, tensor.ZX, tensor.ZY, tensor.ZZ);
+                body.WriteInertia(lane, inertia.InverseInertiaTensor);
             }
         }
     }
